@@ -1,0 +1,17 @@
+# The rules of the numbers (same bits from g++ and clang, -O0 and -O3, SSE2 and AVX-512) and the warnings.
+# peperite_fp is public: whoever includes our headers computes by the same rules.
+add_library(peperite_fp INTERFACE)
+add_library(Peperite::fp ALIAS peperite_fp)
+set_target_properties(peperite_fp PROPERTIES EXPORT_NAME fp)
+target_compile_options(peperite_fp INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
+target_compile_definitions(peperite_fp INTERFACE EIGEN_DONT_VECTORIZE OMPI_SKIP_MPICXX)
+target_compile_features(peperite_fp INTERFACE cxx_std_20)
+
+add_library(peperite_build INTERFACE)
+target_link_libraries(peperite_build INTERFACE peperite_fp)
+target_compile_options(peperite_build INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow -Werror
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi;-Wno-maybe-uninitialized>)
+if(PEPERITE_ARCH)
+  target_compile_options(peperite_build INTERFACE -march=${PEPERITE_ARCH})
+endif()

@@ -1,0 +1,96 @@
+#include "decomp/table.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+#include "row_copy.hpp"
+
+namespace decomp {
+namespace {
+
+constexpr std::size_t alignment = 64;
+constexpr std::size_t padding = 4096;
+
+std::size_t round_up(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
+
+}  // namespace
+
+void Column::Free::operator()(std::byte* p) const noexcept {
+  ::operator delete[](p, std::align_val_t{alignment});
+}
+
+void Column::reserve(std::size_t rows) {
+  if (data_ && rows <= capacity_) return;
+  const std::size_t capacity = std::max(rows, capacity_ + capacity_ / 2);
+  const std::size_t bytes = round_up(capacity * width_ + padding);
+  std::unique_ptr<std::byte[], Free> grown(
+      static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{alignment})));
+  const std::size_t kept = capacity_ * width_;
+  if (kept > 0) std::memcpy(grown.get(), data_.get(), kept);
+  // Lanes past the last row are computed and thrown away: zeros keep them from raising traps.
+  std::memset(grown.get() + kept, 0, bytes - kept);
+  data_ = std::move(grown);
+  capacity_ = capacity;
+}
+
+void Column::swap_data(Column& other) noexcept {
+  std::swap(data_, other.data_);
+  std::swap(capacity_, other.capacity_);
+}
+
+int Table::add_column(std::string name, std::size_t width) {
+  if (rows() != 0) throw std::logic_error("column '" + name + "' added to a table that has rows");
+  if (width == 0) throw std::logic_error("column '" + name + "' has no width");
+  columns_.emplace_back(std::move(name), width);
+  columns_.back().reserve(0);
+  const auto same_width = [&](const Column& c) { return c.width() == width; };
+  if (std::none_of(spare_.begin(), spare_.end(), same_width)) spare_.emplace_back("spare", width);
+  return columns() - 1;
+}
+
+std::size_t Table::row_bytes() const {
+  std::size_t sum = 0;
+  for (const Column& c : columns_) sum += c.width();
+  return sum;
+}
+
+void Table::resize(std::size_t owned, std::size_t halo) {
+  for (Column& c : columns_) c.reserve(owned + halo);
+  owned_ = owned;
+  halo_ = halo;
+}
+
+void Table::reorder(std::span<const std::uint32_t> order) {
+  for (Column& c : columns_) {
+    const std::size_t width = c.width();
+    Column& spare =
+        *std::find_if(spare_.begin(), spare_.end(), [&](const Column& s) { return s.width() == width; });
+    // As large as the column it replaces, or the next resize would allocate again.
+    const std::size_t capacity = std::max(c.capacity(), order.size());
+    if (spare.capacity() < capacity) {
+      spare = Column("spare", width);
+      spare.reserve(capacity);
+    }
+    gather_rows(spare.data(), c.data(), order, width);
+    c.swap_data(spare);
+  }
+  owned_ = order.size();
+  halo_ = 0;
+}
+
+void Payload::reorder(std::span<const std::uint32_t> order) {
+  Payload sorted;
+  sorted.offset.reserve(order.size() + 1);
+  for (const std::uint32_t r : order)
+    sorted.offset.push_back(sorted.offset.back() + offset[r + 1] - offset[r]);
+  sorted.bytes.resize(sorted.offset.back());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(offset[order[k]]),
+              bytes.begin() + static_cast<std::ptrdiff_t>(offset[order[k] + 1]),
+              sorted.bytes.begin() + static_cast<std::ptrdiff_t>(sorted.offset[k]));
+  *this = std::move(sorted);
+}
+
+}  // namespace decomp

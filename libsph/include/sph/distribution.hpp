@@ -1,0 +1,66 @@
+// Where particles live: cell grid, cuts, migration, order in memory, halo plan. Everything that depends on
+// ranks is in here, and nothing of it can reach a particle's bits.
+#pragma once
+
+#include <fstream>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "decomp/comm.hpp"
+#include "decomp/cut_policy.hpp"
+#include "decomp/halo.hpp"
+#include "decomp/migrate.hpp"
+#include "decomp/timer.hpp"
+#include "sph/neighbour_lists.hpp"
+#include "sph/particles.hpp"
+#include "sph/scene.hpp"
+
+namespace sph {
+
+class Distribution {
+ public:
+  /// Throws InputError when the ranks do not fit the grid, naming the largest number that does.
+  Distribution(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale);
+
+  [[nodiscard]] const decomp::CellGrid& grid() const { return grid_; }
+  [[nodiscard]] const decomp::JaggedPartition& partition() const { return partition_; }
+  [[nodiscard]] decomp::HaloPlan& halo() { return plan_; }
+  [[nodiscard]] const decomp::HaloPlan& halo() const { return plan_; }
+  [[nodiscard]] const RowRanges& ranges() const { return ranges_; }
+  [[nodiscard]] RowRanges& ranges() { return ranges_; }
+  [[nodiscard]] std::int64_t list_radius() const { return reach_; }  ///< support + skin [quanta]
+  [[nodiscard]] double skin() const { return skin_; }                ///< [m]
+  [[nodiscard]] decomp::Box own_cells() const { return partition_.cells(comm_.rank()); }
+  [[nodiscard]] std::int64_t migrated() const { return migrated_; }  ///< rows this rank sent away
+
+  /// Sends every row to its owner wherever it is: set-up and resume.
+  void scatter(Particles& particles);
+
+  /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
+  /// plans the halo. Halo rows are allocated, not filled.
+  void rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group);
+
+ private:
+  void move_cuts(double cost);
+  void wrap_positions(Particles& particles) const;
+  [[nodiscard]] std::vector<decomp::Rank> owners(const Particles& particles) const;
+  void sort_rows(Particles& particles, const std::vector<bool>& is_wall_group);
+  [[nodiscard]] std::vector<std::uint32_t> cells_along_curve() const;
+
+  const decomp::Comm& comm_;
+  const Scene& scene_;
+  PositionScale scale_;
+  double skin_;
+  std::int64_t reach_;
+  decomp::CellGrid grid_;
+  decomp::JaggedPartition partition_;
+  std::unique_ptr<decomp::CutPolicy> policy_;
+  decomp::HaloPlan plan_;
+  RowRanges ranges_{};
+  std::vector<std::uint32_t> curve_;  ///< rank along the Hilbert curve of each own cell, x fastest
+  std::int64_t migrated_ = 0;
+  std::ofstream record_;
+};
+
+}  // namespace sph

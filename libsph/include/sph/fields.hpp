@@ -1,0 +1,142 @@
+// The field table: every per-particle quantity is declared once, here. Storage, migration, halo messages,
+// checkpoint, snapshot, fingerprint and `peperite check`'s byte counts are derived from it. A scene allocates
+// only the fields its physics reads (FieldSet).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace sph {
+
+enum class Field : std::uint8_t {
+  id,
+  position,
+  velocity,
+  density,
+  mass,
+  group,
+  gas_content,
+  stress,
+  pressure,
+  volume,
+  sound_speed,
+  void_fraction,
+  force,
+  divergence,
+  diffusion,
+  velocity_gradient,
+  spread,
+  wall_sums,
+  reference,
+  count_
+};
+inline constexpr int field_count = static_cast<int>(Field::count_);
+
+/// 1, D, D(D+1)/2, D*D, 2+D components
+enum class Shape : std::uint8_t { scalar, vector, symmetric, matrix, wall };
+enum class Type : std::uint8_t { f64, i64, u64, u32 };
+
+/// state: its bits at the start of a step determine the next step, so it is migrated, checkpointed and
+/// fingerprinted. derived: recomputed from state wherever it is needed; migrated never. `snapshot`: written
+/// to snapshots when the scene allocates it.
+struct FieldInfo {
+  Field field;
+  std::string_view name;
+  std::string_view unit;
+  Type type;
+  Shape shape;
+  bool state;
+  bool snapshot;
+  std::string_view meaning;
+};
+
+// Symmetric tensors are stored xx, yy, xy in 2D and xx, yy, zz, xy, xz, yz in 3D; matrices row by row,
+// velocity_gradient[i*D+j] = d v_i / d x_j.
+inline constexpr std::array<FieldInfo, field_count> field_table{{
+    {Field::id, "id", "1", Type::u64, Shape::scalar, true, true, "global id, never depends on ranks"},
+    {Field::position, "position", "quantum", Type::i64, Shape::vector, true, true,
+     "fixed-point coordinates; metres = quanta * quantum"},
+    {Field::velocity, "velocity", "m/s", Type::f64, Shape::vector, true, true, "velocity"},
+    {Field::density, "density", "kg/m^3", Type::f64, Shape::scalar, true, true, "density"},
+    {Field::mass, "mass", "kg", Type::f64, Shape::scalar, true, true, "mass (per metre of depth in 2D)"},
+    {Field::group, "group", "1", Type::u32, Shape::scalar, true, true, "index into the scene's groups"},
+    {Field::gas_content, "gas_content", "1", Type::f64, Shape::scalar, true, true,
+     "m: mass of volatiles per mass of liquid melt, Ida eq. (14)"},
+    {Field::stress, "stress", "Pa", Type::f64, Shape::symmetric, true, true,
+     "conservative: deviator of elastic particles; ida: full Cauchy stress, Ida eqs. (9), (11)"},
+    {Field::pressure, "pressure", "Pa", Type::f64, Shape::scalar, false, true,
+     "pressure above the surface pressure; on walls extrapolated from the fluid"},
+    {Field::volume, "volume", "m^3", Type::f64, Shape::scalar, false, false, "mass / density"},
+    {Field::sound_speed, "sound_speed", "m/s", Type::f64, Shape::scalar, false, false,
+     "local speed of sound where it varies (bubbly magma)"},
+    {Field::void_fraction, "void_fraction", "1", Type::f64, Shape::scalar, false, true,
+     "psi: volume fraction of gas, Ida eq. (14)"},
+    {Field::force, "force", "N", Type::f64, Shape::vector, false, false, "sum of the pair forces"},
+    {Field::divergence, "divergence", "1/s", Type::f64, Shape::scalar, false, false, "div v"},
+    {Field::diffusion, "diffusion", "kg/m^3/s", Type::f64, Shape::scalar, false, false,
+     "density diffusion: its part of d rho/dt"},
+    {Field::velocity_gradient, "velocity_gradient", "1/s", Type::f64, Shape::matrix, false, false,
+     "d v_i/d x_j"},
+    {Field::spread, "spread", "1/m", Type::f64, Shape::vector, false, false,
+     "gradient of the particle concentration, against which particles are shifted"},
+    {Field::wall_sums, "wall_sums", "1", Type::f64, Shape::wall, false, false,
+     "kernel sums over the fluid near a wall particle: weight, pressure, velocity"},
+    {Field::reference, "reference", "quantum", Type::i64, Shape::vector, false, false,
+     "position at the last list rebuild"},
+}};
+
+[[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }
+[[nodiscard]] constexpr int components(Shape s, int dim) {
+  switch (s) {
+    case Shape::scalar:
+      return 1;
+    case Shape::vector:
+      return dim;
+    case Shape::symmetric:
+      return dim * (dim + 1) / 2;
+    case Shape::matrix:
+      return dim * dim;
+    case Shape::wall:
+      return 2 + dim;
+  }
+  return 0;
+}
+[[nodiscard]] constexpr std::size_t bytes(Type t) { return t == Type::u32 ? 4 : 8; }
+[[nodiscard]] constexpr std::size_t width(Field f, int dim) {
+  return bytes(info(f).type) * static_cast<std::size_t>(components(info(f).shape, dim));
+}
+
+/// A set of fields as a bit mask.
+class FieldSet {
+ public:
+  constexpr FieldSet() = default;
+  constexpr FieldSet(std::initializer_list<Field> fields) {
+    for (Field f : fields) bits_ |= bit(f);
+  }
+  [[nodiscard]] constexpr bool has(Field f) const { return (bits_ & bit(f)) != 0; }
+  [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
+  constexpr FieldSet operator|(FieldSet o) const { return FieldSet(bits_ | o.bits_); }
+  constexpr FieldSet operator&(FieldSet o) const { return FieldSet(bits_ & o.bits_); }
+  constexpr FieldSet without(FieldSet o) const { return FieldSet(bits_ & ~o.bits_); }
+  constexpr FieldSet& operator|=(FieldSet o) {
+    bits_ |= o.bits_;
+    return *this;
+  }
+  [[nodiscard]] std::vector<Field> list() const {
+    std::vector<Field> out;
+    for (const FieldInfo& i : field_table)
+      if (has(i.field)) out.push_back(i.field);
+    return out;
+  }
+  friend constexpr bool operator==(FieldSet, FieldSet) = default;
+
+  std::uint32_t bits_ = 0;  ///< public only so that a set can be a template argument
+
+ private:
+  constexpr explicit FieldSet(std::uint32_t bits) : bits_(bits) {}
+  static constexpr std::uint32_t bit(Field f) { return std::uint32_t{1} << static_cast<int>(f); }
+};
+
+}  // namespace sph

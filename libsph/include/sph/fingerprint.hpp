@@ -1,0 +1,18 @@
+// The fingerprint of a state: the sum modulo 2^128 of a hash of every particle's record (all state fields,
+// keyed by global id) and of the global record. Order-free, so any cut of the particles gives the same one.
+#pragma once
+
+#include <string>
+
+#include "decomp/comm.hpp"
+#include "sph/particles.hpp"
+
+namespace sph {
+
+/// 32 hexadecimal digits. Collective. -0.0 and +0.0 differ, as every other bit does. Positions enter wrapped
+/// into the domain.
+[[nodiscard]] std::string fingerprint(const decomp::Comm& comm, const Particles& particles,
+                                      const GlobalState& global, const PositionScale& scale,
+                                      const Wrap& wrap);
+
+}  // namespace sph

@@ -1,0 +1,186 @@
+// The only loop over pairs of SPH particles. One SIMD lane per particle i; its partners j are visited in
+// ascending global id with strictly sequential adds, so a sum depends on ids and on the current state only.
+// Entries beyond the support, and the padding of a list (the particle itself), add exactly +-0 because the
+// kernel's slope is clamped to 0 there. Terms are fused at compile time.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sph/fields.hpp"
+#include "sph/neighbour_lists.hpp"
+#include "sph/pair_rows.hpp"
+#include "sph/simd.hpp"
+
+namespace sph {
+
+/// Constants of the scene that terms read, in the scaled units of pair_rows.hpp.
+template <class T>
+struct TermConstants {
+  T gravity[3];            ///< g h [m^2/s^2]
+  T viscosity;             ///< eta / h where all groups share it [Pa s/m]
+  T density;               ///< rho_0 where there is one fluid [kg/m^3]
+  T inverse_sound_speed;   ///< where there is one fluid [s/m]
+  T artificial_viscosity;  ///< alpha
+  T inverse_w_spacing;     ///< 1 / w(spacing/h), unnormalised kernel
+};
+
+/// Everything a compiled pass needs besides its terms.
+struct PassContext {
+  Particles* particles;
+  const NeighbourLists* lists;
+  const GroupTable* groups;
+  RowScale scale;
+  TermConstants<double> constants;
+  double gradient_factor;        ///< spacing^D alpha_D / h^(D+1): scale of a sum of V_j grad W
+  double force_factor;           ///< spacing^(2D) alpha_D / h^(D+1): scale of a sum of V_i V_j grad W
+  double diffusion_factor;       ///< 2 delta h spacing^D alpha_D / h^(D+2)
+  std::vector<std::byte>* rows;  ///< scratch, 64-byte aligned use starts at rows_begin()
+};
+
+/// 64-byte aligned start of the scratch, grown to `bytes`.
+[[nodiscard]] std::byte* aligned_scratch(std::vector<std::byte>& scratch, std::size_t bytes);
+
+template <class T, int D, ValueSet S>
+struct Pair {
+  using Scalar = T;
+  using V = Simd<T>;
+  static constexpr int dim = D;
+  using Layout = RowLayout<D, S>;
+  const V* own;
+  const V* other;
+  V e[D];  ///< (x_j - x_i) / h
+  V r2;    ///< |e|^2
+  V r;     ///< |e|
+  V f;     ///< w'(r) / r, unnormalised; grad_i W = -f e (times the pass's factor)
+  template <Value v>
+  [[nodiscard]] V i(int k = 0) const {
+    static_assert(S.has(v), "the term did not declare this value in `reads`");
+    return own[Layout::offset(v) + k];
+  }
+  template <Value v>
+  [[nodiscard]] V j(int k = 0) const {
+    static_assert(S.has(v), "the term did not declare this value in `reads`");
+    return other[Layout::offset(v) + k];
+  }
+};
+
+/// The sums of one block of particles: one vector per component of each written field.
+template <class T, int D, FieldSet Writes>
+struct Sums {
+  [[nodiscard]] static constexpr int offset(Field field) {
+    int at = 0;
+    for (int k = 0; k < static_cast<int>(field); ++k)
+      if (Writes.has(static_cast<Field>(k))) at += components(info(static_cast<Field>(k)).shape, D);
+    return at;
+  }
+  static constexpr int size = offset(Field::count_);
+  Simd<T> v[size];
+  template <Field F>
+  void add(int k, Simd<T> x) {
+    v[offset(F) + k] += x;
+  }
+};
+
+template <class T, int D, class Kernel, class... Terms>
+struct PairPass {
+  static constexpr ValueSet values = (Terms::reads | ...);
+  static constexpr FieldSet writes = (FieldSet{Terms::writes} | ...);
+  using Layout = RowLayout<D, values>;
+  using V = Simd<T>;
+
+  static void pack(const PassContext& c, std::size_t first, std::size_t last) {
+    pack_rows<T, D, values>(*c.particles, *c.groups, c.scale, first, last, rows_of(c));
+  }
+
+  static void run(const PassContext& c, const RowRange& range) {
+    const T* const rows = rows_of(c);
+    const TermConstants<T> constants = narrow(c.constants);
+    const V unit(static_cast<T>(c.scale.position_unit));
+    const V tiny(static_cast<T>(1e-30));
+    for (std::size_t first = range.first, block = range.first_block; first < range.last;
+         first += V::lanes, ++block) {
+      const T* row[V::lanes];
+      for (int l = 0; l < V::lanes; ++l)
+        row[l] = rows + std::min(first + static_cast<std::size_t>(l), range.last - 1) * Layout::stride;
+      V own[Layout::stride], other[Layout::stride];
+      load(row, own);
+      Sums<T, D, writes> sums;
+      for (V& s : sums.v) s = V::zero();
+      const std::span<const std::uint32_t> entries = c.lists->block(block);
+      for (std::size_t k = 0; k < entries.size(); k += V::lanes) {
+        for (int l = 0; l < V::lanes; ++l)
+          row[l] = rows + static_cast<std::size_t>(entries[k + static_cast<std::size_t>(l)]) * Layout::stride;
+        load(row, other);
+        Pair<T, D, values> pair;
+        pair.own = own;
+        pair.other = other;
+        pair.r2 = V::zero();
+        for (int a = 0; a < D; ++a) {
+          pair.e[a] = coordinate_difference(own[a], other[a]) * unit;
+          pair.r2 += pair.e[a] * pair.e[a];
+        }
+        pair.r = sqrt(pair.r2);
+        pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
+        (Terms::template add<Kernel>(pair, constants, sums), ...);
+      }
+      store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
+    }
+  }
+
+ private:
+  static T* rows_of(const PassContext& c) {
+    return reinterpret_cast<T*>(
+        aligned_scratch(*c.rows, (c.particles->rows() + V::lanes) * Layout::stride * sizeof(T)));
+  }
+
+  static void load(const T* const* row, V* out) {
+    for (int chunk = 0; chunk < Layout::stride; chunk += 4) {
+      const T* part[V::lanes];
+      for (int l = 0; l < V::lanes; ++l) part[l] = row[l] + chunk;
+      load_transposed(part, out + chunk);
+    }
+  }
+
+  static TermConstants<T> narrow(const TermConstants<double>& d) {
+    TermConstants<T> c;
+    for (int a = 0; a < 3; ++a) c.gravity[a] = static_cast<T>(d.gravity[a]);
+    c.viscosity = static_cast<T>(d.viscosity);
+    c.density = static_cast<T>(d.density);
+    c.inverse_sound_speed = static_cast<T>(d.inverse_sound_speed);
+    c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
+    c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
+    return c;
+  }
+
+  template <Field F>
+  static void store_field(const PassContext& c, std::size_t first, std::size_t count,
+                          const Sums<T, D, writes>& sums) {
+    if constexpr (writes.has(F)) {
+      constexpr int n = components(info(F).shape, D);
+      const double factor = F == Field::force       ? c.force_factor
+                            : F == Field::diffusion ? c.diffusion_factor
+                            : F == Field::wall_sums ? 1.0
+                                                    : c.gradient_factor;
+      double* out = c.particles->template data<F>() + first * n;
+      for (std::size_t l = 0; l < count; ++l)
+        for (int k = 0; k < n; ++k)
+          out[l * n + k] = static_cast<double>(sums.v[sums.offset(F) + k][static_cast<int>(l)]) * factor;
+    }
+  }
+
+  static void store(const PassContext& c, std::size_t first, std::size_t count,
+                    const Sums<T, D, writes>& sums) {
+    store_field<Field::force>(c, first, count, sums);
+    store_field<Field::divergence>(c, first, count, sums);
+    store_field<Field::diffusion>(c, first, count, sums);
+    store_field<Field::velocity_gradient>(c, first, count, sums);
+    store_field<Field::spread>(c, first, count, sums);
+    store_field<Field::wall_sums>(c, first, count, sums);
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,154 @@
+// Pair rows: what a pass reads of a particle, packed into one short aligned record, so that a partner costs
+// one or two cache lines. A pass's row holds the union of what its terms read, nothing else: a fluid-only
+// scene has no stress in it. Everything is scaled to be of order one in float: lengths by the smoothing
+// length h, volumes by spacing^D; a pass's sums are multiplied by the constant that undoes it, once.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "sph/particles.hpp"
+#include "sph/simd.hpp"
+
+namespace sph {
+
+/// The pair terms; each is a struct of the same name in terms/.
+enum class Term : std::uint8_t {
+  pressure,
+  viscosity,
+  uniform_viscosity,
+  stress_divergence,
+  artificial_viscosity,
+  divergence,
+  velocity_gradient,
+  density_diffusion,
+  uniform_density_diffusion,
+  shifting,
+  wall_extrapolation,
+  ida_gradient,
+  ida_stress,
+};
+
+/// What a term can read of a particle besides its position.
+enum class Value : std::uint8_t {
+  velocity,     ///< [m/s]
+  volume,       ///< mass / density [spacing^D]
+  pressure,     ///< [Pa]
+  density,      ///< [kg/m^3]
+  viscosity,    ///< eta / h [Pa s/m]
+  sound_speed,  ///< [m/s]
+  phase,        ///< index of the group
+  mover,        ///< 1, or 0 for walls
+  stress,       ///< total: -pressure delta + stress field [Pa]
+  count_
+};
+
+class ValueSet {
+ public:
+  constexpr ValueSet() = default;
+  constexpr ValueSet(std::initializer_list<Value> values) {
+    for (Value v : values) bits_ |= 1u << static_cast<int>(v);
+  }
+  [[nodiscard]] constexpr bool has(Value v) const { return ((bits_ >> static_cast<int>(v)) & 1u) != 0; }
+  constexpr ValueSet operator|(ValueSet o) const {
+    ValueSet r;
+    r.bits_ = bits_ | o.bits_;
+    return r;
+  }
+
+  unsigned bits_ = 0;  ///< public only so that a set can be a template argument
+};
+
+[[nodiscard]] constexpr int components(Value v, int dim) {
+  return v == Value::velocity ? dim : v == Value::stress ? dim * (dim + 1) / 2 : 1;
+}
+
+/// The fields a halo copy needs so that its row can be packed.
+[[nodiscard]] constexpr FieldSet fields_behind(ValueSet values) {
+  FieldSet f{Field::position};
+  if (values.has(Value::velocity)) f |= FieldSet{Field::velocity};
+  if (values.has(Value::volume)) f |= FieldSet{Field::mass, Field::density};
+  if (values.has(Value::pressure)) f |= FieldSet{Field::pressure};
+  if (values.has(Value::density)) f |= FieldSet{Field::density};
+  if (values.has(Value::viscosity)) f |= FieldSet{Field::group};
+  if (values.has(Value::sound_speed)) f |= FieldSet{Field::group, Field::sound_speed};
+  if (values.has(Value::phase)) f |= FieldSet{Field::group};
+  if (values.has(Value::mover)) f |= FieldSet{Field::group};
+  if (values.has(Value::stress)) f |= FieldSet{Field::pressure, Field::stress};
+  return f;
+}
+
+/// Offsets, in scalars, of the values in a row: position first, then in the order of the enum; the stride is
+/// a multiple of four, the unit of the transposed load.
+template <int D, ValueSet S>
+struct RowLayout {
+  [[nodiscard]] static constexpr int offset(Value v) {
+    int at = D;
+    for (int k = 0; k < static_cast<int>(v); ++k)
+      if (S.has(static_cast<Value>(k))) at += components(static_cast<Value>(k), D);
+    return at;
+  }
+  static constexpr int used = offset(Value::count_);
+  static constexpr int stride = (used + 3) / 4 * 4;
+};
+
+/// What is constant for all particles of a group, by group index.
+struct GroupTable {
+  std::vector<double> viscosity;    ///< [Pa s]
+  std::vector<double> sound_speed;  ///< [m/s]
+  std::vector<double> mover;        ///< 1 or 0
+};
+
+/// Scales of the rows; see the head of this file.
+struct RowScale {
+  int position_shift;     ///< float rows hold the low 32 bits of quanta >> shift, double rows the quanta
+  double position_unit;   ///< length of one unit of a row's position / h
+  double inverse_volume;  ///< 1 / spacing^D
+  double inverse_h;       ///< 1 / h
+};
+
+/// Fills rows [first, last) of `rows`.
+template <class T, int D, ValueSet S>
+void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& scale, std::size_t first,
+               std::size_t last, T* rows) {
+  using Layout = RowLayout<D, S>;
+  const auto* x = p.data<Field::position>();
+  const auto* v = p.data<Field::velocity>();
+  const auto* mass = p.data<Field::mass>();
+  const auto* rho = p.data<Field::density>();
+  const auto* pressure = p.data<Field::pressure>();
+  const auto* stress = p.data<Field::stress>();
+  const auto* sound = p.data<Field::sound_speed>();
+  const auto* group = p.data<Field::group>();
+  for (std::size_t i = first; i < last; ++i) {
+    T* row = rows + i * Layout::stride;
+    for (int k = 0; k < D; ++k) {
+      if constexpr (sizeof(T) == 4)
+        row[k] = std::bit_cast<float>(static_cast<std::uint32_t>(x[i * D + k] >> scale.position_shift));
+      else
+        row[k] = std::bit_cast<double>(x[i * D + k]);
+    }
+    const auto put = [row](Value value, int k, double number) {
+      row[Layout::offset(value) + k] = static_cast<T>(number);
+    };
+    if constexpr (S.has(Value::velocity))
+      for (int k = 0; k < D; ++k) put(Value::velocity, k, v[i * D + k]);
+    if constexpr (S.has(Value::volume)) put(Value::volume, 0, mass[i] / rho[i] * scale.inverse_volume);
+    if constexpr (S.has(Value::pressure)) put(Value::pressure, 0, pressure[i]);
+    if constexpr (S.has(Value::density)) put(Value::density, 0, rho[i]);
+    if constexpr (S.has(Value::viscosity))
+      put(Value::viscosity, 0, groups.viscosity[group[i]] * scale.inverse_h);
+    if constexpr (S.has(Value::sound_speed))
+      put(Value::sound_speed, 0, sound != nullptr ? sound[i] : groups.sound_speed[group[i]]);
+    if constexpr (S.has(Value::phase)) put(Value::phase, 0, static_cast<double>(group[i]));
+    if constexpr (S.has(Value::mover)) put(Value::mover, 0, groups.mover[group[i]]);
+    if constexpr (S.has(Value::stress)) {
+      constexpr int n = components(Value::stress, D);
+      for (int k = 0; k < n; ++k) put(Value::stress, k, stress[i * n + k] - (k < D ? pressure[i] : 0.0));
+    }
+  }
+}
+
+}  // namespace sph

@@ -1,0 +1,90 @@
+// What a scene computes: the fields it needs and its ordered list of passes and local updates. Which halo
+// refresh goes before which pass is derived from what the passes read; nothing here knows about ranks.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sph/eos.hpp"
+#include "sph/fusions.hpp"
+#include "sph/particles.hpp"
+#include "sph/scene.hpp"
+
+namespace sph {
+
+/// Maxima that travel in the step's one reduction; part of the state where the next step depends on them.
+struct StepMaxima {
+  double speed = 0;         ///< [m/s]
+  double acceleration = 0;  ///< [m/s^2]
+};
+
+struct Pass {
+  std::string name;
+  const Fusion* fusion;
+  bool movers, walls;  ///< rows it runs over
+  FieldSet reads;      ///< of neighbours, so needed in the halo
+  std::function<void(Particles&, const RowRanges&, double dt)>
+      update;        ///< local update after it; may be empty
+  FieldSet changes;  ///< fields the update changes
+};
+
+class Physics {
+ public:
+  Physics(const Scene& scene, const PositionScale& scale);
+
+  [[nodiscard]] FieldSet fields() const { return fields_; }
+  [[nodiscard]] const std::vector<Pass>& passes() const { return passes_; }
+  [[nodiscard]] PassContext context(Particles& particles, const NeighbourLists& lists,
+                                    std::vector<std::byte>& rows) const;
+
+  /// Pressure and what else follows from the state of a particle alone.
+  void derive(Particles& particles, std::size_t first, std::size_t last) const;
+
+  /// x += v dt, rounded to quanta, for movers.
+  void advance(Particles& particles, const RowRanges& ranges, double dt) const;
+
+  /// v += (F/m + g) dt for movers; walls get their own velocity back; shifting. Then changes of group.
+  [[nodiscard]] StepMaxima integrate(Particles& particles, const RowRanges& ranges,
+                                     const GlobalState& global) const;
+
+  /// Fields integrate() changes.
+  [[nodiscard]] FieldSet integrated() const;
+
+  /// Largest step the integrator takes [s], from the maxima of the step before.
+  [[nodiscard]] double time_step(const StepMaxima& maxima) const;
+  /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
+  [[nodiscard]] double courant_number(double dt) const;
+
+  [[nodiscard]] bool is_wall(std::uint32_t group) const {
+    return scene_->groups[group].kind == GroupKind::wall;
+  }
+
+ private:
+  void build_conservative();
+  void build_ida();
+  void update_movers(Particles&, std::size_t first, std::size_t last, double dt) const;
+  void update_walls(Particles&, const RowRanges&) const;
+  void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
+  void shift(Particles&, const RowRanges&, const GlobalState&) const;
+  void change_group(Particles&, std::size_t row) const;
+  void add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls);
+
+  const Scene* scene_;
+  PositionScale scale_;
+  FieldSet fields_;
+  std::vector<Pass> passes_;
+  GroupTable groups_;
+  std::vector<BubblyEos> bubbly_;  ///< by group; used where the group's eos says so
+  bool bulk_viscous_ = false;
+  std::vector<int> transitions_;  ///< groups whose particles may change group
+  RowScale row_scale_;
+  TermConstants<double> constants_;
+  double gradient_factor_, force_factor_, diffusion_factor_;
+};
+
+/// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and
+/// the support at most 2^50, so that pair distances convert to double exactly.
+[[nodiscard]] PositionScale position_scale(const Scene& scene);
+
+}  // namespace sph

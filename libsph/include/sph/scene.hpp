@@ -1,0 +1,173 @@
+// The scene: everything a run is made of, read from one TOML file and resolved (all defaults filled in, all
+// quantities SI). The next state is a function of the present state and this struct alone; the members of
+// `Decomposition` and `Output` may change the speed and the files of a run, never a bit of its particles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sph/error.hpp"
+
+namespace sph {
+
+using Double3 = std::array<double, 3>;
+
+enum class Formulation { conservative, ida };
+enum class Precision { double_, mixed };
+enum class KernelShape { quintic, wendland_c2, wendland_c4 };
+
+enum class GroupKind { fluid, solid, wall };
+enum class EosKind { linear, bubbly };
+
+/// One material. Particles name it by its index in Scene::groups.
+struct Group {
+  std::string name;
+  GroupKind kind = GroupKind::fluid;
+  EosKind eos = EosKind::linear;
+  double density = 0;                                 ///< rho_0 at zero pressure [kg/m^3]
+  double bulk_modulus = 0;                            ///< K, or K_l of the liquid [Pa]
+  double viscosity = 0;                               ///< eta [Pa s]
+  double bulk_viscosity = 0;                          ///< zeta, Ida eq. (9) [Pa s]
+  double shear_modulus = 0;                           ///< mu, solids [Pa]; lambda = K - 2/3 mu
+  double gas_content = 0;                             ///< m, Ida eq. (14) [1]
+  double gas_rt = 0;                                  ///< R T, Ida eq. (13) [m^2/s^2]
+  double solubility_pressure = 0;                     ///< p_s [Pa]
+  double solubility_exponent = 1;                     ///< gamma [1]
+  std::optional<double> fragmentation_void_fraction;  ///< psi_f: above it a particle joins fragments_to
+  int fragments_to = -1;                              ///< index of the spray group, -1 if none
+  Double3 wall_velocity{};  ///< walls: of the material, the particles stay where they are [m/s]
+  friend bool operator==(const Group&, const Group&) = default;
+};
+
+enum class RegionShape { everywhere, box, ball };
+
+/// Painter's rule: a lattice point belongs to the last region that contains it. group -1 leaves it empty.
+struct Region {
+  int group = -1;
+  RegionShape shape = RegionShape::everywhere;
+  Double3 lower{}, upper{};  ///< box: lower <= x < upper [m]
+  Double3 centre{};          ///< ball: |x - centre| < radius [m]
+  double radius = 0;
+  friend bool operator==(const Region&, const Region&) = default;
+};
+
+enum class LatticeKind { square, hexagonal };
+enum class InitialVelocity { rest, uniform, taylor_green };
+enum class InitialPressure { zero, hydrostatic, taylor_green };
+
+struct Start {
+  // Either a lattice painted by regions ...
+  LatticeKind lattice = LatticeKind::square;
+  Double3 lattice_origin{};  ///< a corner of a lattice cell: points sit at origin + (k + 1/2) spacing [m]
+  Double3 lower{}, upper{};  ///< extent that is filled [m]
+  std::vector<Region> regions;
+  double jitter = 0;  ///< amplitude of a uniform displacement of movers, in spacings
+  std::uint64_t seed = 0;
+  // ... or a file with columns id, x, v, group, rho, m (HDF5 or CSV).
+  std::string file;
+
+  InitialVelocity velocity = InitialVelocity::rest;
+  Double3 uniform_velocity{};  ///< [m/s]
+  double flow_speed = 1;       ///< U of the Taylor-Green flow [m/s]
+  double flow_length = 1;      ///< its period [m]
+  InitialPressure pressure = InitialPressure::zero;
+  double surface_height = 0;  ///< hydrostatic: height of zero pressure along -gravity [m]
+  friend bool operator==(const Start&, const Start&) = default;
+};
+
+struct Terms {
+  double density_diffusion = 0.1;   ///< delta
+  double artificial_viscosity = 0;  ///< alpha
+  bool shifting = false;            ///< confined flow only (no free surface)
+  friend bool operator==(const Terms&, const Terms&) = default;
+};
+
+struct TimeControl {
+  std::optional<double> dt;     ///< fixed step [s]; otherwise from cfl
+  double cfl = 0.8;             ///< dt = cfl h / (c + u)
+  std::optional<double> until;  ///< stop at the first step with t >= until [s]
+  std::optional<std::int64_t> steps;
+  friend bool operator==(const TimeControl&, const TimeControl&) = default;
+};
+
+enum class CutRule { fixed, literal, chaos, replay };
+enum class CostSource { time, counts };
+
+struct Decomposition {
+  std::array<int, 2> cut_axes{0, 1};  ///< row axis, column axis
+  double skin = 0.2;                  ///< of the kernel's radius
+  int rebuild_every = 0;              ///< 0: when a particle may leave the skin; n: also every n steps
+  bool overlap = true;                ///< compute the interior while halo messages travel
+  CutRule cuts = CutRule::literal;
+  CostSource cost = CostSource::time;
+  std::uint64_t chaos_seed = 1;
+  std::string record;  ///< file to write the cuts of each rebuild to, or empty
+  std::string replay;
+  friend bool operator==(const Decomposition&, const Decomposition&) = default;
+};
+
+enum class MonitorKind { particle, group, energy, momentum };
+
+struct Monitor {
+  std::string name;
+  MonitorKind kind = MonitorKind::particle;
+  std::optional<std::uint64_t> id;  ///< particle: this id ...
+  std::optional<Double3>
+      nearest_to;  ///< ... or the one nearest this point at the start, lowest id on ties [m]
+  int group = -1;  ///< group: averages over it
+  friend bool operator==(const Monitor&, const Monitor&) = default;
+};
+
+struct OutputControl {
+  double snapshot_interval = 0;           ///< [s] of scene time; 0: only the last state
+  double series_interval = 0;             ///< [s] of scene time; 0: every step
+  double checkpoint_interval = 600;       ///< [s] of wall time; 0: none but the last
+  double status_interval = 2;             ///< [s] of wall time
+  double average_time = 0;                ///< window of the running time averages in snapshots [s]; 0: none
+  bool average_space = false;             ///< kernel averages over same-group neighbours in snapshots
+  std::int64_t sort_limit = 100'000'000;  ///< rows up to which snapshots are sorted by id
+  int checkpoint_files = 0;               ///< 0: one per 512 ranks
+  std::vector<Monitor> monitors;
+  friend bool operator==(const OutputControl&, const OutputControl&) = default;
+};
+
+struct Scene {
+  std::string name;
+  std::string file;  ///< where it was read from
+  int dim = 2;
+  Formulation formulation = Formulation::conservative;
+  Precision precision = Precision::double_;
+  KernelShape kernel = KernelShape::quintic;
+  double spacing = 0;           ///< dx [m]
+  double smoothing_length = 0;  ///< h [m]; quintic support 3h, Wendland 2h
+  Double3 lower{}, upper{};     ///< domain [m]
+  std::array<bool, 3> periodic{};
+  Double3 gravity{};            ///< [m/s^2]
+  double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
+  std::vector<Group> groups;
+  Start start;
+  Terms terms;
+  TimeControl time;
+  Decomposition decomposition;
+  OutputControl output;
+
+  [[nodiscard]] double support() const;  ///< radius of the kernel [m]
+  [[nodiscard]] bool has_kind(GroupKind k) const;
+  [[nodiscard]] bool has_bubbly() const;
+  [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none
+  friend bool operator==(const Scene&, const Scene&) = default;
+};
+
+/// Reads and resolves a scene; `overrides` are "a.b=v" texts of --set, applied before anything is checked.
+/// Throws InputError "file:line:column: key: what is wrong; what would be right" for the first problem found.
+[[nodiscard]] Scene read_scene(const std::string& path, const std::vector<std::string>& overrides);
+/// The same from text already in memory (`name` stands for the file in messages).
+[[nodiscard]] Scene parse_scene(const std::string& text, const std::string& name,
+                                const std::vector<std::string>& overrides);
+/// The resolved scene as TOML: reading it back gives the same scene. Stored in every file.
+[[nodiscard]] std::string to_toml(const Scene& scene);
+
+}  // namespace sph

@@ -1,0 +1,29 @@
+// series.csv: one row per output time, one column per monitored quantity, written by rank 0, flushed each
+// row. A resumed run cuts it back to the checkpoint, so that it ends identical to an uninterrupted run's.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace sph {
+
+class Series {
+ public:
+  /// Opens for a new run (truncates) and writes the header "step,t,<names>". Throws OutputError.
+  Series(const std::filesystem::path& path, const std::vector<std::string>& names);
+  /// Opens to go on: keeps the first `bytes` bytes. Throws InputError if the file is shorter or missing.
+  Series(const std::filesystem::path& path, std::uint64_t bytes);
+  /// Values are printed in the shortest form that reads back to the same double.
+  void add(std::int64_t step, double time, const std::vector<double>& values);
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  ///< length on disk after the last row
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream out_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace sph

@@ -1,0 +1,80 @@
+// A running scene on all ranks: particles, physics, distribution, lists, and the step that ties them
+// together. The step is the one screen to read first (simulation.cpp).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "decomp/comm.hpp"
+#include "decomp/timer.hpp"
+#include "sph/checkpoint.hpp"
+#include "sph/distribution.hpp"
+#include "sph/fingerprint.hpp"
+#include "sph/physics.hpp"
+#include "sph/scene.hpp"
+
+namespace sph {
+
+class Simulation {
+ public:
+  /// From the scene's start. Collective, like every member that is not a plain accessor.
+  Simulation(const decomp::Comm& comm, const Scene& scene);
+  /// From a checkpoint, on any number of ranks.
+  Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint);
+
+  /// One time step. `request` (any integer, the caller's) travels with the step's reduction: the largest over
+  /// all ranks is returned, one step late by construction.
+  std::int64_t step(std::int64_t request = 0);
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const decomp::Comm& comm() const { return comm_; }
+  [[nodiscard]] const Particles& particles() const { return particles_; }
+  [[nodiscard]] const GlobalState& global() const { return global_; }
+  [[nodiscard]] const PositionScale& scale() const { return scale_; }
+  [[nodiscard]] const Physics& physics() const { return physics_; }
+  [[nodiscard]] const Distribution& distribution() const { return distribution_; }
+  [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
+  [[nodiscard]] decomp::Timers& timers() { return timers_; }
+  [[nodiscard]] std::string fingerprint() const;
+  [[nodiscard]] std::int64_t particle_count() const { return count_; }
+
+  struct Counters {
+    std::int64_t rebuilds = 0, refreshes = 0;
+    std::uint64_t halo_bytes = 0;  ///< sent by this rank
+  };
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+ private:
+  void begin();  ///< common end of both constructors
+  void rebuild();
+  enum class Side { interior, boundary };
+  void run(const Pass& pass, const PassContext& context, Side side);
+  void refresh_begin(FieldSet wanted);
+  void refresh_end();
+  std::int64_t finish_step(const StepMaxima& maxima, std::int64_t request);
+  [[nodiscard]] double displacement() const;
+  [[noreturn]] void stop_at_bad_particle() const;
+
+  const decomp::Comm& comm_;
+  Scene scene_;
+  PositionScale scale_;
+  Physics physics_;
+  Distribution distribution_;
+  Particles particles_;
+  NeighbourLists lists_;
+  GlobalState global_;
+  decomp::Timers timers_;
+  Counters counters_;
+  std::vector<bool> is_wall_group_;
+  std::vector<std::byte> rows_;
+  void changed(FieldSet fields) { fresh_ = fresh_.without(fields); }
+
+  bool refreshing_ = false;
+  FieldSet fresh_;  ///< fields whose halo copies are up to date
+  bool stale_ = true;
+  std::int64_t count_ = 0;
+  decomp::Census census_;
+};
+
+}  // namespace sph

@@ -1,0 +1,57 @@
+// Snapshots: one parallel HDF5 file per output time plus one XDMF index (particles.xdmf) that ParaView opens.
+// Layout, readable with six lines of h5py:  /particles/<field> (rows x components, attribute "unit"),
+// attributes of the root: step, time, dt, quantum, fingerprint, scene (TOML), git, compiler, flags.
+// Positions are written twice: `position` in metres (f64) and `position_quanta` (i64, exact bits).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "decomp/comm.hpp"
+#include "sph/particles.hpp"
+
+namespace sph {
+
+/// What every file says about where it came from.
+struct Provenance {
+  std::string scene_toml;
+  std::string fingerprint;
+  std::vector<std::string> group_names;
+};
+
+/// A column that only snapshots have (time averages, space averages): owned rows, in row order.
+struct ExtraColumn {
+  std::string name, unit;
+  int components = 1;
+  std::vector<double> values;
+};
+
+/// Writes the state collectively to `path` (through a temporary name, renamed when complete) with rows
+/// sorted by id if there are at most sort_limit, else in owner order. Throws OutputError on every rank if
+/// any rank cannot write. Positions are written wrapped into the domain.
+void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
+                    const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
+                    const Provenance& provenance, const std::vector<ExtraColumn>& extra,
+                    std::int64_t sort_limit);
+
+/// Rewrites the XDMF index for the snapshots of a run, atomically (rank 0 only): one entry per file name,
+/// time and row count. `fields` as in the files.
+struct SnapshotEntry {
+  std::string file;
+  std::int64_t step;
+  double time;
+  std::int64_t rows;
+};
+void write_xdmf(const std::filesystem::path& path, const std::vector<SnapshotEntry>& entries,
+                const Particles& particles, const std::vector<ExtraColumn>& extra);
+
+/// First difference between two snapshots or checkpoints, or empty when every bit of the state agrees:
+/// "particle 17: velocity[1]: 0x1.8p+1 (3) != 0x1.9p+1 (3.125)". Rows are matched by id. Serial.
+[[nodiscard]] std::string first_difference(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// What `peperite info` prints about a snapshot or checkpoint: step, time, particles, fields, fingerprint,
+/// scene name, git, compiler. Throws InputError if the file is neither.
+[[nodiscard]] std::string describe(const std::filesystem::path& path);
+
+}  // namespace sph

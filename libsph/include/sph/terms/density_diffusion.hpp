@@ -1,0 +1,47 @@
+// Density diffusion (Molteni & Colagrossi 2009) on the pressure difference less its hydrostatic part
+// (Fourtakas et al. 2019): d rho_i/dt += 2 delta h sum_j V_j (p_i - p_j + rho_ij g.(x_j - x_i)) / c_ij  W'/r,
+// with the smaller c of the pair and only between particles of one group, so that gas content may vary.
+// V_i d rho_i is antisymmetric: the pairs exchange density, none is made.
+#pragma once
+
+#include "sph/pair_rows.hpp"
+
+namespace sph {
+
+struct DensityDiffusion {
+  static constexpr Term term = Term::density_diffusion;
+  static constexpr ValueSet reads{Value::volume, Value::pressure, Value::density, Value::sound_speed,
+                                  Value::phase};
+  static constexpr Field writes = Field::diffusion;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    V head = V::zero();
+    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
+    const V rho =
+        V(typename P::Scalar(0.5)) * (p.template i<Value::density>() + p.template j<Value::density>());
+    const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * head;
+    const V sound = min(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
+    const V term = p.template j<Value::volume>() * p.f * (excess / sound);
+    sums.template add<Field::diffusion>(
+        0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), term));
+  }
+};
+
+/// The same in a scene of one linear fluid and nothing else: c and rho_0 are constants, no group in the row.
+struct UniformDensityDiffusion {
+  static constexpr Term term = Term::uniform_density_diffusion;
+  static constexpr ValueSet reads{Value::volume, Value::pressure};
+  static constexpr Field writes = Field::diffusion;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    V head = V::zero();
+    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k] * c.density) * p.e[k];
+    const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + head;
+    sums.template add<Field::diffusion>(
+        0, p.template j<Value::volume>() * p.f * (excess * V(c.inverse_sound_speed)));
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,38 @@
+// Continuity by differences, Galilean invariant: div v_i = sum_j V_j (v_j - v_i).grad_i W, d rho/dt = -rho
+// div v. VelocityGradient gives the whole tensor where the constitutive law needs it.
+#pragma once
+
+#include "sph/pair_rows.hpp"
+
+namespace sph {
+
+struct Divergence {
+  static constexpr Term term = Term::divergence;
+  static constexpr ValueSet reads{Value::volume, Value::velocity};
+  static constexpr Field writes = Field::divergence;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    V t = V::zero();
+    for (int k = 0; k < P::dim; ++k)
+      t += (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)) * p.e[k];
+    sums.template add<Field::divergence>(0, p.template j<Value::volume>() * p.f * t);
+  }
+};
+
+struct VelocityGradient {
+  static constexpr Term term = Term::velocity_gradient;
+  static constexpr ValueSet reads{Value::volume, Value::velocity};
+  static constexpr Field writes = Field::velocity_gradient;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    const auto s = p.template j<Value::volume>() * p.f;
+    for (int a = 0; a < P::dim; ++a) {
+      const auto dv = s * (p.template i<Value::velocity>(a) - p.template j<Value::velocity>(a));
+      for (int b = 0; b < P::dim; ++b)
+        sums.template add<Field::velocity_gradient>(a * P::dim + b, dv * p.e[b]);
+    }
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,31 @@
+// Divergence of the full stress in volume form: F_ij = V_i V_j (sigma_i + sigma_j) grad_i W. The pressure
+// force is its isotropic part.
+#pragma once
+
+#include "sph/pair_rows.hpp"
+
+namespace sph {
+
+/// Component (a, b) of a symmetric tensor stored xx yy xy or xx yy zz xy xz yz.
+[[nodiscard]] constexpr int symmetric_index(int a, int b, int dim) { return a == b ? a : dim + a + b - 1; }
+
+struct StressDivergence {
+  static constexpr Term term = Term::stress_divergence;
+  static constexpr ValueSet reads{Value::volume, Value::stress};
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * p.f;
+    for (int a = 0; a < P::dim; ++a) {
+      V t = V::zero();
+      for (int b = 0; b < P::dim; ++b) {
+        const int ab = symmetric_index(a, b, P::dim);
+        t += (p.template i<Value::stress>(ab) + p.template j<Value::stress>(ab)) * p.e[b];
+      }
+      sums.template add<Field::force>(a, -(s * t));
+    }
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,28 @@
+// Fixed walls as dummy particles (Adami et al. 2012, eqs. 23, 27): kernel sums over the moving neighbours of
+// a wall particle, from which the update takes p_w = (sum p W + g.sum rho (x_w - x_f) W) / sum W and the
+// mirrored velocity 2 v_wall - sum v W / sum W that makes the wall no-slip.
+#pragma once
+
+#include "sph/pair_rows.hpp"
+
+namespace sph {
+
+struct WallExtrapolation {
+  static constexpr Term term = Term::wall_extrapolation;
+  static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::density, Value::mover};
+  static constexpr Field writes = Field::wall_sums;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
+    V head = V::zero();
+    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
+    sums.template add<Field::wall_sums>(0, w);
+    sums.template add<Field::wall_sums>(
+        1, w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head));
+    for (int k = 0; k < P::dim; ++k)
+      sums.template add<Field::wall_sums>(2 + k, w * p.template j<Value::velocity>(k));
+  }
+};
+
+}  // namespace sph

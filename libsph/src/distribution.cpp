@@ -1,0 +1,183 @@
+#include "sph/distribution.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <fstream>
+#include <numeric>
+
+namespace sph {
+namespace {
+
+decomp::CellGrid make_grid(const Scene& scene, const PositionScale& scale, std::int64_t min_edge) {
+  decomp::Int3 length{};
+  for (std::size_t a = 0; a < 3; ++a) length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
+  return {scene.dim, scale.origin, length, scene.periodic, min_edge};
+}
+
+decomp::Cuts first_cuts(const decomp::CellGrid& grid, const Scene& scene, int ranks) {
+  const auto [row, column] = scene.decomposition.cut_axes;
+  return decomp::uniform_cuts(ranks, grid.cells()[static_cast<std::size_t>(row)],
+                              grid.cells()[static_cast<std::size_t>(column)]);
+}
+
+std::unique_ptr<decomp::CutPolicy> make_policy(const Decomposition& d) {
+  switch (d.cuts) {
+    case CutRule::literal:
+      return decomp::make_literal();
+    case CutRule::chaos:
+      return decomp::make_chaos(d.chaos_seed);
+    case CutRule::replay: {
+      std::ifstream in(d.replay);
+      if (!in) throw InputError("decomposition.replay: cannot read '" + d.replay + "'");
+      std::vector<decomp::Cuts> cuts;
+      for (std::string line; std::getline(in, line);) cuts.push_back(decomp::cuts_from_text(line));
+      return decomp::make_replay(std::move(cuts));
+    }
+    case CutRule::fixed:
+      break;
+  }
+  return decomp::make_fixed();
+}
+
+}  // namespace
+
+Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale)
+    : comm_(comm),
+      scene_(scene),
+      scale_(scale),
+      skin_(scene.decomposition.skin * scene.support()),
+      reach_(scale.quanta(scene.support() + skin_) + 1),
+      grid_(make_grid(scene, scale, reach_)),
+      partition_(grid_, scene.decomposition.cut_axes[0], scene.decomposition.cut_axes[1],
+                 first_cuts(grid_, scene, comm.size())),
+      policy_(make_policy(scene.decomposition)),
+      curve_(cells_along_curve()) {
+  if (!scene.decomposition.record.empty() && comm.rank() == 0) {
+    record_.open(scene.decomposition.record);
+    if (!record_) throw InputError("decomposition.record: cannot write '" + scene.decomposition.record + "'");
+  }
+}
+
+void Distribution::move_cuts(double cost) {
+  const std::vector<double> costs = comm_.all_gather(cost);
+  const int row = scene_.decomposition.cut_axes[0], column = scene_.decomposition.cut_axes[1];
+  const decomp::CutLimits limits{grid_.cells()[static_cast<std::size_t>(row)],
+                                 grid_.cells()[static_cast<std::size_t>(column)]};
+  decomp::Cuts cuts = policy_->next(partition_.cuts(), costs, limits);
+  if (record_.is_open()) record_ << decomp::to_text(cuts) << '\n' << std::flush;
+  if (cuts == partition_.cuts()) return;
+  partition_ = decomp::JaggedPartition(grid_, row, column, std::move(cuts));
+  curve_ = cells_along_curve();
+}
+
+std::vector<std::uint32_t> Distribution::cells_along_curve() const {
+  const decomp::Box own = own_cells();
+  const decomp::Int3& cells = grid_.cells();
+  const int bits =
+      static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max({cells[0], cells[1], cells[2]}))));
+  std::vector<std::uint64_t> key;
+  for (std::int64_t z = own.lo[2]; z < own.hi[2]; ++z)
+    for (std::int64_t y = own.lo[1]; y < own.hi[1]; ++y)
+      for (std::int64_t x = own.lo[0]; x < own.hi[0]; ++x)
+        key.push_back(decomp::hilbert_key(grid_.dim(), bits, {x, y, z}));
+  std::vector<std::uint32_t> order(key.size()), rank(key.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+  for (std::uint32_t k = 0; k < order.size(); ++k) rank[order[k]] = k;
+  return rank;
+}
+
+void Distribution::wrap_positions(Particles& particles) const {
+  const std::size_t d = static_cast<std::size_t>(particles.dim());
+  std::int64_t* x = particles.data<Field::position>();
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    decomp::Int3 p{};
+    for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+    p = grid_.wrap(p);
+    if (!grid_.inside(p)) {
+      std::string at;
+      for (std::size_t a = 0; a < d; ++a) at += (a > 0 ? ", " : "") + std::to_string(scale_.metres(p[a]));
+      throw GuardError("particle " + std::to_string(particles.data<Field::id>()[i]) +
+                       " left the domain at (" + at + ") m: enlarge domain.lower/upper, or reduce time.dt");
+    }
+    for (std::size_t a = 0; a < d; ++a) x[i * d + a] = p[a];
+  }
+}
+
+std::vector<decomp::Rank> Distribution::owners(const Particles& particles) const {
+  const std::size_t d = static_cast<std::size_t>(particles.dim());
+  const std::int64_t* x = particles.data<Field::position>();
+  const decomp::Box own = partition_.quanta(comm_.rank());
+  std::vector<decomp::Rank> owner(particles.owned(), comm_.rank());
+  for (std::size_t i = 0; i < owner.size(); ++i) {
+    decomp::Int3 p{};
+    for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+    if (!own.contains(p)) owner[i] = partition_.owner(grid_.cell_of(p));
+  }
+  return owner;
+}
+
+void Distribution::scatter(Particles& particles) {
+  wrap_positions(particles);
+  decomp::redistribute(comm_, owners(particles), particles.table(), nullptr);
+}
+
+void Distribution::rebuild(Particles& particles, double cost_seconds,
+                           const std::vector<bool>& is_wall_group) {
+  wrap_positions(particles);
+  if (comm_.size() > 1) {
+    const decomp::JaggedPartition before = partition_;
+    move_cuts(scene_.decomposition.cost == CostSource::time ? cost_seconds
+                                                            : static_cast<double>(particles.owned()));
+    // Between rebuilds no particle moves further than half the skin.
+    const std::int64_t strayed = scale_.quanta(0.5 * skin_) + 1;
+    const decomp::MigrationPeers peers = decomp::migration_peers(before, partition_, comm_.rank(), strayed);
+    migrated_ += static_cast<std::int64_t>(
+        decomp::migrate(comm_, owners(particles), peers, particles.table(), nullptr));
+  }
+  sort_rows(particles, is_wall_group);
+  plan_ = decomp::HaloPlan(comm_, partition_, reach_, particles.dim(), particles.column(Field::position),
+                           particles.table());
+}
+
+// Counting sort by (class, cell along the curve), then by id within a cell. The boundary is a layer one reach
+// deep inside the faces shared with anyone, this rank's own periodic images included: particles deeper in
+// have no partner in the halo.
+void Distribution::sort_rows(Particles& particles, const std::vector<bool>& is_wall_group) {
+  const std::size_t d = static_cast<std::size_t>(particles.dim()), n = particles.owned();
+  const std::int64_t* x = particles.data<Field::position>();
+  const auto* group = particles.data<Field::group>();
+  const auto* id = particles.data<Field::id>();
+  const decomp::Box own = own_cells();
+  decomp::Box inner = partition_.quanta(comm_.rank());
+  for (std::size_t a = 0; a < d; ++a) inner.lo[a] += reach_, inner.hi[a] -= reach_;
+  const std::size_t cells = curve_.size();
+  const std::int64_t nx = own.hi[0] - own.lo[0], ny = own.hi[1] - own.lo[1];
+
+  std::vector<std::uint32_t> bucket(n), start(4 * cells + 1, 0), order(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    decomp::Int3 p{};
+    for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+    const decomp::Int3 c = grid_.cell_of(p);
+    const std::size_t cell =
+        static_cast<std::size_t>(((c[2] - own.lo[2]) * ny + c[1] - own.lo[1]) * nx + c[0] - own.lo[0]);
+    bool interior = true;
+    for (std::size_t a = 0; a < d; ++a) interior = interior && p[a] >= inner.lo[a] && p[a] < inner.hi[a];
+    const std::size_t row_class = (interior ? 0u : 2u) + (is_wall_group[group[i]] ? 1u : 0u);
+    bucket[i] = static_cast<std::uint32_t>(row_class * cells + curve_[cell]);
+    ++start[bucket[i] + 1];
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  for (std::size_t c = 0; c < 4; ++c) ranges_[c] = {start[c * cells], start[(c + 1) * cells], 0};
+  std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t first = start[bucket[i]];
+    std::uint32_t k = at[bucket[i]]++;
+    for (; k > first && id[order[k - 1]] > id[i]; --k) order[k] = order[k - 1];
+    order[k] = static_cast<std::uint32_t>(i);
+  }
+  particles.table().reorder(order);
+}
+
+}  // namespace sph

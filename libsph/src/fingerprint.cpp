@@ -1,0 +1,107 @@
+#include "sph/fingerprint.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace sph {
+namespace {
+
+/// Integer modulo 2^128: a sum of these does not depend on the order.
+struct Sum128 {
+  std::uint64_t low = 0;
+  std::uint64_t high = 0;
+
+  void add(XXH128_hash_t h) {
+    low += h.low64;
+    high += h.high64 + (low < h.low64 ? 1 : 0);
+  }
+
+  /// Half words have room for the carries of 2^32 ranks, which a sum of whole words would lose.
+  void all_reduce(const decomp::Comm& comm) {
+    constexpr std::uint64_t half = 0xffffffffU;
+    std::array<std::uint64_t, 4> word{low & half, low >> 32, high & half, high >> 32};
+    comm.sum(std::span<std::uint64_t>(word));
+    for (std::size_t i = 1; i < word.size(); ++i) word[i] += word[i - 1] >> 32;
+    low = (word[0] & half) | (word[1] << 32);
+    high = (word[2] & half) | (word[3] << 32);
+  }
+};
+
+/// A particle's state as one run of bytes: its state fields in the order of the field table.
+class Record {
+ public:
+  explicit Record(const Particles& particles) : particles_(particles) {
+    std::size_t length = 0;
+    for (Field f : state_of(particles.fields()).list()) {
+      const decomp::Column& column = particles.table().column(particles.column(f));
+      parts_.push_back({f, column.data(), column.width()});
+      length += column.width();
+    }
+    bytes_.resize(length);
+  }
+
+  [[nodiscard]] std::span<const std::byte> of(std::size_t row, const Wrap& wrap) {
+    std::byte* to = bytes_.data();
+    for (const Part& part : parts_) {
+      std::memcpy(to, part.data + row * part.width, part.width);
+      if (part.field == Field::position) wrap_in_place(to, wrap);
+      to += part.width;
+    }
+    return bytes_;
+  }
+
+ private:
+  struct Part {
+    Field field;
+    const std::byte* data;
+    std::size_t width;
+  };
+
+  void wrap_in_place(std::byte* to, const Wrap& wrap) const {
+    std::array<std::int64_t, 3> x{};
+    const std::size_t width = sizeof(std::int64_t) * static_cast<std::size_t>(particles_.dim());
+    std::memcpy(x.data(), to, width);
+    for (int a = 0; a < particles_.dim(); ++a)
+      x[static_cast<std::size_t>(a)] = wrap(a, x[static_cast<std::size_t>(a)]);
+    std::memcpy(to, x.data(), width);
+  }
+
+  const Particles& particles_;
+  std::vector<Part> parts_;
+  std::vector<std::byte> bytes_;
+};
+
+XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
+  const std::array<std::uint64_t, 6> record{std::bit_cast<std::uint64_t>(global.step),
+                                            std::bit_cast<std::uint64_t>(global.time),
+                                            std::bit_cast<std::uint64_t>(global.dt),
+                                            std::bit_cast<std::uint64_t>(global.max_speed),
+                                            std::bit_cast<std::uint64_t>(global.max_acceleration),
+                                            std::bit_cast<std::uint64_t>(scale.quantum)};
+  return XXH3_128bits(record.data(), sizeof record);
+}
+
+}  // namespace
+
+std::string fingerprint(const decomp::Comm& comm, const Particles& particles, const GlobalState& global,
+                        const PositionScale& scale, const Wrap& wrap) {
+  Sum128 sum;
+  Record record(particles);
+  const std::uint64_t* id = particles.data<Field::id>();
+  for (std::size_t row = 0; row < particles.owned(); ++row) {
+    const std::span<const std::byte> bytes = record.of(row, wrap);
+    sum.add(XXH3_128bits_withSeed(bytes.data(), bytes.size(), id[row]));
+  }
+  sum.all_reduce(comm);
+  sum.add(hash_of(global, scale));
+  return fmt::format("{:016x}{:016x}", sum.high, sum.low);
+}
+
+}  // namespace sph

@@ -1,0 +1,73 @@
+// The explicit list of compiled fusions, the same for each dimension and precision. A new one is a new line.
+#pragma once
+
+#include "sph/fusions.hpp"
+#include "sph/kernels.hpp"
+#include "sph/terms/artificial_viscosity.hpp"
+#include "sph/terms/density_diffusion.hpp"
+#include "sph/terms/divergence.hpp"
+#include "sph/terms/ida.hpp"
+#include "sph/terms/pressure.hpp"
+#include "sph/terms/shifting.hpp"
+#include "sph/terms/stress.hpp"
+#include "sph/terms/viscosity.hpp"
+#include "sph/terms/wall.hpp"
+
+namespace sph {
+
+template <class Kernel>
+inline constexpr KernelShape shape_of = KernelShape::quintic;
+template <>
+inline constexpr KernelShape shape_of<WendlandC2> = KernelShape::wendland_c2;
+template <>
+inline constexpr KernelShape shape_of<WendlandC4> = KernelShape::wendland_c4;
+
+template <class T, int D>
+struct FusionList {
+  template <class Kernel, class... Terms>
+  static Fusion fuse() {
+    using Pass = PairPass<T, D, Kernel, Terms...>;
+    return {D,
+            sizeof(T) == 4 ? Precision::mixed : Precision::double_,
+            shape_of<Kernel>,
+            {Terms::term...},
+            Pass::values,
+            Pass::writes,
+            static_cast<int>(Pass::Layout::stride * sizeof(T)),
+            Pass::pack,
+            Pass::run};
+  }
+
+  template <class Kernel>
+  static std::vector<Fusion> fluids() {
+    return {
+        fuse<Kernel, Divergence, UniformDensityDiffusion>(),
+        fuse<Kernel, Divergence, UniformDensityDiffusion, Shifting>(),
+        fuse<Kernel, Divergence, DensityDiffusion>(),
+        fuse<Kernel, Divergence, DensityDiffusion, Shifting>(),
+        fuse<Kernel, Pressure, UniformViscosity>(),
+        fuse<Kernel, Pressure, Viscosity>(),
+        fuse<Kernel, Pressure, UniformViscosity, ArtificialViscosity>(),
+        fuse<Kernel, WallExtrapolation>(),
+    };
+  }
+
+  static std::vector<Fusion> all() {
+    std::vector<Fusion> list = fluids<Quintic>();
+    for (auto& more : {fluids<WendlandC2>(), fluids<WendlandC4>()})
+      list.insert(list.end(), more.begin(), more.end());
+    for (Fusion f : {
+             fuse<Quintic, VelocityGradient, DensityDiffusion>(),
+             fuse<Quintic, StressDivergence, Viscosity>(),
+             fuse<Quintic, StressDivergence, Viscosity, ArtificialViscosity>(),
+             fuse<Quintic, Pressure, Viscosity, ArtificialViscosity>(),
+             fuse<Quintic, IdaGradient>(),
+             fuse<Quintic, IdaStress>(),
+             fuse<Quintic, IdaStress, ArtificialViscosity>(),
+         })
+      list.push_back(std::move(f));
+    return list;
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,206 @@
+#include "sph/physics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sph/kernels.hpp"
+
+namespace sph {
+namespace {
+
+struct KernelNumbers {
+  double radius;         ///< support / h
+  double normalisation;  ///< alpha_D
+  double w_spacing;      ///< unnormalised w(spacing / h)
+};
+
+template <class Kernel>
+KernelNumbers numbers(int dim, double q) {
+  return dim == 2
+             ? KernelNumbers{Kernel::radius, Kernel::template normalisation<2>, Kernel::template value<2>(q)}
+             : KernelNumbers{Kernel::radius, Kernel::template normalisation<3>, Kernel::template value<3>(q)};
+}
+
+KernelNumbers numbers(const Scene& scene) {
+  const double q = scene.spacing / scene.smoothing_length;
+  switch (scene.kernel) {
+    case KernelShape::wendland_c2:
+      return numbers<WendlandC2>(scene.dim, q);
+    case KernelShape::wendland_c4:
+      return numbers<WendlandC4>(scene.dim, q);
+    case KernelShape::quintic:
+      break;
+  }
+  return numbers<Quintic>(scene.dim, q);
+}
+
+double power(double x, int n) {
+  double p = 1;
+  for (int k = 0; k < n; ++k) p *= x;
+  return p;
+}
+
+}  // namespace
+
+PositionScale position_scale(const Scene& scene) {
+  double extent = 0;
+  for (int a = 0; a < scene.dim; ++a)
+    extent = std::max({extent, std::abs(scene.lower[static_cast<std::size_t>(a)]),
+                       std::abs(scene.upper[static_cast<std::size_t>(a)])});
+  PositionScale scale;
+  // The next power of two above both bounds.
+  scale.quantum = std::exp2(std::max(std::ilogb(extent) + 1 - 60, std::ilogb(scene.support()) + 1 - 50));
+  for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.lower[a]);
+  return scale;
+}
+
+std::int64_t PositionScale::quanta(double metres) const {
+  // |metres / quantum| < 2^62, and the division by a power of two is exact.
+  return static_cast<std::int64_t>(std::nearbyint(metres / quantum));
+}
+
+Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene), scale_(scale) {
+  const KernelNumbers kernel = numbers(scene);
+  const double h = scene.smoothing_length;
+  const double volume = power(scene.spacing, scene.dim);
+  const double slope = kernel.normalisation / power(h, scene.dim + 1);
+  gradient_factor_ = volume * slope;
+  force_factor_ = volume * volume * slope;
+  diffusion_factor_ = 2 * scene.terms.density_diffusion * h * (volume * slope / h);
+
+  // Float rows: 2^29 units across the support, so that its square and the skin stay within 31 bits.
+  const int bits = std::ilogb(scene.support() / scale.quantum) + 1 - 29;
+  row_scale_.position_shift = std::max(bits, 0);
+  const double unit = scene.precision == Precision::mixed
+                          ? std::ldexp(scale.quantum, row_scale_.position_shift)
+                          : scale.quantum;
+  row_scale_.position_unit = unit / h;
+  row_scale_.inverse_volume = 1 / volume;
+  row_scale_.inverse_h = 1 / h;
+
+  for (const Group& g : scene.groups) {
+    groups_.viscosity.push_back(g.viscosity);
+    // p-waves are the fastest in a solid
+    const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
+    groups_.sound_speed.push_back(std::sqrt(modulus / g.density));
+    groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
+    bulk_viscous_ = bulk_viscous_ || g.bulk_viscosity > 0;
+    if (g.fragments_to >= 0) transitions_.push_back(static_cast<int>(&g - scene.groups.data()));
+    bubbly_.push_back(bubbly_eos(g, g.gas_content));
+  }
+  const auto fluid = std::find_if(scene.groups.begin(), scene.groups.end(),
+                                  [](const Group& g) { return g.kind != GroupKind::wall; });
+  constants_ = {};
+  for (int a = 0; a < 3; ++a) constants_.gravity[a] = scene.gravity[static_cast<std::size_t>(a)] * h;
+  constants_.viscosity = fluid->viscosity / h;
+  constants_.density = fluid->density;
+  constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
+  constants_.artificial_viscosity = scene.terms.artificial_viscosity;
+  constants_.inverse_w_spacing = 1 / kernel.w_spacing;
+
+  fields_ = {Field::id,    Field::position, Field::velocity, Field::density,  Field::mass,
+             Field::group, Field::pressure, Field::force,    Field::reference};
+  if (scene.has_bubbly()) fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
+  if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
+    fields_ |= FieldSet{Field::stress};
+  if (scene.formulation == Formulation::ida)
+    build_ida();
+  else
+    build_conservative();
+}
+
+void Physics::add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls) {
+  const Fusion& fusion = find_fusion(scene_->dim, scene_->precision, scene_->kernel, terms);
+  fields_ |= fusion.writes;
+  passes_.push_back({std::move(name), &fusion, movers, walls, fields_behind(fusion.values), {}, {}});
+}
+
+// One step, positions advanced: kinematics (density and stress from the velocities), walls (extrapolation
+// from the new pressures), forces, kick. The density is advanced with the velocity of the half step before
+// the kick that uses it: symplectic, stable to c dt/h well above 0.8 (accuracy.md 0.3).
+void Physics::build_conservative() {
+  const Scene& s = *scene_;
+  std::size_t movers = 0;
+  bool uniform_viscosity = true;
+  double viscosity = -1;
+  for (const Group& g : s.groups) {
+    if (g.kind != GroupKind::wall) ++movers;
+    uniform_viscosity = uniform_viscosity && (viscosity < 0 || viscosity == g.viscosity);
+    viscosity = g.viscosity;
+  }
+  const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
+  const bool single = movers == 1 && !walls && !s.has_bubbly();
+
+  std::vector<Term> kinematics{solid ? Term::velocity_gradient : Term::divergence,
+                               single && !solid ? Term::uniform_density_diffusion : Term::density_diffusion};
+  if (s.terms.shifting) kinematics.push_back(Term::shifting);
+  add_pass("kinematics", kinematics, true, false);
+  passes_.back().update = [this](Particles& p, const RowRanges& ranges, double dt) {
+    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+      const RowRange& r = ranges[static_cast<std::size_t>(c)];
+      update_movers(p, r.first, r.last, dt);
+    }
+  };
+  passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
+
+  if (walls) {
+    add_pass("walls", {Term::wall_extrapolation}, false, true);
+    passes_.back().update = [this](Particles& p, const RowRanges& ranges, double) {
+      update_walls(p, ranges);
+    };
+    passes_.back().changes = {Field::pressure, Field::velocity};
+  }
+
+  std::vector<Term> forces{solid ? Term::stress_divergence : Term::pressure,
+                           uniform_viscosity && !solid ? Term::uniform_viscosity : Term::viscosity};
+  if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
+  add_pass("forces", forces, true, false);
+}
+
+// The paper's cycle: velocity gradient (10), density (8), pressure, stress (9) or (11) of every particle,
+// walls included; then the force (6) on those that move.
+void Physics::build_ida() {
+  add_pass("gradient", {Term::ida_gradient}, true, true);
+  passes_.back().update = [this](Particles& p, const RowRanges& ranges, double dt) {
+    for (const RowRange& r : ranges) update_ida(p, r.first, r.last, dt);
+  };
+  passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
+  std::vector<Term> forces{Term::ida_stress};
+  if (scene_->terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
+  add_pass("forces", forces, true, false);
+}
+
+FieldSet Physics::integrated() const {
+  FieldSet changed{Field::velocity};
+  if (scene_->terms.shifting) changed |= FieldSet{Field::position};
+  if (bulk_viscous_) changed |= FieldSet{Field::pressure};
+  if (!transitions_.empty()) changed |= FieldSet{Field::group};
+  return changed;
+}
+
+PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
+                             std::vector<std::byte>& rows) const {
+  return {&particles,       &lists,        &groups_,          row_scale_, constants_,
+          gradient_factor_, force_factor_, diffusion_factor_, &rows};
+}
+
+double Physics::time_step(const StepMaxima& maxima) const {
+  if (scene_->time.dt) return *scene_->time.dt;
+  const double h = scene_->smoothing_length;
+  double fastest = 0, viscous = 0;
+  for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
+    fastest = std::max(fastest, groups_.sound_speed[g]);
+    viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
+  }
+  double dt = scene_->time.cfl * h / (fastest + maxima.speed);
+  if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
+  if (maxima.acceleration > 0) dt = std::min(dt, 0.25 * std::sqrt(h / maxima.acceleration));
+  return dt;
+}
+
+double Physics::courant_number(double dt) const {
+  const double fastest = *std::max_element(groups_.sound_speed.begin(), groups_.sound_speed.end());
+  return fastest * dt / scene_->smoothing_length;
+}
+
+}  // namespace sph

@@ -1,0 +1,29 @@
+#include "sph/scene.hpp"
+
+#include <cstddef>
+
+namespace sph {
+
+double Scene::support() const {
+  return kernel == KernelShape::quintic ? 3 * smoothing_length : 2 * smoothing_length;
+}
+
+bool Scene::has_kind(GroupKind k) const {
+  for (const Group& g : groups)
+    if (g.kind == k) return true;
+  return false;
+}
+
+bool Scene::has_bubbly() const {
+  for (const Group& g : groups)
+    if (g.eos == EosKind::bubbly) return true;
+  return false;
+}
+
+int Scene::group_index(const std::string& group_name) const {
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (groups[k].name == group_name) return static_cast<int>(k);
+  return -1;
+}
+
+}  // namespace sph

@@ -1,0 +1,63 @@
+// Every key of a scene, by table: what is not listed here is a misspelling. A new key needs an entry here, a
+// reader, a line in to_toml and one in the commented reference scene.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace sph {
+
+struct KeyTable {
+  std::string_view name;  ///< as in the header of the table, empty for the top level
+  std::span<const std::string_view> keys;
+};
+
+namespace scene_keys {
+
+using Word = std::string_view;
+
+inline constexpr auto top_list =
+    std::to_array<Word>({"title", "dimension", "formulation", "precision", "kernel", "domain", "group",
+                         "start", "terms", "time", "decomposition", "output", "monitor"});
+inline constexpr auto kernel_list = std::to_array<Word>({"shape", "smoothing_length", "h_over_dx"});
+inline constexpr auto domain_list =
+    std::to_array<Word>({"lower", "upper", "periodic", "gravity", "surface_pressure"});
+inline constexpr auto group_list =
+    std::to_array<Word>({"name", "kind", "eos", "density", "bulk_modulus", "sound_speed", "viscosity",
+                         "bulk_viscosity", "poisson_ratio", "shear_modulus", "gas_content", "gas_rt",
+                         "solubility_pressure", "solubility_exponent", "fragmentation", "velocity"});
+inline constexpr auto fragmentation_list = std::to_array<Word>({"void_fraction", "group"});
+inline constexpr auto start_list =
+    std::to_array<Word>({"lattice", "spacing", "origin", "lower", "upper", "region", "jitter", "seed", "file",
+                         "velocity", "flow_speed", "flow_length", "pressure", "surface_height"});
+inline constexpr auto region_list =
+    std::to_array<Word>({"group", "shape", "lower", "upper", "centre", "radius"});
+inline constexpr auto terms_list =
+    std::to_array<Word>({"density_diffusion", "artificial_viscosity", "shifting"});
+inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
+inline constexpr auto decomposition_list = std::to_array<Word>(
+    {"cut_axes", "skin", "rebuild_every", "overlap", "balance", "cost", "chaos_seed", "record", "replay"});
+inline constexpr auto output_list =
+    std::to_array<Word>({"snapshot_interval", "series_interval", "checkpoint_interval", "status_interval",
+                         "average_time", "average_space", "sort_limit", "checkpoint_files"});
+inline constexpr auto monitor_list = std::to_array<Word>({"name", "kind", "id", "nearest_to", "group"});
+
+inline constexpr KeyTable top{"", top_list};
+inline constexpr KeyTable kernel{"kernel", kernel_list};
+inline constexpr KeyTable domain{"domain", domain_list};
+inline constexpr KeyTable group{"group", group_list};
+inline constexpr KeyTable fragmentation{"group.fragmentation", fragmentation_list};
+inline constexpr KeyTable start{"start", start_list};
+inline constexpr KeyTable region{"start.region", region_list};
+inline constexpr KeyTable terms{"terms", terms_list};
+inline constexpr KeyTable time{"time", time_list};
+inline constexpr KeyTable decomposition{"decomposition", decomposition_list};
+inline constexpr KeyTable output{"output", output_list};
+inline constexpr KeyTable monitor{"monitor", monitor_list};
+
+inline constexpr std::array all{top,    kernel, domain, group,         fragmentation, start,
+                                region, terms,  time,   decomposition, output,        monitor};
+
+}  // namespace scene_keys
+}  // namespace sph
