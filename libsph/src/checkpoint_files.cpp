@@ -23,18 +23,18 @@ Name name_of(const fs::path& dir) {
   const std::string text = dir.filename().string();
   const char* end = text.data() + text.size();
   Name name;
-  auto [stop, error] = std::from_chars(text.data(), end, name.step);
-  if (error != std::errc() || name.step < 0) return {};
-  if (stop == end) return name;
-  if (*stop != '.') return {};
-  std::tie(stop, error) = std::from_chars(stop + 1, end, name.attempt);
-  return error == std::errc() && stop == end ? name : Name{};
+  const auto step = std::from_chars(text.data(), end, name.step);
+  if (step.ec != std::errc() || name.step < 0) return {};
+  if (step.ptr == end) return name;
+  if (*step.ptr != '.') return {};
+  const auto attempt = std::from_chars(step.ptr + 1, end, name.attempt);
+  return attempt.ec == std::errc() && attempt.ptr == end ? name : Name{};
 }
 
 /// A cheap look: the manifest is whole and the parts are as long as they should be.
 bool looks_complete(const fs::path& dir) {
   try {
-    const Manifest manifest = read_manifest(dir);
+    const Manifest manifest = manifest_from_text(read_manifest_text(dir));
     return std::all_of(manifest.parts.begin(), manifest.parts.end(),
                        [&](const Part& part) { return fs::file_size(dir / part.file) == part.bytes; });
   } catch (const std::exception&) {
@@ -89,10 +89,10 @@ void remove_superseded(const fs::path& newest) {
   }
 }
 
-Manifest read_manifest(const fs::path& dir) {
+std::string read_manifest_text(const fs::path& dir) {
   if (!fs::exists(manifest_path(dir)))
     throw std::runtime_error("has no manifest.json: its writing was interrupted");
-  return manifest_from_text(read_text(manifest_path(dir)));
+  return read_text(manifest_path(dir));
 }
 
 void read_rows(const fs::path& dir, const Manifest& manifest, std::size_t set, std::size_t row_bytes,

@@ -26,7 +26,7 @@ namespace sph {
 void remove_superseded(const std::filesystem::path& newest);
 
 [[nodiscard]] std::filesystem::path manifest_path(const std::filesystem::path& dir);
-[[nodiscard]] Manifest read_manifest(const std::filesystem::path& dir);
+[[nodiscard]] std::string read_manifest_text(const std::filesystem::path& dir);  ///< throws if there is none
 
 /// Hash of the bytes of a part that lie outside its extents: the structure of the HDF5 file.
 [[nodiscard]] std::uint64_t frame_hash(const std::filesystem::path& file, std::uint64_t bytes,

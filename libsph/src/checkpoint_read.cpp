@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 Manifest shared_manifest(const decomp::Comm& comm, const fs::path& dir) {
   std::string text;
   const std::string failure = agree(comm, attempt([&] {
-                                      if (comm.rank() == 0) text = to_text(read_manifest(dir));
+                                      if (comm.rank() == 0) text = read_manifest_text(dir);
                                     }));
   if (!failure.empty()) throw InputError(failure);
   return manifest_from_text(comm.broadcast(text, 0));

@@ -198,6 +198,12 @@ double Physics::time_step(const StepMaxima& maxima) const {
   return dt;
 }
 
+double Physics::longest_move(const GlobalState& global) const {
+  // Shifting adds at most half of U_max dt; the margin covers the rounding to quanta.
+  const double move = global.max_speed * global.dt;
+  return 1.0001 * (scene_->terms.shifting ? 1.5 * move : move);
+}
+
 double Physics::courant_number(double dt) const {
   const double fastest = *std::max_element(groups_.sound_speed.begin(), groups_.sound_speed.end());
   return fastest * dt / scene_->smoothing_length;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -41,6 +42,10 @@ void read_stiffness(const TableReader& table, Group& group, const Group* like) {
   else
     table.fail_missing("bulk_modulus", "give it in Pa, or sound_speed in m/s");
 
+  if (!(group.bulk_modulus > 0 && std::isfinite(group.bulk_modulus)))
+    table.fail(speed ? "sound_speed" : "bulk_modulus", "makes a modulus beyond the range of numbers",
+               "check its unit");
+
   const bool solid = group.kind == GroupKind::solid;
   table.only_if(solid, "poisson_ratio", "only groups with kind = \"solid\" have it");
   table.only_if(solid, "shear_modulus", "only groups with kind = \"solid\" have it");
@@ -51,6 +56,8 @@ void read_stiffness(const TableReader& table, Group& group, const Group* like) {
     if (!(*nu > -1 && *nu < 0.5))
       table.fail("poisson_ratio", fmt::format("is {}", *nu), "it must be between -1 and 0.5, both excluded");
     group.shear_modulus = 3 * group.bulk_modulus * (1 - 2 * *nu) / (2 * (1 + *nu));
+    if (!(group.shear_modulus > 0 && std::isfinite(group.shear_modulus)))
+      table.fail("poisson_ratio", "makes a modulus beyond the range of numbers", "check it and bulk_modulus");
   } else {
     table.fail_missing("poisson_ratio", "give it, or shear_modulus in Pa");
   }

@@ -18,6 +18,7 @@ constexpr std::array axis_names{"x", "y", "z"};
 constexpr double least_h_over_dx = 0.5;
 constexpr double most_h_over_dx = 4;
 constexpr int least_periodic_cells = 3;
+constexpr double most_spacings = 1e7;
 
 /// All tables but the arrays, made first: a misspelt key is reported before anything that is missing.
 struct Tables {
@@ -71,7 +72,8 @@ void read_kernel(const TableReader& table, Scene& scene) {
     table.fail_missing("h_over_dx", "give it (1.0 to 1.2 is usual), or smoothing_length in m");
   scene.smoothing_length = h ? *h : *ratio * scene.spacing;
   const double found = h ? *h / scene.spacing : *ratio;
-  if (found < least_h_over_dx || found > most_h_over_dx)
+  constexpr double rounding = 1e-12;  // a limit that is given as h/dx must pass when it comes back as h
+  if (found < least_h_over_dx * (1 - rounding) || found > most_h_over_dx * (1 + rounding))
     table.fail(h ? "smoothing_length" : "h_over_dx", fmt::format("makes h/dx = {:.6g}", found),
                fmt::format("it must be {} to {} spacings", least_h_over_dx, most_h_over_dx));
   table.finish();
@@ -101,6 +103,15 @@ void read_time(const TableReader& table, Scene& scene) {
   scene.time.steps = table.whole("steps", 0);
   if (!scene.time.until && !scene.time.steps) table.fail_missing("until", "give the end in s, or steps");
   table.finish();
+}
+
+/// Cells are counted in integers of fixed width: a domain beyond all reason would overflow them.
+void check_extent(const TableReader& domain, const Scene& scene) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (const double spacings = (scene.upper[a] - scene.lower[a]) / scene.spacing; spacings > most_spacings)
+      domain.fail("upper", fmt::format("the domain is {:.1e} spacings long in {}", spacings, axis_names[a]),
+                  fmt::format("at most {:.0e} are possible: check the units here and of start.spacing",
+                              most_spacings));
 }
 
 /// A particle must not meet two images of another, and the halo on either side must be another cell.
@@ -145,6 +156,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   scene.precision = tables.top.choice("precision", precision_words()).value_or(Precision::double_);
   read_domain(tables.domain, scene);
   scene.spacing = tables.start.required_number("spacing", dimension::length, Bound::positive);
+  check_extent(tables.domain, scene);
   read_kernel(tables.kernel, scene);
   scene.groups = read_groups(tables.top, scene.dim);
   scene.start = read_start(tables.start, scene);

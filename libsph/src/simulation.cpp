@@ -121,8 +121,8 @@ std::int64_t Simulation::finish_step(const StepMaxima& maxima, std::int64_t requ
   global_.max_acceleration = all[1];
   global_.dt = physics_.time_step({all[0], all[1]});
   const int every = scene_.decomposition.rebuild_every;
-  // Where the fastest particle may be after the next advance; the margin covers the rounding to quanta.
-  stale_ = all[2] + 1.001 * all[0] * global_.dt > 0.5 * distribution_.skin() ||
+  // The list must still hold at the end of the next step.
+  stale_ = all[2] + physics_.longest_move(global_) > 0.5 * distribution_.skin() ||
            (every > 0 && global_.step % every == 0);
   return static_cast<std::int64_t>(all[4]);
 }
@@ -183,13 +183,17 @@ void Simulation::begin() {
   stale_ = false;
 }
 
-std::string Simulation::fingerprint() const {
+Wrap Simulation::wrap() const {
   Wrap wrap;
   for (std::size_t a = 0; a < 3; ++a) {
     wrap.origin[a] = distribution_.grid().origin()[a];
     if (scene_.periodic[a]) wrap.period[a] = distribution_.grid().length()[a];
   }
-  return sph::fingerprint(comm_, particles_, global_, scale_, wrap);
+  return wrap;
+}
+
+std::string Simulation::fingerprint() const {
+  return sph::fingerprint(comm_, particles_, global_, scale_, wrap());
 }
 
 void Simulation::stop_at_bad_particle() const {

@@ -4,10 +4,7 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "decomp/comm.hpp"
 #include "decomp/table.hpp"
@@ -21,8 +18,7 @@ struct RunRecord {
   GlobalState global;
   PositionScale scale;
   std::string scene_toml;
-  std::string
-      extra_json;  ///< any text: output schedule, monitors, lengths of series.csv and of the XDMF index
+  std::string extra_json;  ///< any text: output schedule, monitors, lengths of series.csv and the XDMF index
 };
 
 /// Collective. On return the checkpoint is complete and on disk (fsync by every writer, manifest renamed
@@ -31,7 +27,7 @@ struct RunRecord {
 /// Positions are written wrapped.
 void write_checkpoint(const decomp::Comm& comm, const std::filesystem::path& run_dir,
                       const Particles& particles, const decomp::Payload* history, const RunRecord& record,
-                      const Provenance& provenance, int files);
+                      const Wrap& wrap, const Provenance& provenance, int files);
 
 /// Finds the newest checkpoint under run_dir and reads its record, without particles. Throws InputError when
 /// there is none that is complete, naming what is wrong with each. `warning` says if the newest was skipped.

@@ -103,18 +103,16 @@ struct PairPass {
     const V tiny(static_cast<T>(1e-30));
     for (std::size_t first = range.first, block = range.first_block; first < range.last;
          first += V::lanes, ++block) {
-      const T* row[V::lanes];
-      for (int l = 0; l < V::lanes; ++l)
-        row[l] = rows + std::min(first + static_cast<std::size_t>(l), range.last - 1) * Layout::stride;
+      std::uint32_t own_rows[V::lanes];
+      for (std::size_t l = 0; l < V::lanes; ++l)
+        own_rows[l] = static_cast<std::uint32_t>(std::min(first + l, range.last - 1));
       V own[Layout::stride], other[Layout::stride];
-      load(row, own);
+      load_rows<Layout::stride>(rows, own_rows, own);
       Sums<T, D, writes> sums;
       for (V& s : sums.v) s = V::zero();
       const std::span<const std::uint32_t> entries = c.lists->block(block);
       for (std::size_t k = 0; k < entries.size(); k += V::lanes) {
-        for (int l = 0; l < V::lanes; ++l)
-          row[l] = rows + static_cast<std::size_t>(entries[k + static_cast<std::size_t>(l)]) * Layout::stride;
-        load(row, other);
+        load_rows<Layout::stride>(rows, entries.data() + k, other);
         Pair<T, D, values> pair;
         pair.own = own;
         pair.other = other;
@@ -135,14 +133,6 @@ struct PairPass {
   static T* rows_of(const PassContext& c) {
     return reinterpret_cast<T*>(
         aligned_scratch(*c.rows, (c.particles->rows() + V::lanes) * Layout::stride * sizeof(T)));
-  }
-
-  static void load(const T* const* row, V* out) {
-    for (int chunk = 0; chunk < Layout::stride; chunk += 4) {
-      const T* part[V::lanes];
-      for (int l = 0; l < V::lanes; ++l) part[l] = row[l] + chunk;
-      load_transposed(part, out + chunk);
-    }
   }
 
   static TermConstants<T> narrow(const TermConstants<double>& d) {

@@ -19,6 +19,11 @@ struct StepMaxima {
   double acceleration = 0;  ///< [m/s^2]
 };
 
+/// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
+inline constexpr double courant_limit = 1.2;
+/// What is recommended, and the default of time.cfl.
+inline constexpr double courant_recommended = 0.8;
+
 struct Pass {
   std::string name;
   const Fusion* fusion;
@@ -53,6 +58,8 @@ class Physics {
 
   /// Largest step the integrator takes [s], from the maxima of the step before.
   [[nodiscard]] double time_step(const StepMaxima& maxima) const;
+  /// Bound on how far any particle moves in the next step, shifting included [m].
+  [[nodiscard]] double longest_move(const GlobalState& global) const;
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
   [[nodiscard]] double courant_number(double dt) const;
 

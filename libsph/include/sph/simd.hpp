@@ -3,8 +3,12 @@
 // Never passed across a translation unit.
 #pragma once
 
-#if defined(__AVX__) || defined(__SSE2__)
+#if defined(__AVX512F__)
+// GCC 12 warns about its own _mm512_undefined (bug 105593).
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
 #include <immintrin.h>
+#pragma GCC diagnostic pop
 #endif
 
 #include <bit>
@@ -22,14 +26,12 @@ struct SimdTraits;
 template <>
 struct SimdTraits<float> {
   typedef float Native __attribute__((vector_size(64)));
-  typedef float Quarter __attribute__((vector_size(16)));
   typedef std::int32_t Int __attribute__((vector_size(64)));
   using IntScalar = std::int32_t;
 };
 template <>
 struct SimdTraits<double> {
   typedef double Native __attribute__((vector_size(64)));
-  typedef double Quarter __attribute__((vector_size(32)));
   typedef std::int64_t Int __attribute__((vector_size(64)));
   using IntScalar = std::int64_t;
 };
@@ -129,56 +131,92 @@ inline Simd<double> coordinate_difference(Simd<double> a, Simd<double> b) {
 #endif
 }
 
-/// Four consecutive values from each of `lanes` rows, transposed: out[k] lane l = row[l][k].
-inline void load_transposed(const float* const* row, Simd<float>* out) {
-  using Quarter = SimdTraits<float>::Quarter;
-  typedef float Half __attribute__((vector_size(32)));
-  using Native = Simd<float>::Native;
-  Native r[4];
-  for (int k = 0; k < 4; ++k) {
-    Quarter q[4];
-    for (int i = 0; i < 4; ++i) std::memcpy(&q[i], row[4 * i + k], sizeof(Quarter));
-    const Half lo = __builtin_shufflevector(q[0], q[1], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Half hi = __builtin_shufflevector(q[2], q[3], 0, 1, 2, 3, 4, 5, 6, 7);
-    r[k] = __builtin_shufflevector(lo, hi, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  }
-  const auto unpack_low = [](Native a, Native b) {
-    return __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
-  };
-  const auto unpack_high = [](Native a, Native b) {
-    return __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
-  };
-  const Native t0 = unpack_low(r[0], r[1]), t1 = unpack_low(r[2], r[3]);
-  const Native t2 = unpack_high(r[0], r[1]), t3 = unpack_high(r[2], r[3]);
-  const auto low_pairs = [](Native a, Native b) {
-    return __builtin_shufflevector(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29);
-  };
-  const auto high_pairs = [](Native a, Native b) {
-    return __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
-  };
-  out[0].v = low_pairs(t0, t1);
-  out[1].v = high_pairs(t0, t1);
-  out[2].v = low_pairs(t2, t3);
-  out[3].v = high_pairs(t2, t3);
+namespace simd_detail {
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+
+/// Rows 0..3 of this quarter in the low halves and 4..7 in the high ones, transposed 4 x 4 in every 128 bits.
+inline void transpose_quarters(__m512 (&r)[4]) {
+  const __m512 t0 = _mm512_unpacklo_ps(r[0], r[1]), t1 = _mm512_unpacklo_ps(r[2], r[3]);
+  const __m512 t2 = _mm512_unpackhi_ps(r[0], r[1]), t3 = _mm512_unpackhi_ps(r[2], r[3]);
+  r[0] = _mm512_shuffle_ps(t0, t1, 0x44);
+  r[1] = _mm512_shuffle_ps(t0, t1, 0xee);
+  r[2] = _mm512_shuffle_ps(t2, t3, 0x44);
+  r[3] = _mm512_shuffle_ps(t2, t3, 0xee);
 }
-inline void load_transposed(const double* const* row, Simd<double>* out) {
-  using Quarter = SimdTraits<double>::Quarter;
-  using Native = Simd<double>::Native;
-  Native r[4];
+
+/// Eight values of 16 rows: 16 loads of 256 bits and 24 shuffles.
+template <int Stride>
+inline void load8(const float* base, const std::uint32_t* index, Simd<float>* out) {
+  const auto row = [=](int l) { return base + static_cast<std::size_t>(index[l]) * Stride; };
+  __m512 a[4], b[4];
   for (int k = 0; k < 4; ++k) {
-    Quarter a, b;
-    std::memcpy(&a, row[k], sizeof(Quarter));
-    std::memcpy(&b, row[k + 4], sizeof(Quarter));
-    r[k] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+    a[k] = _mm512_castps256_ps512(_mm256_loadu_ps(row(k)));
+    a[k] = _mm512_mask_broadcast_f32x8(a[k], 0xff00, _mm256_loadu_ps(row(k + 4)));
+    b[k] = _mm512_castps256_ps512(_mm256_loadu_ps(row(k + 8)));
+    b[k] = _mm512_mask_broadcast_f32x8(b[k], 0xff00, _mm256_loadu_ps(row(k + 12)));
   }
-  const Native t0 = __builtin_shufflevector(r[0], r[1], 0, 8, 2, 10, 4, 12, 6, 14);
-  const Native t1 = __builtin_shufflevector(r[0], r[1], 1, 9, 3, 11, 5, 13, 7, 15);
-  const Native t2 = __builtin_shufflevector(r[2], r[3], 0, 8, 2, 10, 4, 12, 6, 14);
-  const Native t3 = __builtin_shufflevector(r[2], r[3], 1, 9, 3, 11, 5, 13, 7, 15);
-  out[0].v = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
-  out[1].v = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
-  out[2].v = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
-  out[3].v = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+  transpose_quarters(a);
+  transpose_quarters(b);
+  for (int k = 0; k < 4; ++k) {
+    out[k].v = std::bit_cast<Simd<float>::Native>(_mm512_shuffle_f32x4(a[k], b[k], 0x88));
+    out[k + 4].v = std::bit_cast<Simd<float>::Native>(_mm512_shuffle_f32x4(a[k], b[k], 0xdd));
+  }
+}
+
+template <int Stride>
+inline void load4(const float* base, const std::uint32_t* index, Simd<float>* out) {
+  const auto row = [=](int l) { return base + static_cast<std::size_t>(index[l]) * Stride; };
+  __m512 r[4];
+  for (int k = 0; k < 4; ++k) {
+    r[k] = _mm512_castps128_ps512(_mm_loadu_ps(row(k)));
+    r[k] = _mm512_mask_broadcast_f32x4(r[k], 0x00f0, _mm_loadu_ps(row(k + 4)));
+    r[k] = _mm512_mask_broadcast_f32x4(r[k], 0x0f00, _mm_loadu_ps(row(k + 8)));
+    r[k] = _mm512_mask_broadcast_f32x4(r[k], 0xf000, _mm_loadu_ps(row(k + 12)));
+  }
+  transpose_quarters(r);
+  for (int k = 0; k < 4; ++k) out[k].v = std::bit_cast<Simd<float>::Native>(r[k]);
+}
+
+template <int Stride>
+inline void load4(const double* base, const std::uint32_t* index, Simd<double>* out) {
+  const auto row = [=](int l) { return base + static_cast<std::size_t>(index[l]) * Stride; };
+  __m512d r[4];
+  for (int k = 0; k < 4; ++k) {
+    r[k] = _mm512_castpd256_pd512(_mm256_loadu_pd(row(k)));
+    r[k] = _mm512_mask_broadcast_f64x4(r[k], 0xf0, _mm256_loadu_pd(row(k + 4)));
+  }
+  const __m512d t0 = _mm512_unpacklo_pd(r[0], r[1]), t1 = _mm512_unpackhi_pd(r[0], r[1]);
+  const __m512d t2 = _mm512_unpacklo_pd(r[2], r[3]), t3 = _mm512_unpackhi_pd(r[2], r[3]);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  out[0].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t0, low, t2));
+  out[1].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t1, low, t3));
+  out[2].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t0, high, t2));
+  out[3].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t1, high, t3));
+}
+
+#else
+
+template <int Stride, class T>
+inline void load4(const T* base, const std::uint32_t* index, Simd<T>* out) {
+  for (int k = 0; k < 4; ++k)
+    for (int l = 0; l < Simd<T>::lanes; ++l) out[k].v[l] = base[static_cast<std::size_t>(index[l]) * Stride + k];
+}
+
+#endif
+
+}  // namespace simd_detail
+
+/// Rows index[0 .. lanes) of a table of Stride values a row, transposed: out[k] lane l = row index[l], value k.
+template <int Stride, class T>
+inline void load_rows(const T* base, const std::uint32_t* index, Simd<T>* out) {
+  static_assert(Stride % 4 == 0);
+  int k = 0;
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  if constexpr (sizeof(T) == 4)
+    for (; k + 8 <= Stride; k += 8) simd_detail::load8<Stride>(base + k, index, out + k);
+#endif
+  for (; k < Stride; k += 4) simd_detail::load4<Stride>(base + k, index, out + k);
 }
 
 }  // namespace sph

@@ -1,0 +1,17 @@
+# Install rules and the package: find_package(Peperite CONFIG) gives Peperite::fp, ::decomp and ::sph.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Peperite)
+
+install(TARGETS peperite_fp decomp sph EXPORT Peperite FILE_SET HEADERS)
+install(EXPORT Peperite NAMESPACE Peperite:: DESTINATION ${package_dir} FILE PeperiteTargets.cmake)
+configure_package_config_file(cmake/PeperiteConfig.cmake.in PeperiteConfig.cmake
+  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(PeperiteConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/PeperiteConfig.cmake ${PROJECT_BINARY_DIR}/PeperiteConfigVersion.cmake
+  DESTINATION ${package_dir})
+
+foreach(program peperite buoyant_cylinder)
+  if(TARGET ${program})
+    install(TARGETS ${program})
+  endif()
+endforeach()

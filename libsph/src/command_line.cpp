@@ -1,0 +1,189 @@
+#include "sph/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "sph/report.hpp"
+#include "sph/run.hpp"
+#include "sph/snapshot.hpp"
+
+namespace sph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// MPI from here to the end of the program; signals are caught before it begins.
+class Mpi {
+ public:
+  Mpi(int argc, char** argv) {
+    install_signal_handlers();
+    MPI_Init(&argc, &argv);
+  }
+  ~Mpi() { MPI_Finalize(); }
+  Mpi(const Mpi&) = delete;
+  Mpi& operator=(const Mpi&) = delete;
+};
+
+/// "H:M:S", "M:S" or "S" in seconds.
+double seconds_of(const std::string& text) {
+  double seconds = 0;
+  int parts = 0;
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (;; ++at) {
+    double part = 0;
+    const auto [stop, error] = std::from_chars(at, end, part, std::chars_format::fixed);
+    const bool good = error == std::errc() && part >= 0 && std::isfinite(part) && ++parts <= 3;
+    if (!good || (stop != end && *stop != ':'))
+      throw InputError("--max-time: \"" + text + "\" is not a time; write hours:minutes:seconds");
+    seconds = 60 * seconds + part;
+    at = stop;
+    if (at == end) return seconds;
+  }
+}
+
+/// Options of everything that runs; `max_time` is converted after parsing.
+struct Arguments {
+  RunOptions run;
+  std::string max_time, first, second;
+
+  void add_scene(CLI::App& app, bool required) {
+    app.add_option("case", run.scene, "the scene, a TOML file")->required(required)->type_name("FILE");
+    app.add_option("--set", run.overrides, "override a key of the scene: --set time.dt=1e-4")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    add_end(app);
+  }
+  void add_end(CLI::App& app) {
+    auto* steps =
+        app.add_option("--steps", run.steps, "end after this many steps, counted from 0")->type_name("N");
+    auto* until =
+        app.add_option("--until", run.until, "end at the first step with t >= T [s]")->type_name("T");
+    steps->excludes(until);
+  }
+  void add_out(CLI::App& app) {
+    app.add_option("--out", run.out, "directory of the output, default out/<case>")->type_name("DIR");
+  }
+  void add_max_time(CLI::App& app) {
+    app.add_option("--max-time", max_time, "checkpoint, stop and exit 75 before so much wall time")
+        ->type_name("H:M:S");
+  }
+  [[nodiscard]] const RunOptions& options() {
+    if (!max_time.empty()) run.max_seconds = seconds_of(max_time);
+    return run;
+  }
+};
+
+/// The exit code if the command line says all there is to do (--help, --version); throws InputError if it is
+/// wrong.
+std::optional<int> parse(CLI::App& app, int argc, char** argv, const decomp::Comm& comm) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& success) {
+    if (comm.rank() == 0) app.exit(success);
+    return exit_done;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + " (see --help)");
+  }
+}
+
+std::string version_text() {
+  const BuildInfo& b = build_info();
+  return fmt::format(
+      "peperite {}\ngit      {}\ncompiler {}\nflags    {}\nbuild    {}\nMPI      {}\nHDF5     {}", b.version,
+      b.git, b.compiler, b.flags, b.build_type, b.mpi, b.hdf5);
+}
+
+std::string case_file(const std::string& asked, const Application& application) {
+  const std::string name = asked.empty() ? application.default_case : asked;
+  std::error_code none;
+  if (!asked.empty() && (fs::exists(name, none) || fs::path(name).has_parent_path())) return name;
+  for (const fs::path& folder : application.case_folders)
+    if (fs::exists(folder / name, none)) return (folder / name).string();
+  return name;
+}
+
+template <class Work>
+int run_program(int argc, char** argv, Work&& work) {
+  const Mpi mpi(argc, argv);
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  Failure failure(comm);
+  return failure.guard([&] { return work(comm, failure); });
+}
+
+/// The serial subcommands: one rank does the work, all return its exit code.
+template <class Work>
+int on_one_rank(const decomp::Comm& comm, Work&& work) {
+  if (comm.rank() != 0) return exit_done;
+  return work();
+}
+
+}  // namespace
+
+fs::path program_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::path() : program.parent_path();
+}
+
+int application_main(int argc, char** argv, const Application& application) {
+  return run_program(argc, argv, [&](const decomp::Comm& comm, Failure& failure) {
+    CLI::App app(application.description, application.name);
+    app.set_version_flag("--version", version_text());
+    Arguments arguments;
+    arguments.add_scene(app, false);
+    arguments.add_out(app);
+    arguments.add_max_time(app);
+    if (const auto code = parse(app, argc, argv, comm)) return *code;
+    RunOptions options = arguments.options();
+    options.scene = case_file(options.scene, application);
+    return run_case(options, comm, failure);
+  });
+}
+
+int tool_main(int argc, char** argv) {
+  return run_program(argc, argv, [&](const decomp::Comm& comm, Failure& failure) {
+    CLI::App app("Particle simulations with the same bits on any number of ranks", "peperite");
+    app.set_version_flag("--version", version_text());
+    app.require_subcommand(1);
+    Arguments arguments;
+    CLI::App& run = *app.add_subcommand("run", "run a scene");
+    arguments.add_scene(run, true);
+    arguments.add_out(run);
+    arguments.add_max_time(run);
+    CLI::App& check = *app.add_subcommand("check", "validate a scene and say what running it costs");
+    arguments.add_scene(check, true);
+    CLI::App& resume = *app.add_subcommand("resume", "go on from the last checkpoint of a run");
+    resume.add_option("dir", arguments.run.resume, "the directory of the run")->required()->type_name("DIR");
+    arguments.add_end(resume);
+    arguments.add_max_time(resume);
+    CLI::App& info = *app.add_subcommand("info", "describe a snapshot or a checkpoint");
+    info.add_option("file", arguments.first, "snapshot, checkpoint or run directory")->required();
+    CLI::App& diff = *app.add_subcommand("diff", "compare two states bit by bit; exits 1 if they differ");
+    diff.add_option("a", arguments.first, "snapshot, checkpoint or run directory")->required();
+    diff.add_option("b", arguments.second, "another")->required();
+    if (const auto code = parse(app, argc, argv, comm)) return *code;
+
+    if (check.parsed()) return check_case(arguments.options(), comm);
+    if (info.parsed())
+      return on_one_rank(comm, [&] {
+        fmt::print("{}\n", describe(arguments.first));
+        return exit_done;
+      });
+    if (diff.parsed())
+      return on_one_rank(comm, [&] {
+        const std::string difference = first_difference(arguments.first, arguments.second);
+        if (difference.empty()) return exit_done;
+        fmt::print("{}\n", difference);
+        return exit_differ;
+      });
+    return run_case(arguments.options(), comm, failure);
+  });
+}
+
+}  // namespace sph

@@ -1,0 +1,65 @@
+// The output quantities of one particle in SI, in the order of the columns of series.csv: x.., v.., rho, p,
+// and psi where the scene has it.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sph/simulation.hpp"
+
+namespace sph {
+
+class ParticleValues {
+ public:
+  explicit ParticleValues(const Simulation& s)
+      : particles_(s.particles()),
+        scale_(s.scale()),
+        wrap_(s.wrap()),
+        d_(static_cast<std::size_t>(s.scene().dim)) {}
+
+  [[nodiscard]] const Particles& particles() const { return particles_; }
+  [[nodiscard]] double mass(std::size_t row) const { return particles_.data<Field::mass>()[row]; }
+  [[nodiscard]] std::uint32_t group(std::size_t row) const { return particles_.data<Field::group>()[row]; }
+  [[nodiscard]] std::int64_t quanta(std::size_t row, std::size_t axis) const {
+    return wrap_(static_cast<int>(axis), particles_.data<Field::position>()[row * d_ + axis]);
+  }
+  [[nodiscard]] double position(std::size_t row, std::size_t axis) const {
+    return scale_.metres(quanta(row, axis));
+  }
+  [[nodiscard]] double velocity(std::size_t row, std::size_t axis) const {
+    return particles_.data<Field::velocity>()[row * d_ + axis];
+  }
+
+  /// Writes count() values.
+  void all(std::size_t row, std::span<double> to) const {
+    std::size_t k = 0;
+    for (std::size_t a = 0; a < d_; ++a) to[k++] = position(row, a);
+    for (std::size_t a = 0; a < d_; ++a) to[k++] = velocity(row, a);
+    to[k++] = particles_.data<Field::density>()[row];
+    to[k++] = particles_.data<Field::pressure>()[row];
+    if (const double* psi = particles_.data<Field::void_fraction>()) to[k++] = psi[row];
+  }
+  [[nodiscard]] static std::vector<std::string> names(const Particles& p) {
+    std::vector<std::string> out;
+    constexpr std::array axes{"x", "y", "z"};
+    for (int a = 0; a < p.dim(); ++a) out.emplace_back(axes[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < p.dim(); ++a) out.push_back(std::string("v") + axes[static_cast<std::size_t>(a)]);
+    out.emplace_back("rho");
+    out.emplace_back("p");
+    if (p.has(Field::void_fraction)) out.emplace_back("psi");
+    return out;
+  }
+  [[nodiscard]] static std::size_t count(const Particles& p) {
+    return static_cast<std::size_t>(2 * p.dim()) + (p.has(Field::void_fraction) ? 3 : 2);
+  }
+
+ private:
+  const Particles& particles_;
+  const PositionScale& scale_;
+  Wrap wrap_;
+  std::size_t d_;
+};
+
+}  // namespace sph

@@ -1,0 +1,59 @@
+// The directory of a run: scene.toml, series.csv, snapshot_<step>.h5, particles.xdmf, checkpoint/, crash/.
+// Every failure to write is an OutputError on all ranks, whichever rank met it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sph/monitors.hpp"
+#include "sph/series.hpp"
+#include "sph/simulation.hpp"
+#include "sph/snapshot.hpp"
+
+namespace sph {
+
+/// What a checkpoint remembers besides the state, so that the files of a resumed run end as if it had never
+/// stopped.
+struct RunMemory {
+  std::vector<std::uint64_t> monitor_ids;
+  std::uint64_t series_bytes = 0;
+  std::vector<SnapshotEntry> snapshots;
+};
+[[nodiscard]] std::string to_json(const RunMemory& memory);
+[[nodiscard]] RunMemory memory_from_json(const std::string& text);  ///< throws InputError
+
+/// Throws InputError if the directory holds a run already. Collective.
+void refuse_used_directory(const decomp::Comm& comm, const std::filesystem::path& dir);
+
+class RunFiles {
+ public:
+  /// Of a new run: creates the directory, removes what an earlier start without a checkpoint has left, writes
+  /// scene.toml. Throws InputError where nothing can be written. Collective, as all members are.
+  RunFiles(const Simulation& simulation, std::filesystem::path dir);
+  /// Of one that goes on: cuts series.csv and the XDMF index back to the checkpoint.
+  RunFiles(const Simulation& simulation, std::filesystem::path dir, const RunMemory& memory);
+
+  void add_series_row(const Simulation& simulation);
+  /// `scheduled`: it belongs to the run's rhythm and is remembered; the last state need not.
+  void add_snapshot(Simulation& simulation, bool scheduled);
+  void write_checkpoint(const Simulation& simulation);
+  /// Where the state was kept for inspection. `together`: all ranks are here; else this one alone.
+  [[nodiscard]] std::filesystem::path keep_crashed_state(const Simulation& simulation, bool together) const;
+
+  [[nodiscard]] const std::filesystem::path& dir() const { return dir_; }
+
+ private:
+  [[nodiscard]] Provenance provenance(const Simulation& simulation) const;
+  void remove_unlisted_snapshots(const Simulation& simulation) const;
+  void write_scene(const Simulation& simulation) const;
+
+  std::filesystem::path dir_;
+  Monitors monitors_;
+  std::optional<Series> series_;  ///< on rank 0
+  std::uint64_t series_bytes_ = 0;
+  std::vector<SnapshotEntry> snapshots_;
+};
+
+}  // namespace sph

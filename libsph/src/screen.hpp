@@ -1,0 +1,36 @@
+// What a run says: banner, status lines, final table, perf.json and the fingerprint line. Rank 0 prints.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+
+#include "sph/simulation.hpp"
+
+namespace sph {
+
+class Screen {
+ public:
+  explicit Screen(Simulation& simulation);
+
+  void banner() const;
+  void status();  ///< collective
+  /// Table, perf.json in `dir`, fingerprint line. Collective. Throws OutputError on all ranks.
+  void final_report(const std::filesystem::path& dir);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  [[nodiscard]] double seconds_left() const;
+  [[nodiscard]] double computation() const;  ///< seconds of this rank since the start
+
+  Simulation& simulation_;
+  GlobalState first_;  ///< when this run began
+  Clock::time_point begin_ = Clock::now();
+  GlobalState last_;  ///< at the last status line
+  Clock::time_point last_time_ = begin_;
+  double last_computation_ = 0;
+};
+
+/// "fingerprint <hex> step <n> t <time>". Collective.
+void print_fingerprint(const Simulation& simulation);
+
+}  // namespace sph

@@ -1,0 +1,22 @@
+// What the scenes of this folder need of src/fusions_3d_*.cpp.
+#include "fusion_list.hpp"
+
+namespace sph {
+namespace {
+
+template <class T>
+std::vector<Fusion> few() {
+  using List = FusionList<T, 3>;
+  return {
+      List::template fuse<Quintic, VelocityGradient, DensityDiffusion>(),
+      List::template fuse<Quintic, WallExtrapolation>(),
+      List::template fuse<Quintic, StressDivergence, Viscosity>(),
+  };
+}
+
+}  // namespace
+
+std::vector<Fusion> fusions_3d_float() { return few<float>(); }
+std::vector<Fusion> fusions_3d_double() { return few<double>(); }
+
+}  // namespace sph

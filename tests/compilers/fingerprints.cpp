@@ -1,0 +1,67 @@
+// fingerprints <folder of scenes>: runs each scene for 100 steps and prints "scene precision fingerprint",
+// one line a run. First line: "libm <hash>", of results that must never feed the state; compare.py uses it to
+// see that masking CPU features had an effect.
+#include <mpi.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "decomp/comm.hpp"
+#include "sph/scene.hpp"
+#include "sph/self_check.hpp"
+#include "sph/simulation.hpp"
+
+namespace {
+
+struct Case {
+  const char* scene;
+  std::vector<std::string> overrides;
+};
+
+std::uint64_t libm_hash() {
+  std::uint64_t hash = 0;
+  for (int k = 1; k <= 2000; ++k) {
+    const double x = 0.37 * k;
+    for (double y : {std::sin(x), std::exp(-x / 100), std::pow(x, 0.7), std::log(x)})
+      hash = (hash ^ std::bit_cast<std::uint64_t>(y)) * 0x9e3779b97f4a7c15U + (hash >> 29);
+  }
+  return hash;
+}
+
+void run(const decomp::Comm& comm, const std::string& folder, const Case& c) {
+  for (const char* precision : {"double", "mixed"}) {
+    std::vector<std::string> overrides = c.overrides;
+    overrides.push_back("precision=" + std::string(precision));
+    sph::Simulation simulation(comm, sph::read_scene(folder + "/" + c.scene + ".toml", overrides));
+    for (int step = 0; step < 100; ++step) simulation.step();
+    const std::string print = simulation.fingerprint();
+    std::string name = c.scene;
+    for (const std::string& o : c.overrides) name += "+" + o;
+    if (comm.rank() == 0) std::printf("%s %s %s\n", name.c_str(), precision, print.c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  MPI_Init(&argc, &argv);
+  int status = 0;
+  try {
+    sph::self_check();
+    const decomp::Comm comm(MPI_COMM_WORLD);
+    if (comm.rank() == 0) std::printf("libm %016llx\n", static_cast<unsigned long long>(libm_hash()));
+    for (const Case& c : {Case{"fluid", {}}, Case{"fluid", {"formulation=ida"}}, Case{"flow", {}},
+                          Case{"solid", {}}, Case{"gas", {}}, Case{"box", {}}})
+      run(comm, argv[1], c);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    status = 1;
+  }
+  if (status != 0) MPI_Abort(MPI_COMM_WORLD, status);
+  MPI_Finalize();
+}

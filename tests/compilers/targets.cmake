@@ -1,0 +1,14 @@
+# Same bits from every compiler (compare.py), and the start-up check that refuses a build that breaks the rules.
+add_executable(fingerprints compilers/fingerprints.cpp)
+target_link_libraries(fingerprints PRIVATE sph peperite_build)
+add_test(NAME compilers
+  COMMAND ${PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/compilers/compare.py --native $<TARGET_FILE:fingerprints>
+          --work ${CMAKE_CURRENT_BINARY_DIR}/compilers --mpiexec ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG})
+set_tests_properties(compilers PROPERTIES
+  ENVIRONMENT "${PEPERITE_MPI_ENVIRONMENT}" TIMEOUT 600 PROCESSORS 2)
+
+add_executable(contraction compilers/test_contraction.cpp ${PROJECT_SOURCE_DIR}/libsph/src/self_check.cpp)
+target_include_directories(contraction PRIVATE ${PROJECT_SOURCE_DIR}/libsph/src)
+target_link_libraries(contraction PRIVATE sph peperite_build fmt::fmt PkgConfig::xxhash)
+target_compile_options(contraction PRIVATE -O2 -mfma -ffp-contract=fast)
+add_test(NAME self_check.contraction COMMAND contraction)
