@@ -28,17 +28,12 @@ std::vector<std::string> with_end(const RunOptions& options) {
   return overrides;
 }
 
-/// Whatever is wrong with a scene names its file.
 template <class Make>
 std::unique_ptr<Simulation> simulate(const Scene& scene, Make&& make) {
-  try {
+  return naming_file(scene, [&] {
     check_time_step(scene);
     return make();
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    if (text.starts_with(scene.file)) throw;
-    throw InputError(scene.file + ": " + text);
-  }
+  });
 }
 
 void check_record(const decomp::Comm& comm, const Scene& scene) {

@@ -22,4 +22,16 @@ struct RunStart {
 
 [[nodiscard]] bool is_finished(const Scene& scene, const GlobalState& global);
 
+/// Does `work`; an InputError in it that does not say so is about the scene's file.
+template <class Work>
+auto naming_file(const Scene& scene, Work&& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    if (text.starts_with(scene.file)) throw;
+    throw InputError(scene.file + ": " + text);
+  }
+}
+
 }  // namespace sph

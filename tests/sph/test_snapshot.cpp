@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
-#include <hdf5.h>
 #include <sys/resource.h>
 
 #include <csignal>
 #include <fstream>
 #include <sstream>
 
+#include "../../libsph/src/hdf5_file.hpp"
 #include "sph/error.hpp"
 #include "sph/fingerprint.hpp"
 #include "sph/snapshot.hpp"
@@ -24,15 +24,11 @@ std::string contents(const std::filesystem::path& path) {
   return out.str();
 }
 
-std::vector<double> read(const std::filesystem::path& path, const char* name) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
-  const hid_t space = H5Dget_space(data);
-  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  EXPECT_GE(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << name;
-  H5Sclose(space);
-  H5Dclose(data);
-  H5Fclose(file);
+/// All values of a data set, whatever their type.
+std::vector<double> read(const std::filesystem::path& path, const std::string& name) {
+  const Hdf5Reader file(path);
+  std::vector<double> values(file.rows(name) * static_cast<std::size_t>(file.components(name)));
+  if (!values.empty()) file.read(name, Element::f64, values.data());
   return values;
 }
 
@@ -80,12 +76,12 @@ TEST_F(SnapshotTest, HasTheSameBytesForAnyRanksAndCuts) {
 TEST_F(SnapshotTest, HoldsTheValuesSortedById) {
   const Particles p = make_state(world_, count, scattered);
   write(world_, dir_ / "a.h5", p);
-  const std::vector<double> id = read(dir_ / "a.h5", "/particles/id");
+  const std::vector<double> id = read(dir_ / "a.h5", "particles/id");
   ASSERT_EQ(id.size(), count);
   for (std::uint64_t n = 0; n < count; ++n) EXPECT_EQ(id[n], static_cast<double>(nth_id(n)));
-  const std::vector<double> metres = read(dir_ / "a.h5", "/particles/position");
-  const std::vector<double> quanta = read(dir_ / "a.h5", "/particles/position_quanta");
-  const std::vector<double> mean = read(dir_ / "a.h5", "/particles/mean_velocity");
+  const std::vector<double> metres = read(dir_ / "a.h5", "particles/position");
+  const std::vector<double> quanta = read(dir_ / "a.h5", "particles/position_quanta");
+  const std::vector<double> mean = read(dir_ / "a.h5", "particles/mean_velocity");
   ASSERT_EQ(metres.size(), 2 * count);
   ASSERT_EQ(quanta.size(), 2 * count);
   ASSERT_EQ(mean.size(), 2 * count);
@@ -102,7 +98,7 @@ TEST_F(SnapshotTest, HoldsTheValuesSortedById) {
 TEST_F(SnapshotTest, KeepsOwnerOrderAboveTheLimit) {
   const Particles p = make_state(world_, count, all_on_last);
   write(world_, dir_ / "a.h5", p, static_cast<std::int64_t>(count) - 1);
-  const std::vector<double> id = read(dir_ / "a.h5", "/particles/id");
+  const std::vector<double> id = read(dir_ / "a.h5", "particles/id");
   ASSERT_EQ(id.size(), count);
   EXPECT_EQ(id.front(), static_cast<double>(nth_id(count - 1)));
   write(world_, dir_ / "b.h5", p);
@@ -117,10 +113,10 @@ TEST_F(SnapshotTest, TakesExtremeIdsAndNoParticles) {
     fill_row(p, 1, 0);
   }
   write_snapshot(world_, dir_ / "a.h5", p, {}, {}, {}, {}, {}, sort_always);
-  EXPECT_EQ(read(dir_ / "a.h5", "/particles/id").front(), 0);
+  EXPECT_EQ(read(dir_ / "a.h5", "particles/id").front(), 0);
   p.table().resize(0, 0);
   write_snapshot(world_, dir_ / "b.h5", p, {}, {}, {}, {}, {}, sort_always);
-  EXPECT_EQ(read(dir_ / "b.h5", "/particles/id").size(), 0U);
+  EXPECT_EQ(read(dir_ / "b.h5", "particles/id").size(), 0U);
   EXPECT_EQ(first_difference(dir_ / "b.h5", dir_ / "b.h5"), "");
 }
 
@@ -219,7 +215,7 @@ TEST_F(SnapshotTest, AFullDiskIsAnErrorAndTheOldFileStays) {
     EXPECT_FALSE(std::filesystem::exists(dir_ / "a.h5.tmp"));
   }
   write(world_, dir_ / "a.h5", p);
-  EXPECT_EQ(read(dir_ / "a.h5", "/particles/id").size(), 20000U);
+  EXPECT_EQ(read(dir_ / "a.h5", "particles/id").size(), 20000U);
 }
 
 TEST_F(SnapshotTest, XdmfPointsIntoTheFiles) {

@@ -14,6 +14,8 @@
 
 namespace sph {
 
+class CellBins;
+
 /// Consecutive owned rows that a pass can run over, and the first block of their lists.
 struct RowRange {
   std::size_t first = 0, last = 0;
@@ -46,9 +48,9 @@ class NeighbourLists {
   [[nodiscard]] std::size_t bytes() const { return entries_.capacity() * 4 + begin_.capacity() * 8; }
 
  private:
-  struct Cells;
-  void find(const Particles&, const decomp::CellGrid&, const decomp::Box&, std::int64_t radius, RowRanges&);
-  void sort_by_id(const Particles&, const RowRanges&);
+  template <int D>
+  void find(const CellBins&, const std::vector<std::uint32_t>& tags, RowRanges&);
+  void finish(const std::vector<std::uint32_t>& row_of_tag, const RowRanges&, bool sort);
 
   int lanes_;
   std::vector<std::uint64_t> begin_;  ///< entries before each block, then their number

@@ -145,10 +145,9 @@ inline void transpose_quarters(__m512 (&r)[4]) {
   r[3] = _mm512_shuffle_ps(t2, t3, 0xee);
 }
 
-/// Eight values of 16 rows: 16 loads of 256 bits and 24 shuffles.
-template <int Stride>
-inline void load8(const float* base, const std::uint32_t* index, Simd<float>* out) {
-  const auto row = [=](int l) { return base + static_cast<std::size_t>(index[l]) * Stride; };
+/// Eight values of 16 rows (the rest of a row may be anything): 16 loads of 256 bits and 24 shuffles.
+inline void load8(const float* base, std::size_t stride, const std::uint32_t* index, Simd<float>* out) {
+  const auto row = [=](int l) { return base + index[l] * stride; };
   __m512 a[4], b[4];
   for (int k = 0; k < 4; ++k) {
     a[k] = _mm512_castps256_ps512(_mm256_loadu_ps(row(k)));
@@ -164,9 +163,8 @@ inline void load8(const float* base, const std::uint32_t* index, Simd<float>* ou
   }
 }
 
-template <int Stride>
-inline void load4(const float* base, const std::uint32_t* index, Simd<float>* out) {
-  const auto row = [=](int l) { return base + static_cast<std::size_t>(index[l]) * Stride; };
+inline void load4(const float* base, std::size_t stride, const std::uint32_t* index, Simd<float>* out) {
+  const auto row = [=](int l) { return base + index[l] * stride; };
   __m512 r[4];
   for (int k = 0; k < 4; ++k) {
     r[k] = _mm512_castps128_ps512(_mm_loadu_ps(row(k)));
@@ -178,9 +176,8 @@ inline void load4(const float* base, const std::uint32_t* index, Simd<float>* ou
   for (int k = 0; k < 4; ++k) out[k].v = std::bit_cast<Simd<float>::Native>(r[k]);
 }
 
-template <int Stride>
-inline void load4(const double* base, const std::uint32_t* index, Simd<double>* out) {
-  const auto row = [=](int l) { return base + static_cast<std::size_t>(index[l]) * Stride; };
+inline void load4(const double* base, std::size_t stride, const std::uint32_t* index, Simd<double>* out) {
+  const auto row = [=](int l) { return base + index[l] * stride; };
   __m512d r[4];
   for (int k = 0; k < 4; ++k) {
     r[k] = _mm512_castpd256_pd512(_mm256_loadu_pd(row(k)));
@@ -197,10 +194,10 @@ inline void load4(const double* base, const std::uint32_t* index, Simd<double>* 
 
 #else
 
-template <int Stride, class T>
-inline void load4(const T* base, const std::uint32_t* index, Simd<T>* out) {
-  for (int k = 0; k < 4; ++k)
-    for (int l = 0; l < Simd<T>::lanes; ++l) out[k].v[l] = base[static_cast<std::size_t>(index[l]) * Stride + k];
+template <class T>
+inline void load4(const T* base, std::size_t stride, const std::uint32_t* index, Simd<T>* out) {
+  for (std::size_t k = 0; k < 4; ++k)
+    for (int l = 0; l < Simd<T>::lanes; ++l) out[k].v[l] = base[index[l] * stride + k];
 }
 
 #endif
@@ -214,9 +211,9 @@ inline void load_rows(const T* base, const std::uint32_t* index, Simd<T>* out) {
   int k = 0;
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
   if constexpr (sizeof(T) == 4)
-    for (; k + 8 <= Stride; k += 8) simd_detail::load8<Stride>(base + k, index, out + k);
+    for (; k + 8 <= Stride; k += 8) simd_detail::load8(base + k, Stride, index, out + k);
 #endif
-  for (; k < Stride; k += 4) simd_detail::load4<Stride>(base + k, index, out + k);
+  for (; k < Stride; k += 4) simd_detail::load4(base + k, Stride, index, out + k);
 }
 
 }  // namespace sph

@@ -1,0 +1,88 @@
+#include "factors.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace equivalence {
+
+const std::array<FactorInfo, factor_count>& factors() {
+  static const std::array<FactorInfo, factor_count> table{{
+      {"scene", {"fluid2d", "solid2d", "gas2d", "ida2d", "flow2d", "fluid3d", "solid3d", "gas3d"}},
+      {"precision", {"double", "mixed"}},
+      {"ranks", {"2", "3", "4", "5", "7", "8"}},
+      {"cuts", {"uniform", "time", "counts", "chaos", "replay"}},
+      {"overlap", {"on", "off"}},
+      {"order", {"placed", "shuffled"}},
+      {"list", {"small", "large", "every"}},
+      // other: from another count above one; from_one: 1 -> ranks; to_one: ranks -> 1
+      {"restart", {"none", "other", "from_one", "to_one"}},
+  }};
+  return table;
+}
+
+int Row::ranks() const {
+  const std::string_view text = (*this)[Factor::ranks];
+  int n = 0;
+  std::from_chars(text.data(), text.data() + text.size(), n);
+  return n;
+}
+
+std::string to_text(const Row& row) {
+  std::string text;
+  for (std::size_t f = 0; f < factor_count; ++f)
+    text += (f > 0 ? " " : "") + std::string(factors()[f].name) + "=" +
+            std::string(factors()[f].levels[row.level[f]]);
+  return text;
+}
+
+Row row_from_text(const std::string& text) {
+  std::istringstream words(text);
+  Row row;
+  for (std::size_t f = 0; f < factor_count; ++f) {
+    const FactorInfo& factor = factors()[f];
+    const std::string start = std::string(factor.name) + "=";
+    std::string word;
+    words >> word;
+    const auto level = word.starts_with(start) ? std::find(factor.levels.begin(), factor.levels.end(),
+                                                           std::string_view(word).substr(start.size()))
+                                               : factor.levels.end();
+    if (level == factor.levels.end())
+      throw std::runtime_error("row: '" + word + "' stands where one of the levels of '" + start +
+                               "' is expected");
+    row.level[f] = static_cast<std::uint8_t>(level - factor.levels.begin());
+  }
+  return row;
+}
+
+std::vector<Row> full_product() {
+  std::vector<Row> rows{Row{}};
+  for (std::size_t f = 0; f < factor_count; ++f) {
+    std::vector<Row> longer;
+    for (Row row : rows)
+      for (std::size_t l = 0; l < factors()[f].levels.size(); ++l) {
+        row.level[f] = static_cast<std::uint8_t>(l);
+        longer.push_back(row);
+      }
+    rows = std::move(longer);
+  }
+  return rows;
+}
+
+void shuffle(std::vector<Row>& rows, std::uint64_t seed) {
+  for (std::size_t n = rows.size(); n > 1; --n)
+    std::swap(rows[n - 1], rows[draw(seed, "shuffle" + std::to_string(n)) % n]);
+}
+
+std::uint64_t draw(std::uint64_t seed, std::string_view purpose) {
+  // FNV-1a over the text, then the finaliser of splitmix64 so that all bits are usable
+  std::uint64_t hash = 0xcbf29ce484222325U ^ seed;
+  for (const char c : purpose) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9U;
+  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebU;
+  return hash ^ (hash >> 31);
+}
+
+}  // namespace equivalence
