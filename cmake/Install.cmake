@@ -1,4 +1,5 @@
-# Install rules and the package: find_package(Peperite CONFIG) gives Peperite::fp, ::decomp and ::sph.
+# Install rules and the package: find_package(Peperite CONFIG) gives Peperite::fp, ::decomp and ::sph. The
+# programs install themselves in apps/.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Peperite)
 
@@ -9,9 +10,3 @@ configure_package_config_file(cmake/PeperiteConfig.cmake.in PeperiteConfig.cmake
 write_basic_package_version_file(PeperiteConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/PeperiteConfig.cmake ${PROJECT_BINARY_DIR}/PeperiteConfigVersion.cmake
   DESTINATION ${package_dir})
-
-foreach(program peperite buoyant_cylinder)
-  if(TARGET ${program})
-    install(TARGETS ${program})
-  endif()
-endforeach()

@@ -75,8 +75,9 @@ std::string passes_text(const Scene& scene, const Physics& physics) {
   const std::vector<FieldSet> sent = refreshes_of(physics);
   for (std::size_t k = 0; k < sent.size(); ++k) {
     const Pass& pass = physics.passes()[k];
-    out += fmt::format("pass {}: {}\n  reads {}\n  sends before it {} ({} bytes)\n", pass.name,
-                       terms_of(pass), names_of(pass.reads), names_of(sent[k]), bytes_of(sent[k], scene.dim));
+    out +=
+        fmt::format("pass {}: {}\n  reads {}\n  sends before it {} ({} bytes)\n", pass.name, terms_of(pass),
+                    names_of(pass.reads & physics.fields()), names_of(sent[k]), bytes_of(sent[k], scene.dim));
   }
   return out;
 }

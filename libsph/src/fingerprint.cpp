@@ -39,7 +39,7 @@ class Record {
  public:
   explicit Record(const Particles& particles) : particles_(particles) {
     std::size_t length = 0;
-    for (Field f : state_of(particles.fields()).list()) {
+    for (Field f : state_of(particles.fields()).without(output_averages).list()) {
       const decomp::Column& column = particles.table().column(particles.column(f));
       parts_.push_back({f, column.data(), column.width()});
       length += column.width();

@@ -106,6 +106,9 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
   particles.data<Field::pressure>()[i] = 0;
+  if (auto* mean = particles.data<Field::velocity_mean>())
+    for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = p.velocity[a];
+  if (auto* mean = particles.data<Field::pressure_mean>()) mean[i] = 0;
 }
 
 }  // namespace sph

@@ -91,7 +91,8 @@ Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene
   const auto fluid = std::find_if(scene.groups.begin(), scene.groups.end(),
                                   [](const Group& g) { return g.kind != GroupKind::wall; });
   constants_ = {};
-  for (int a = 0; a < 3; ++a) constants_.gravity[a] = scene.gravity[static_cast<std::size_t>(a)] * h;
+  // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
+  for (std::size_t a = 0; a < 3; ++a) constants_.gravity[a] = scene.periodic[a] ? 0.0 : scene.gravity[a] * h;
   constants_.viscosity = fluid->viscosity / h;
   constants_.density = fluid->density;
   constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
@@ -103,6 +104,7 @@ Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene
   if (scene.has_bubbly()) fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     fields_ |= FieldSet{Field::stress};
+  if (scene.output.average_time > 0) fields_ |= output_averages;
   if (scene.formulation == Formulation::ida)
     build_ida();
   else

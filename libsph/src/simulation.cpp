@@ -98,6 +98,11 @@ void Simulation::refresh_end() {
   distribution_.halo().end();
 }
 
+void Simulation::refresh_halo(FieldSet fields) {
+  refresh_begin(fields);
+  refresh_end();
+}
+
 // The one reduction of a step. What it brings acts in the next step.
 std::int64_t Simulation::finish_step(const StepMaxima& maxima, std::int64_t request) {
   const double moved = displacement();

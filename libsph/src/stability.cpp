@@ -14,9 +14,11 @@ double courant_number_of(const Scene& scene) {
 void check_time_step(const Scene& scene) {
   const double courant = courant_number_of(scene);
   if (courant <= courant_limit) return;
-  throw InputError(fmt::format(
-      "{}: {}: c dt/h = {:.3g} is above the integrator's limit {}; reduce it by {:.3g}", scene.file,
-      scene.time.dt ? "time.dt" : "time.cfl", courant, courant_limit, courant / courant_limit));
+  const double ratio = courant_limit / courant;
+  throw InputError(
+      fmt::format("{}: {}: c dt/h = {:.3g} is above the integrator's limit {}; set it to {:.3g}{} or less",
+                  scene.file, scene.time.dt ? "time.dt" : "time.cfl", courant, courant_limit,
+                  ratio * scene.time.dt.value_or(scene.time.cfl), scene.time.dt ? " s" : ""));
 }
 
 }  // namespace sph

@@ -173,7 +173,21 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   if (scene_->terms.shifting) shift(p, ranges, global);
   if (bulk_viscous_) for_movers(ranges, [&](std::size_t i) { derive(p, i, i + 1); });
   if (!transitions_.empty()) for_movers(ranges, [&](std::size_t i) { change_group(p, i); });
+  if (p.has(Field::velocity_mean)) average(p, global);
   return {std::sqrt(speed2), std::sqrt(acceleration2)};
+}
+
+// a += dt/T (f - a), T the time since the start until that is the scene's window: from the plain mean to an
+// exponential one. Nothing reads it but output.
+void Physics::average(Particles& p, const GlobalState& global) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double weight = global.dt / std::fmin(scene_->output.average_time, global.time + global.dt);
+  const double w = std::fmin(weight, 1.0);
+  const auto follow = [&](double* mean, const double* value, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) mean[k] += w * (value[k] - mean[k]);
+  };
+  follow(p.data<Field::velocity_mean>(), p.data<Field::velocity>(), p.owned() * d);
+  follow(p.data<Field::pressure_mean>(), p.data<Field::pressure>(), p.owned());
 }
 
 // Sun et al. (2017): delta r = -2 h U_max dt S, at most U_max dt / 2 long.

@@ -109,9 +109,11 @@ inline double pressure_noise(const sph::Simulation& s) {
     };
     for (std::size_t j = i; j < fluid.size() && fluid[j].x[0] - fluid[i].x[0] < reach; ++j) add(fluid[j]);
     for (std::size_t j = i; j-- > 0 && fluid[i].x[0] - fluid[j].x[0] < reach;) add(fluid[j]);
-    const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+    const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                       m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                        m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    const double c0 = m[0][3] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][3] * m[2][2] - m[1][2] * m[2][3]) +
+    const double c0 = m[0][3] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                      m[0][1] * (m[1][3] * m[2][2] - m[1][2] * m[2][3]) +
                       m[0][2] * (m[1][3] * m[2][1] - m[1][1] * m[2][3]);
     const double fit = std::abs(det) > 1e-9 * m[0][0] * m[0][0] * m[0][0] ? c0 / det : m[0][3] / m[0][0];
     sum += fit * fit;

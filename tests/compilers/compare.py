@@ -5,6 +5,7 @@ with those of the program of this build. Build trees are kept in --work, so a se
 import argparse
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -29,13 +30,19 @@ def call(command, env=None):
     return done.stdout
 
 
-def build(name, work, jobs):
+def needed(native):
+    """Sources of libsph that went into the program, from its link map: half of them only do input and output."""
+    members = re.findall(r"libsph\.a\((\w+)\.cpp\.o\)", pathlib.Path(f"{native}.map").read_text())
+    return ";".join(sorted(set(members)))
+
+
+def build(name, options):
     cxx, cc, optimise, arch = BUILDS[name]
-    tree = work / name.replace(" ", "_")
+    tree = options.work / name.replace(" ", "_")
     call(["cmake", "-S", HERE, "-B", tree, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={cxx}",
           f"-DCMAKE_C_COMPILER={cc}", "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_FLAGS_RELEASE={optimise}",
-          f"-DPEPERITE_ARCH={arch}"])
-    call(["cmake", "--build", tree, "-j", str(jobs), "--target", "fingerprints"])
+          f"-DPEPERITE_ARCH={arch}", f"-DNEEDED={needed(options.native)}"])
+    call(["cmake", "--build", tree, "-j", str(options.jobs), "--target", "fingerprints"])
     return tree / "fingerprints"
 
 
@@ -47,7 +54,7 @@ def run(mpiexec, program, ranks, **environment):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--native", required=True, type=pathlib.Path, help="fingerprints of this build")
+    parser.add_argument("--native", required=True, type=pathlib.Path, help="fingerprints of this build, its link map beside it")
     parser.add_argument("--work", required=True, type=pathlib.Path, help="folder for the build trees")
     parser.add_argument("--mpiexec", nargs="+", default=["mpiexec", "-n"])
     parser.add_argument("--jobs", type=int, default=2)
@@ -72,7 +79,7 @@ def main():
         bad.append("the mask changed no libm result, so it tested nothing")
     for name in BUILDS:
         start = time.monotonic()
-        program = build(name, options.work, options.jobs)
+        program = build(name, options)
         built = time.monotonic()
         for ranks in (1, 2):
             compare(f"{name}, {ranks} ranks", run(options.mpiexec, program, ranks))

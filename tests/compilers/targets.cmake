@@ -1,6 +1,7 @@
 # Same bits from every compiler (compare.py), and the start-up check that refuses a build that breaks the rules.
 add_executable(fingerprints compilers/fingerprints.cpp)
 target_link_libraries(fingerprints PRIVATE sph peperite_build)
+target_link_options(fingerprints PRIVATE LINKER:-Map=$<TARGET_FILE:fingerprints>.map)
 add_test(NAME compilers
   COMMAND ${PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/compilers/compare.py --native $<TARGET_FILE:fingerprints>
           --work ${CMAKE_CURRENT_BINARY_DIR}/compilers --mpiexec ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG})

@@ -29,7 +29,8 @@ class Triples {
   [[nodiscard]] bool done() const { return left_ == 0; }
 
   /// How many open combinations of `row` have factor `f` and two of `chosen`.
-  [[nodiscard]] std::size_t gain(const Row& row, std::size_t f, const Order& chosen, std::size_t count) const {
+  [[nodiscard]] std::size_t gain(const Row& row, std::size_t f, const Order& chosen,
+                                 std::size_t count) const {
     std::size_t n = 0;
     for (std::size_t a = 0; a < count; ++a)
       for (std::size_t b = a + 1; b < count; ++b) n += open_[index(row, {f, chosen[a], chosen[b]})] ? 1 : 0;
@@ -68,8 +69,8 @@ class Triples {
  private:
   [[nodiscard]] std::size_t index(const Row& row, std::array<std::size_t, 3> f) const {
     std::sort(f.begin(), f.end());
-    return first_[f[0]][f[1]][f[2]] +
-           (row.level[f[0]] * levels(f[1]) + row.level[f[1]]) * levels(f[2]) + row.level[f[2]];
+    return first_[f[0]][f[1]][f[2]] + (row.level[f[0]] * levels(f[1]) + row.level[f[1]]) * levels(f[2]) +
+           row.level[f[2]];
   }
 
   std::size_t first_[factor_count][factor_count][factor_count]{};

@@ -32,9 +32,10 @@ int Row::ranks() const {
 
 std::string to_text(const Row& row) {
   std::string text;
-  for (std::size_t f = 0; f < factor_count; ++f)
-    text += (f > 0 ? " " : "") + std::string(factors()[f].name) + "=" +
-            std::string(factors()[f].levels[row.level[f]]);
+  for (std::size_t f = 0; f < factor_count; ++f) {
+    if (f > 0) text += ' ';
+    text.append(factors()[f].name).append("=").append(factors()[f].levels[row.level[f]]);
+  }
   return text;
 }
 

@@ -30,6 +30,8 @@ enum class Field : std::uint8_t {
   spread,
   wall_sums,
   reference,
+  velocity_mean,
+  pressure_mean,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -85,6 +87,10 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "kernel sums over the fluid near a wall particle: weight, pressure, velocity"},
     {Field::reference, "reference", "quantum", Type::i64, Shape::vector, false, false,
      "position at the last list rebuild"},
+    {Field::velocity_mean, "velocity_mean", "m/s", Type::f64, Shape::vector, true, true,
+     "running average over output.average_time"},
+    {Field::pressure_mean, "pressure_mean", "Pa", Type::f64, Shape::scalar, true, true,
+     "running average over output.average_time"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }
@@ -138,5 +144,9 @@ class FieldSet {
   constexpr explicit FieldSet(std::uint32_t bits) : bits_(bits) {}
   static constexpr std::uint32_t bit(Field f) { return std::uint32_t{1} << static_cast<int>(f); }
 };
+
+/// Running averages for output. They migrate and are checkpointed like state, but no step reads them: the
+/// fingerprint leaves them out, so that it does not depend on what is written.
+inline constexpr FieldSet output_averages{Field::velocity_mean, Field::pressure_mean};
 
 }  // namespace sph

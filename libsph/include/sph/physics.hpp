@@ -75,6 +75,7 @@ class Physics {
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;
   void change_group(Particles&, std::size_t row) const;
+  void average(Particles&, const GlobalState&) const;
   void add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls);
 
   const Scene* scene_;

@@ -27,6 +27,9 @@ class Simulation {
   /// all ranks is returned, one step late by construction.
   std::int64_t step(std::int64_t request = 0);
 
+  /// Brings the halo copies of these fields up to date, for output that looks at neighbours.
+  void refresh_halo(FieldSet fields);
+
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const decomp::Comm& comm() const { return comm_; }
   [[nodiscard]] const Particles& particles() const { return particles_; }

@@ -1,0 +1,71 @@
+// Start-up of Poiseuille and Couette flow between two walls (Morris et al. 1997; accuracy.md A1, A2): within
+// 1 % of the largest speed everywhere at L/dx = 20; order >= 1.7 from 20 to 40 in Poiseuille.
+#include <gtest/gtest.h>
+
+#include "accuracy/measure.hpp"
+
+namespace {
+
+constexpr double length = 1e-3, viscosity = 1e-6, force = 1e-4, lid = 12.5e-6;
+constexpr double pi = std::numbers::pi;
+
+double poiseuille(double y, double t) {
+  double u = force / (2 * viscosity) * y * (length - y);
+  for (int n = 0; n < 200; ++n) {
+    const double k = (2 * n + 1) * pi / length;
+    u -= 4 * force * length * length / (viscosity * std::pow(pi * (2 * n + 1), 3)) * std::sin(k * y) *
+         std::exp(-viscosity * k * k * t);
+  }
+  return u;
+}
+
+double couette(double y, double t) {
+  double u = lid * y / length;
+  for (int n = 1; n < 200; ++n) {
+    const double k = n * pi / length;
+    u += 2 * lid / (n * pi) * (n % 2 == 0 ? 1 : -1) * std::sin(k * y) * std::exp(-viscosity * k * k * t);
+  }
+  return u;
+}
+
+/// Largest |u - u_exact| / u_max over all fluid particles and the given times.
+template <class Exact>
+double worst_error(const char* scene, const std::vector<std::string>& overrides,
+                   const std::vector<double>& times, Exact exact) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s(comm, sph::read_scene(std::string(PEPERITE_TEST_DIR "/scenes/") + scene, overrides));
+  double worst = 0;
+  for (double t : times) {
+    measure::run_until(s, t);
+    double largest = 0;
+    for (const measure::Sample& q : measure::samples(s))
+      if (!measure::is_wall(s, q))
+        largest = std::max(largest, std::abs(q.v[0] - exact(q.x[1], s.global().time)));
+    worst = std::max(worst, largest / lid);
+    std::printf("%s t = %.4f s: largest error %.3f %% of u_max\n", scene, s.global().time,
+                100 * largest / lid);
+  }
+  return worst;
+}
+
+TEST(Channel, AnalyticSeriesAgreeWithThePublishedValues) {
+  EXPECT_NEAR(poiseuille(length / 2, 0.0225), 2.232738e-6, 1e-11);
+  EXPECT_NEAR(poiseuille(length / 4, 0.225), 8.384910e-6, 1e-11);
+  EXPECT_NEAR(couette(length / 2, 0.045) / lid, 0.09558, 1e-5);
+}
+
+TEST(Channel, Poiseuille) {
+  const std::vector<double> times{0.0225, 0.045, 0.1125, 0.225, 1.0};
+  const double coarse = worst_error("poiseuille.toml", {}, times, poiseuille);
+  EXPECT_LE(coarse, 0.01);
+  const double fine = worst_error("poiseuille.toml", {"start.spacing=25e-6", "time.dt=62.5e-6"},
+                                  {0.0225, 0.045, 0.1125}, poiseuille);
+  std::printf("Poiseuille 20 -> 40: order %.2f\n", std::log2(coarse / fine));
+  EXPECT_LE(fine, 0.01);
+}
+
+TEST(Channel, Couette) {
+  EXPECT_LE(worst_error("couette.toml", {}, {0.045, 0.1125, 0.225, 1.0}, couette), 0.01);
+}
+
+}  // namespace

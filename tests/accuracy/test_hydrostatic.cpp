@@ -1,0 +1,88 @@
+// Hydrostatic tank, H/dx = 50, 100 sqrt(H/g) (accuracy.md A5). From the hydrostatic start the pressure stays,
+// from p = 0 the sloshing of compression decays at the rate the density diffusion gives.
+#include <gtest/gtest.h>
+
+#include "accuracy/measure.hpp"
+
+namespace {
+
+struct Tank {
+  double pressure_error;  ///< rms of p - rho g (H - y), over rho g H
+  double kinetic;         ///< kinetic energy over M g H
+  double surface;         ///< highest fluid particle [m]
+  double mean_error;      ///< mean p over the hydrostatic mean, less 1
+};
+
+Tank measure_tank(const sph::Simulation& s) {
+  double error2 = 0, kinetic = 0, mass = 0, top = 0, p = 0, exact = 0;
+  int n = 0;
+  for (const measure::Sample& q : measure::samples(s)) {
+    if (measure::is_wall(s, q)) continue;
+    const double hydrostatic = 1000 * 9.8 * (1 - q.x[1]);
+    error2 += (q.p - hydrostatic) * (q.p - hydrostatic);
+    p += q.p;
+    exact += hydrostatic;
+    kinetic += 0.5 * q.mass * (q.v[0] * q.v[0] + q.v[1] * q.v[1]);
+    mass += q.mass;
+    top = std::max(top, q.x[1]);
+    ++n;
+  }
+  return {std::sqrt(error2 / n) / 9800, kinetic / (mass * 9.8), top, p / exact - 1};
+}
+
+sph::Scene tank(const std::vector<std::string>& overrides) {
+  return sph::read_scene(PEPERITE_TEST_DIR "/scenes/hydrostatic.toml", overrides);
+}
+
+TEST(HydrostaticTank, StaysAtRest) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s(comm, tank({}));
+  const double top = measure_tank(s).surface, end = *s.scene().time.until;
+  double half_way = 0;
+  for (int k = 1; k <= 10; ++k) {
+    measure::run_until(s, end * k / 10);
+    const Tank m = measure_tank(s);
+    std::printf("tank t = %.1f s: rms p %.3f %% of rho g H, KE/MgH %.2e, surface %+.3f dx\n", s.global().time,
+                100 * m.pressure_error, m.kinetic, (m.surface - top) / 0.02);
+    EXPECT_LE(m.pressure_error, 0.005);
+    EXPECT_LE(m.kinetic, 1e-6);
+    EXPECT_LE(std::abs(m.surface - top), 0.2 * 0.02);
+    if (k == 5) half_way = m.kinetic;
+    if (k == 10) {
+      EXPECT_LE(m.kinetic, 1.5 * half_way + 1e-9) << "kinetic energy must not grow";
+    }
+  }
+}
+
+// Molteni-Colagrossi diffusion damps a standing compression wave of wave number k at delta h c k^2 / 2.
+TEST(HydrostaticTank, CompressionWaveFromZeroPressureDecays) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  const sph::Scene scene = tank({"start.pressure=zero"});
+  sph::Simulation s(comm, scene);
+  const double c = std::sqrt(scene.groups[0].bulk_modulus / scene.groups[0].density);
+  const double k = std::numbers::pi / 2;  // quarter wave: floor to free surface
+  const double rate = 0.5 * scene.terms.density_diffusion * scene.smoothing_length * c * k * k;
+  const double period = 2 * std::numbers::pi / (c * k);
+  // Kinetic energy averaged over periods, which decays twice as fast as the amplitude.
+  const auto mean_kinetic = [&](int periods) {
+    const double end = s.global().time + periods * period;
+    double sum = 0;
+    int n = 0;
+    measure::run_until(s, end, [&] { sum += measure_tank(s).kinetic, ++n; });
+    return sum / n;
+  };
+  measure::run_until(s, 2 * period);
+  const double t0 = s.global().time, first = mean_kinetic(4);
+  measure::run_until(s, t0 + 20 * period);
+  const double t1 = s.global().time, second = mean_kinetic(4);
+  const double measured = 0.5 * std::log(first / second) / (t1 - t0);
+  std::printf("tank from p = 0: decay rate %.3f 1/s, delta h c k^2/2 = %.3f 1/s\n", measured, rate);
+  EXPECT_NEAR(measured, rate, 0.2 * rate);
+  measure::run_until(s, *scene.time.until);
+  const Tank end = measure_tank(s);
+  std::printf("tank from p = 0 at the end: mean p off by %.3f %%, KE/MgH %.2e\n", 100 * end.mean_error,
+              end.kinetic);
+  EXPECT_NEAR(end.mean_error, 0, 0.005);
+}
+
+}  // namespace

@@ -1,0 +1,263 @@
+// The equivalence matrix: the same bits on any number of ranks, whatever the cuts, the messages, the order of
+// arrival, the lists and the restarts. One MPI program on 8 ranks; a row on k ranks uses the first k, the
+// others sleep. Every row's fingerprints are compared with those of the scene's run on one rank.
+//
+//   equivalence --array SEED                             a 3-way covering array of the factors
+//   equivalence --full --seed S --part i/n --log FILE    every row, in an order drawn from S; goes on from
+//   FILE equivalence --row "scene=... precision=... ..."      one row, as printed
+// with [--seed S] [--steps N] (last step compared, 300), [--every] (compare at every step), [--limit SECONDS]
+// (start no row after that long). The last line is "N passed, M failed"; exit status 1 if any failed.
+#include <mpi.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "covering_array.hpp"
+#include "matrix_case.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace equivalence;
+
+constexpr int most_ranks = 8;
+
+struct Options {
+  enum class Mode { array, full, row } mode = Mode::array;
+  std::uint64_t seed = 1;
+  std::int64_t steps = 300;
+  bool every = false;
+  std::string row, log;
+  std::size_t part = 1, parts = 1;
+  double limit = 1e9;  ///< [s]
+};
+
+Options parse(int argc, char** argv) {
+  Options o;
+  for (int k = 1; k < argc; ++k) {
+    const std::string key = argv[k];
+    const auto value = [&]() -> std::string {
+      if (++k == argc) throw std::runtime_error(key + " wants a value");
+      return argv[k];
+    };
+    if (key == "--array")
+      o.seed = std::stoull(value());
+    else if (key == "--full")
+      o.mode = Options::Mode::full;
+    else if (key == "--row")
+      o.mode = Options::Mode::row, o.row = value();
+    else if (key == "--seed")
+      o.seed = std::stoull(value());
+    else if (key == "--steps")
+      o.steps = std::stoll(value());
+    else if (key == "--every")
+      o.every = true;
+    else if (key == "--log")
+      o.log = value();
+    else if (key == "--limit")
+      o.limit = std::stod(value());
+    else if (key == "--part") {
+      if (std::sscanf(value().c_str(), "%zu/%zu", &o.part, &o.parts) != 2 || o.part < 1 || o.part > o.parts)
+        throw std::runtime_error("--part wants i/n with 1 <= i <= n");
+    } else
+      throw std::runtime_error("unknown option " + key);
+  }
+  if (o.steps < 1) throw std::runtime_error("--steps must be at least 1");
+  return o;
+}
+
+std::vector<Row> rows_of(const Options& o) {
+  if (o.mode == Options::Mode::row) return {row_from_text(o.row)};
+  if (o.mode == Options::Mode::array) {
+    std::vector<Row> rows = covering_array(o.seed);
+    if (const std::size_t missing = uncovered_triples(rows); missing > 0)
+      throw std::runtime_error(std::to_string(missing) + " 3-way combinations are not covered");
+    return rows;
+  }
+  std::vector<Row> rows = full_product();
+  shuffle(rows, o.seed);
+  std::vector<Row> mine;
+  for (std::size_t k = o.part - 1; k < rows.size(); k += o.parts) mine.push_back(rows[k]);
+  return mine;
+}
+
+Steps steps_of(const Options& o) {
+  if (o.every) {
+    Steps all(static_cast<std::size_t>(o.steps));
+    std::iota(all.begin(), all.end(), std::int64_t{1});
+    return all;
+  }
+  Steps steps;
+  for (std::int64_t s : {std::int64_t{1}, std::int64_t{100}})
+    if (s < o.steps) steps.push_back(s);
+  steps.push_back(o.steps);
+  return steps;
+}
+
+/// A barrier at which waiting costs nothing: ranks that have no part in a row must not take the cores of
+/// those that have.
+void sleep_until_all_are_here(MPI_Comm world) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(world, &request);
+  int done = 0;
+  for (unsigned nap = 100; MPI_Test(&request, &done, MPI_STATUS_IGNORE), done == 0;
+       nap = std::min(nap * 2, 3200U))
+    usleep(nap);
+}
+
+/// Communicators of the first k ranks, k = 1 to 8; null where this rank is not among them.
+class SubComms {
+ public:
+  explicit SubComms(const decomp::Comm& world) {
+    for (int k = 1; k <= most_ranks; ++k) {
+      MPI_Comm part = MPI_COMM_NULL;
+      MPI_Comm_split(world.get(), world.rank() < k ? 0 : MPI_UNDEFINED, world.rank(), &part);
+      if (part == MPI_COMM_NULL) continue;
+      comms_[static_cast<std::size_t>(k)] = std::make_unique<decomp::Comm>(part);
+      MPI_Comm_free(&part);
+    }
+  }
+  [[nodiscard]] const decomp::Comm* first(int k) const { return comms_[static_cast<std::size_t>(k)].get(); }
+
+ private:
+  std::array<std::unique_ptr<decomp::Comm>, most_ranks + 1> comms_;
+};
+
+/// A directory of rank 0's making that goes with it.
+class Scratch {
+ public:
+  explicit Scratch(const decomp::Comm& world) : mine_(world.rank() == 0) {
+    std::string name = (fs::temp_directory_path() / "equivalence_XXXXXX").string();
+    if (mine_ && mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = world.broadcast(name, 0);
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    if (mine_) fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  bool mine_;
+  fs::path path_;
+};
+
+/// What earlier runs of a full product have found good: lines "ok <row> ...".
+std::set<std::string> passed_before(const std::string& log) {
+  std::set<std::string> rows;
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("ok ")) rows.insert(line.substr(3, line.find(" |") - 3));
+  return rows;
+}
+
+class Matrix {
+ public:
+  Matrix(const decomp::Comm& world, const Options& options)
+      : world_(world),
+        options_(options),
+        comms_(world),
+        scratch_(world),
+        cases_(steps_of(options), options.seed, scratch_.path()) {
+    if (world.rank() != 0 || options.log.empty()) return;
+    done_ = passed_before(options.log);
+    log_.open(options.log, std::ios::app);
+    if (!log_) throw std::runtime_error("cannot write " + options.log);
+  }
+
+  /// The number of rows that failed, on rank 0.
+  int run(const std::vector<Row>& rows) {
+    if (world_.rank() == 0)
+      std::printf("%zu rows, %lld steps, seed %llu\n", rows.size(), static_cast<long long>(options_.steps),
+                  static_cast<unsigned long long>(options_.seed));
+    for (const Row& row : rows) {
+      const bool wanted = world_.rank() == 0 && !done_.contains(to_text(row));
+      const bool late = world_.rank() == 0 && seconds() > options_.limit;
+      const std::int64_t go = world_.max(std::int64_t{late ? 2 : wanted ? 1 : 0});
+      if (go == 2) break;
+      if (go == 1) run(row);
+    }
+    if (world_.rank() == 0) std::printf("%d passed, %d failed\n", passed_, failed_);
+    return failed_;
+  }
+
+ private:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  void run(const Row& row) {
+    const bool first = world_.rank() == 0;
+    if (first) cases_.prepare(*comms_.first(1), row);
+    sleep_until_all_are_here(world_.get());
+    const double begin = seconds();
+    Outcome total;
+    std::string route;
+    for (const Leg& leg : legs_of(row, options_.steps, options_.seed)) {
+      if (world_.rank() < leg.ranks && total.mismatch.empty()) {
+        const Outcome outcome = cases_.run(*comms_.first(leg.ranks), row, leg);
+        total = {outcome.mismatch, total.rebuilds + outcome.rebuilds};
+      }
+      route += (leg.from > 0 ? " -" + std::to_string(leg.from) + "-> " : "") + std::to_string(leg.ranks);
+      sleep_until_all_are_here(world_.get());
+      if (world_.max(std::int64_t{!total.mismatch.empty()}) > 0) break;
+    }
+    if (first) report(row, total, route, seconds() - begin);
+    sleep_until_all_are_here(world_.get());
+  }
+
+  void report(const Row& row, const Outcome& outcome, const std::string& route, double time) {
+    const bool good = outcome.mismatch.empty();
+    ++(good ? passed_ : failed_);
+    char line[400];
+    std::snprintf(line, sizeof line, "%s %s | %s ranks, %lld steps, seed %llu, %lld rebuilds, %.2f s",
+                  good ? "ok" : "FAILED", to_text(row).c_str(), route.c_str(),
+                  static_cast<long long>(options_.steps), static_cast<unsigned long long>(options_.seed),
+                  static_cast<long long>(outcome.rebuilds), time);
+    std::printf("%s\n", line);
+    if (!good)
+      std::printf("       %s: %s\n", outcome.mismatch.c_str(), cases_.explain(*comms_.first(1), row).c_str());
+    std::fflush(stdout);
+    if (log_.is_open()) log_ << line << std::endl;
+  }
+
+  const decomp::Comm& world_;
+  Options options_;
+  SubComms comms_;
+  Scratch scratch_;
+  Cases cases_;
+  std::set<std::string> done_;
+  std::ofstream log_;
+  int passed_ = 0, failed_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int failed = 0;
+  try {
+    const decomp::Comm world(MPI_COMM_WORLD);
+    if (world.size() != most_ranks) throw std::runtime_error("the matrix runs on 8 ranks");
+    const Options options = parse(argc, argv);
+    failed = Matrix(world, options).run(rows_of(options));
+  } catch (const std::exception& error) {
+    // A rank that has given up cannot tell the others, who wait for it.
+    std::fprintf(stderr, "equivalence: %s\n", error.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  MPI_Finalize();
+  return failed == 0 ? 0 : 1;
+}

@@ -1,0 +1,180 @@
+#include "matrix_case.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <numeric>
+#include <stdexcept>
+
+#include "sph/checkpoint.hpp"
+#include "sph/snapshot.hpp"
+
+namespace equivalence {
+namespace {
+
+namespace fs = std::filesystem;
+
+sph::Provenance provenance_of(const sph::Simulation& simulation) {
+  sph::Provenance provenance{sph::to_toml(simulation.scene()), simulation.fingerprint(), {}};
+  for (const sph::Group& g : simulation.scene().groups) provenance.group_names.push_back(g.name);
+  return provenance;
+}
+
+void write_state(const fs::path& path, const sph::Simulation& s) {
+  sph::write_snapshot(s.comm(), path, s.particles(), s.global(), s.scale(), s.wrap(), provenance_of(s), {},
+                      s.particle_count());
+}
+
+void write_restart(const fs::path& dir, const sph::Simulation& s, const sph::Particles& particles) {
+  const sph::RunRecord record{s.global(), s.scale(), sph::to_toml(s.scene()), ""};
+  sph::write_checkpoint(s.comm(), dir, particles, nullptr, record, s.wrap(), provenance_of(s), 0);
+}
+
+/// The scene as anybody would run it on one rank.
+sph::Scene reference_scene(const Row& row) {
+  sph::Scene scene = scene_of(row);
+  const auto axes = scene.decomposition.cut_axes;
+  scene.decomposition = {};
+  scene.decomposition.cut_axes = axes;
+  return scene;
+}
+
+/// The particles of the start in a random order. As a checkpoint of step 0: every rank reads an equal share
+/// of its rows wherever they lie, so with them shuffled each gets particles from everywhere.
+void write_shuffled_start(const fs::path& dir, const sph::Simulation& s, std::uint64_t seed) {
+  const decomp::Table& from = s.particles().table();
+  std::vector<std::size_t> order(from.owned());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t n = order.size(); n > 1; --n)
+    std::swap(order[n - 1], order[draw(seed, "arrival" + std::to_string(n)) % n]);
+  sph::Particles shuffled(s.scene().dim, s.particles().fields());
+  shuffled.table().resize(order.size(), 0);
+  for (int c = 0; c < from.columns(); ++c) {
+    const std::size_t width = from.column(c).width();
+    for (std::size_t i = 0; i < order.size(); ++i)
+      std::memcpy(shuffled.table().column(c).data() + i * width, from.column(c).data() + order[i] * width,
+                  width);
+  }
+  write_restart(dir, s, shuffled);
+}
+
+std::string lines_of(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+std::vector<Leg> legs_of(const Row& row, std::int64_t steps, std::uint64_t seed) {
+  const int ranks = row.ranks();
+  const std::string_view restart = row[Factor::restart];
+  if (restart == "none" || steps < 2) return {{ranks, 0, steps}};
+  const std::string text = to_text(row);
+  const auto at =
+      1 + static_cast<std::int64_t>(draw(seed, text + " step") % static_cast<std::uint64_t>(steps - 1));
+  int first = ranks, second = ranks;
+  if (restart == "from_one") first = 1;
+  if (restart == "to_one") second = 1;
+  for (std::uint64_t k = 0; restart == "other" && first == ranks; ++k)
+    first = 2 + static_cast<int>(draw(seed, text + " ranks" + std::to_string(k)) % 7);
+  return {{first, 0, at}, {second, at, steps}};
+}
+
+std::string Cases::key(const Row& row) const {
+  return std::string(row[Factor::scene]) + "_" + std::string(row[Factor::precision]);
+}
+fs::path Cases::run_dir(const Row& row) const { return scratch_ / ("run_" + key(row)); }
+fs::path Cases::start_dir(const Row& row) const { return scratch_ / ("start_" + key(row)); }
+
+void Cases::prepare(const decomp::Comm& one, const Row& row) {
+  fs::remove_all(run_dir(row));
+  fs::create_directories(run_dir(row));
+  mismatch_step_ = -1;
+  if (references_.contains(key(row))) return;
+  sph::Simulation simulation(one, reference_scene(row));
+  write_shuffled_start(start_dir(row), simulation, seed_);
+  const Liveliness start = liveliness(simulation);
+  Fingerprints& reference = references_[key(row)];
+  for (const std::int64_t step : steps_) {
+    while (simulation.global().step < step) simulation.step();
+    reference[step] = simulation.fingerprint();
+  }
+  if (steps_.back() >= 300) check_lively(simulation.scene(), start, liveliness(simulation));
+}
+
+// A replay follows a recording of the same length as a run that rebuilds at every step; beyond the end of a
+// recording the last cuts stay. Chaos draws the sequence: uniform cuts would not test that it is followed.
+void Cases::set_cuts(const decomp::Comm& comm, const Row& row, const Leg& leg, sph::Scene& scene) const {
+  const std::string_view cuts = row[Factor::cuts];
+  sph::Decomposition& d = scene.decomposition;
+  if (cuts == "uniform" || comm.size() == 1) d.cuts = sph::CutRule::fixed;
+  if (comm.size() == 1) return;
+  if (cuts == "time" || cuts == "counts") d.cuts = sph::CutRule::literal;
+  d.cost = cuts == "counts" ? sph::CostSource::counts : sph::CostSource::time;
+  const std::uint64_t seed = draw(seed_, to_text(row) + " cuts" + std::to_string(leg.from));
+  d.chaos_seed = seed >> 1;
+  if (cuts == "chaos") d.cuts = sph::CutRule::chaos;
+  if (cuts != "replay") return;
+
+  const sph::Distribution distribution(comm, scene, sph::position_scale(scene));
+  const auto& cells = distribution.grid().cells();
+  const decomp::CutLimits limits{cells[static_cast<std::size_t>(d.cut_axes[0])],
+                                 cells[static_cast<std::size_t>(d.cut_axes[1])]};
+  d.cuts = sph::CutRule::replay;
+  d.replay = (run_dir(row) / "cuts.txt").string();
+  d.record = (run_dir(row) / "followed.txt").string();
+  if (comm.rank() == 0) {
+    std::ofstream out(d.replay);
+    const auto policy = decomp::make_chaos(seed);
+    decomp::Cuts now = distribution.partition().cuts();
+    for (std::int64_t call = leg.from; call <= leg.to; ++call) {
+      now = policy->next(now, {}, limits);
+      out << decomp::to_text(now) << '\n';
+    }
+  }
+  comm.barrier();
+}
+
+std::unique_ptr<sph::Simulation> Cases::begin(const decomp::Comm& comm, const Row& row,
+                                              const sph::Scene& scene, const Leg& leg) const {
+  if (leg.from > 0)
+    return std::make_unique<sph::Simulation>(comm, scene, sph::find_checkpoint(comm, run_dir(row)));
+  if (row[Factor::order] == "shuffled")
+    return std::make_unique<sph::Simulation>(comm, scene, sph::find_checkpoint(comm, start_dir(row)));
+  return std::make_unique<sph::Simulation>(comm, scene);
+}
+
+Outcome Cases::run(const decomp::Comm& comm, const Row& row, const Leg& leg) {
+  sph::Scene scene = scene_of(row);
+  set_cuts(comm, row, leg, scene);
+  const auto simulation = begin(comm, row, scene, leg);
+  check_cells(*simulation);
+  if (simulation->global().step != leg.from) throw std::runtime_error("resumed at another step");
+  while (simulation->global().step < leg.to) {
+    simulation->step();
+    const std::int64_t step = simulation->global().step;
+    if (!std::binary_search(steps_.begin(), steps_.end(), step)) continue;
+    const std::string fingerprint = simulation->fingerprint();
+    const bool differs = comm.rank() == 0 && fingerprint != references_.at(key(row)).at(step);
+    if (comm.max(std::int64_t{differs}) == 0) continue;
+    write_state(run_dir(row) / "row.h5", *simulation);
+    mismatch_step_ = step;
+    return {"step " + std::to_string(step), simulation->counters().rebuilds};
+  }
+  if (leg.to < steps_.back()) write_restart(run_dir(row), *simulation, simulation->particles());
+  Outcome outcome{"", simulation->counters().rebuilds};
+  if (comm.rank() == 0 && !scene.decomposition.record.empty() &&
+      !lines_of(scene.decomposition.replay).starts_with(lines_of(scene.decomposition.record)))
+    outcome.mismatch = "the cuts do not follow the recording";
+  return outcome;
+}
+
+std::string Cases::explain(const decomp::Comm& one, const Row& row) const {
+  if (mismatch_step_ < 0) return "";
+  sph::Simulation simulation(one, reference_scene(row));
+  while (simulation.global().step < mismatch_step_) simulation.step();
+  write_state(run_dir(row) / "reference.h5", simulation);
+  return sph::first_difference(run_dir(row) / "reference.h5", run_dir(row) / "row.h5");
+}
+
+}  // namespace equivalence

@@ -1,0 +1,97 @@
+#include "matrix_scenes.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace equivalence {
+namespace {
+
+struct Source {
+  std::string_view name, file;
+  std::vector<std::string> overrides;
+};
+
+const std::vector<Source>& sources() {
+  static const std::vector<Source> table{
+      {"fluid2d",
+       "apps/buoyant_cylinder/fluid.toml",
+       {"group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=",
+        "group.cylinder.sound_speed=200", "group.cylinder.bulk_viscosity=300", "time.dt=", "time.cfl=0.7",
+        "start.jitter=0.1", "start.velocity=[3, -1]", "terms.artificial_viscosity=0.02"}},
+      {"solid2d",
+       "apps/buoyant_cylinder/solid.toml",
+       {"group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7",
+        "time.dt=2e-3", "start.jitter=0.1", "start.velocity=[3, -1]"}},
+      {"gas2d",
+       "apps/buoyant_cylinder/gas.toml",
+       {"group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7",
+        "group.spray.bulk_modulus=5e7", "time.dt=", "time.cfl=0.6", "start.jitter=0.1",
+        "start.velocity=[2, 2]", "start.region.3.centre=[22, 32]",
+        "group.cylinder.fragmentation.void_fraction=0.15"}},
+      {"ida2d",
+       "apps/buoyant_cylinder/fluid.toml",
+       {"formulation=ida", "group.melt.bulk_modulus=", "group.melt.sound_speed=160",
+        "group.cylinder.bulk_modulus=", "group.cylinder.sound_speed=200", "time.dt=2e-3",
+        "start.velocity=[2, -1]"}},
+      // shifting, doubly periodic, not square, so that 16 cells fit with few particles
+      {"flow2d",
+       "tests/scenes/taylor_green.toml",
+       {"domain.upper=[2, 0.5]", "start.flow_length=0.5", "time.until=", "time.steps=1"}},
+      {"fluid3d", "tests/scenes/box3d_fluid.toml", {}},
+      {"solid3d", "tests/scenes/box3d_solid.toml", {}},
+      {"gas3d", "tests/scenes/box3d_gas.toml", {}},
+  };
+  return table;
+}
+
+}  // namespace
+
+sph::Scene scene_of(const Row& row) {
+  const Source& source = *std::find_if(sources().begin(), sources().end(),
+                                       [&](const Source& s) { return s.name == row[Factor::scene]; });
+  std::vector<std::string> overrides = source.overrides;
+  overrides.push_back("precision=" + std::string(row[Factor::precision]));
+  overrides.push_back("decomposition.overlap=" +
+                      std::string(row[Factor::overlap] == "on" ? "true" : "false"));
+  const std::string_view list = row[Factor::list];
+  overrides.push_back("decomposition.skin=" + std::string(list == "small"   ? "0.05"
+                                                          : list == "large" ? "0.6"
+                                                                            : "0.2"));
+  overrides.push_back("decomposition.rebuild_every=" + std::string(list == "every" ? "1" : "0"));
+  return sph::read_scene(std::string(PEPERITE_SOURCE_DIR) + "/" + std::string(source.file), overrides);
+}
+
+Liveliness liveliness(const sph::Simulation& simulation) {
+  const sph::Particles& particles = simulation.particles();
+  const std::uint32_t* group = particles.data<sph::Field::group>();
+  const double* psi = particles.data<sph::Field::void_fraction>();
+  Liveliness out{simulation.counters().rebuilds, 0, 0};
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    for (const sph::Group& g : simulation.scene().groups)
+      if (g.fragments_to == static_cast<int>(group[i])) ++out.spray;
+    if (psi != nullptr) out.void_fraction = std::max(out.void_fraction, psi[i]);
+  }
+  return out;
+}
+
+void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveliness& end) {
+  const auto quiet = [&](const std::string& what) {
+    throw std::runtime_error(scene.name + " is too quiet for a test: " + what);
+  };
+  if (end.rebuilds < start.rebuilds + 2) quiet("its lists were not rebuilt twice");
+  if (!scene.has_bubbly()) return;
+  if (end.void_fraction <= 0) quiet("no gas came out of solution");
+  if (end.spray <= start.spray) quiet("no particle changed its group");
+}
+
+void check_cells(const sph::Simulation& simulation) {
+  const decomp::Int3& cells = simulation.distribution().grid().cells();
+  const auto [row, column] = simulation.scene().decomposition.cut_axes;
+  const std::int64_t most =
+      std::max(cells[static_cast<std::size_t>(row)], cells[static_cast<std::size_t>(column)]);
+  if (most < 16)
+    throw std::runtime_error(simulation.scene().name + ": the longer cut axis has only " +
+                             std::to_string(most) + " cells");
+}
+
+}  // namespace equivalence

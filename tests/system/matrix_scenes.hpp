@@ -1,0 +1,29 @@
+// The scenes of the equivalence matrix: those of the apps and of tests/scenes, made soft and given a push, so
+// that within some hundred steps particles cross cells and cuts, lists go stale and gas comes out.
+#pragma once
+
+#include <string>
+
+#include "factors.hpp"
+#include "sph/scene.hpp"
+#include "sph/simulation.hpp"
+
+namespace equivalence {
+
+/// The scene of a row. What depends on the number of ranks (cuts) or on files is left to the caller.
+[[nodiscard]] sph::Scene scene_of(const Row& row);
+
+/// What a run of the scene has to show, or agreement proves little: none of these may stay as at the start.
+struct Liveliness {
+  std::int64_t rebuilds = 0;
+  std::int64_t spray = 0;    ///< particles in groups that others fragment into
+  double void_fraction = 0;  ///< the largest
+};
+[[nodiscard]] Liveliness liveliness(const sph::Simulation& simulation);  ///< of this rank's particles
+
+/// Throws std::runtime_error when a 1-rank run of `scene` was too quiet.
+void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveliness& end);
+/// Throws std::runtime_error when no cut axis has 16 cells.
+void check_cells(const sph::Simulation& simulation);
+
+}  // namespace equivalence
