@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/environment.sh
-until=${1:-6}  # seconds of the scene; its end is 20
+until=${1:-10}  # seconds of the scene, of its 20: about a minute
 
 sh cmake/packages.sh
 configure -DPEPERITE_TESTS=OFF -DPEPERITE_BENCHMARKS=OFF

@@ -113,7 +113,7 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
     check_time_step(scene);
     const PositionScale scale = position_scale(scene);
     const Physics physics(scene, scale);
-    const Distribution distribution(comm, scene, scale);
+    Distribution distribution(comm, scene, scale);
     Particles particles(scene.dim, physics.fields());
     place_particles(scene, scale, distribution, particles);
     const std::vector<std::int64_t> count = count_by_group(comm, scene, particles);

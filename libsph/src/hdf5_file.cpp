@@ -278,6 +278,19 @@ void Hdf5Reader::read(const std::string& data_set, Element element, void* values
   check(H5Dread(data, memory_type(element), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read " + data_set);
 }
 
+void Hdf5Reader::read_rows(const std::string& data_set, Element element, std::uint64_t first,
+                           std::uint64_t rows, void* values) const {
+  if (rows == 0) return;
+  const Handle data(H5Dopen2(id_, data_set.c_str(), H5P_DEFAULT), H5Dclose, "open data set " + data_set);
+  const Handle file_space(H5Dget_space(data), H5Sclose, "H5Dget_space");
+  const std::array<hsize_t, 2> start{first, 0};
+  const std::array<hsize_t, 2> count{rows, static_cast<hsize_t>(components(data_set))};
+  check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+        "select rows of " + data_set);
+  const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose, "H5Screate_simple");
+  check(H5Dread(data, memory_type(element), memory, file_space, H5P_DEFAULT, values), "read " + data_set);
+}
+
 std::int64_t Hdf5Reader::integer(const std::string& attribute) const {
   const Handle handle(H5Aopen(id_, attribute.c_str(), H5P_DEFAULT), H5Aclose, "attribute " + attribute);
   std::int64_t value = 0;

@@ -65,6 +65,8 @@ class Hdf5Reader {
   [[nodiscard]] std::uint64_t rows(const std::string& data_set) const;
   [[nodiscard]] int components(const std::string& data_set) const;
   void read(const std::string& data_set, Element element, void* values) const;  ///< all rows
+  void read_rows(const std::string& data_set, Element element, std::uint64_t first, std::uint64_t rows,
+                 void* values) const;
 
   [[nodiscard]] std::int64_t integer(const std::string& attribute) const;
   [[nodiscard]] double real(const std::string& attribute) const;

@@ -49,7 +49,8 @@ PositionScale position_scale(const Scene& scene) {
                        std::abs(scene.upper[static_cast<std::size_t>(a)])});
   PositionScale scale;
   // The next power of two above both bounds.
-  scale.quantum = std::exp2(std::max(std::ilogb(extent) + 1 - 60, std::ilogb(scene.support()) + 1 - 50));
+  scale.quantum =
+      std::ldexp(1.0, std::max(std::ilogb(extent) + 1 - 60, std::ilogb(scene.support()) + 1 - 50));
   for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.lower[a]);
   return scale;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "initial_fields.hpp"
+#include "placement_file.hpp"
 
 namespace sph {
 namespace {
@@ -82,8 +83,12 @@ int painted_group(const Scene& scene, const Double3& x) {
 
 }  // namespace
 
-void place_particles(const Scene& scene, const PositionScale& scale, const Distribution& distribution,
+void place_particles(const Scene& scene, const PositionScale& scale, Distribution& distribution,
                      Particles& particles) {
+  if (!scene.start.file.empty()) {
+    place_particles_from_file(scene, scale, distribution, particles);
+    return;
+  }
   const Lattice lattice(scene);
   const std::size_t d = static_cast<std::size_t>(scene.dim);
   const decomp::CellGrid& grid = distribution.grid();

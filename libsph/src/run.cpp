@@ -38,6 +38,7 @@ class Run {
     while (!finished()) {
       const auto wish = static_cast<Wish>(step());
       write_due_output();
+      if (wish == Wish::give_up) files_.check(simulation_);
       if (wish == Wish::status) screen_.status();
       if (wish >= Wish::checkpoint) checkpoint();
       control_.granted(wish);
@@ -50,7 +51,7 @@ class Run {
   [[nodiscard]] bool finished() const { return is_finished(simulation_.scene(), simulation_.global()); }
 
   std::int64_t step() {
-    const auto wish = static_cast<std::int64_t>(control_.wish());
+    const auto wish = static_cast<std::int64_t>(control_.wish(files_.failed()));
     try {
       return simulation_.step(wish);
     } catch (const GuardError& error) {

@@ -33,6 +33,8 @@ void install_signal_handlers() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;  // a signal must not fail a write under way
   sigemptyset(&action.sa_mask);
+  // A limit on the size of files is then an error of the write, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   for (int number : {SIGUSR1, SIGUSR2, SIGTERM}) sigaction(number, &action, nullptr);
 }
 
@@ -53,7 +55,8 @@ bool RunControl::stop_file_found() {
   return std::filesystem::exists(stop_file_, none);
 }
 
-Wish RunControl::wish() {
+Wish RunControl::wish(bool failed) {
+  if (failed) return Wish::give_up;
   if (last_wish_) longest_step_ = std::max(longest_step_, seconds_since(*last_wish_));
   last_wish_ = Clock::now();
   if (rank_ == 0) {
@@ -73,6 +76,7 @@ Wish RunControl::wish() {
 void RunControl::granted(Wish wish) {
   switch (wish) {
     case Wish::none:
+    case Wish::give_up:
       return;
     case Wish::status:
       last_status_ = Clock::now();

@@ -12,7 +12,7 @@
 
 namespace sph {
 
-enum class Wish : std::int64_t { none, status, checkpoint, stop };
+enum class Wish : std::int64_t { none, status, checkpoint, stop, give_up };
 
 class RunControl {
  public:
@@ -21,7 +21,8 @@ class RunControl {
   RunControl(int rank, Clock::time_point begin, const OutputControl& output, std::filesystem::path stop_file,
              std::optional<double> max_seconds);
 
-  [[nodiscard]] Wish wish();
+  /// `failed`: this rank cannot write, and the ranks must meet to give up.
+  [[nodiscard]] Wish wish(bool failed);
   void granted(Wish wish);
   /// How long the last checkpoint took, so that --max-time leaves time for another.
   void checkpoint_took(double seconds) { checkpoint_seconds_ = seconds; }

@@ -139,10 +139,14 @@ Provenance RunFiles::provenance(const Simulation& s) const {
 
 void RunFiles::add_series_row(const Simulation& s) {
   const std::vector<double> values = monitors_.values(s);
-  on_root(s.comm(), "series", [&] {
-    series_->add(s.global().step, s.global().time, values);
-    series_bytes_ = series_->bytes();
-  });
+  if (s.comm().rank() != 0 || failed()) return;
+  failure_ = attempt([&] { series_->add(s.global().step, s.global().time, values); });
+  series_bytes_ = series_->bytes();
+}
+
+void RunFiles::check(const Simulation& s) const {
+  const std::string failure = agree(s.comm(), failure_);
+  if (!failure.empty()) throw OutputError(failure);
 }
 
 void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
@@ -154,11 +158,13 @@ void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
   std::vector<SnapshotEntry> listed = snapshots_;
   listed.push_back(entry);
   if (scheduled) snapshots_ = listed;
-  on_root(s.comm(), "XDMF index", [&] { write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra); });
+  on_root(s.comm(), "particles.xdmf",
+          [&] { write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra); });
 }
 
 void RunFiles::write_checkpoint(const Simulation& s) {
-  on_root(s.comm(), "series", [&] { sync_to_disk(dir_ / "series.csv"); });
+  check(s);
+  on_root(s.comm(), "series.csv", [&] { sync_to_disk(dir_ / "series.csv"); });
   const RunRecord record{s.global(), s.scale(), to_toml(s.scene()),
                          to_json({monitors_.ids(), series_bytes_, snapshots_})};
   sph::write_checkpoint(s.comm(), dir_, s.particles(), nullptr, record, s.wrap(), provenance(s),

@@ -35,7 +35,10 @@ class RunFiles {
   /// Of one that goes on: cuts series.csv and the XDMF index back to the checkpoint.
   RunFiles(const Simulation& simulation, std::filesystem::path dir, const RunMemory& memory);
 
+  /// A row that rank 0 cannot write is its `failure` until the ranks meet in check(): no reduction for a row.
   void add_series_row(const Simulation& simulation);
+  [[nodiscard]] bool failed() const { return !failure_.empty(); }  ///< not collective
+  void check(const Simulation& simulation) const;                  ///< throws what failed
   /// `scheduled`: it belongs to the run's rhythm and is remembered; the last state need not.
   void add_snapshot(Simulation& simulation, bool scheduled);
   void write_checkpoint(const Simulation& simulation);
@@ -53,6 +56,7 @@ class RunFiles {
   Monitors monitors_;
   std::optional<Series> series_;  ///< on rank 0
   std::uint64_t series_bytes_ = 0;
+  std::string failure_;
   std::vector<SnapshotEntry> snapshots_;
 };
 

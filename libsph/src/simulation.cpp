@@ -185,7 +185,7 @@ void Simulation::begin() {
   physics_.derive(particles_, 0, particles_.owned());
   // Sorts the rows: advance() needs to know which of them move.
   rebuild();
-  stale_ = false;
+  stale_ = true;  // nothing is known yet of how far the first step moves particles
 }
 
 Wrap Simulation::wrap() const {

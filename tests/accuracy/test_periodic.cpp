@@ -43,6 +43,38 @@ TEST(TaylorGreen, LatticeStartIsPrintedBesideIt) {
   EXPECT_TRUE(std::isfinite(worst.l1));
 }
 
+// Density diffusion damps a standing pressure wave of wave number k at delta h c k^2 / 2 and nothing else
+// does: the integrator is neutral.
+TEST(AcousticWave, DecaysAtTheRateOfTheDensityDiffusion) {
+  for (const double delta : {0.0, 0.1, 0.2}) {
+    const decomp::Comm comm(MPI_COMM_SELF);
+    sph::Scene scene =
+        sph::read_scene(PEPERITE_TEST_DIR "/scenes/taylor_green.toml",
+                        {"terms.shifting=false", "start.jitter=0", "group.fluid.viscosity=1e-9",
+                         "terms.density_diffusion=" + std::to_string(delta)});
+    scene.start.velocity = sph::InitialVelocity::rest;  // the pressure field alone: two standing waves
+    sph::Simulation s(comm, scene);
+    const double c = 10, k = 4 * std::numbers::pi, period = 2 * std::numbers::pi / (c * k);
+    const auto mean_square_amplitude = [&] {
+      double sum = 0;
+      int n = 0;
+      measure::run_until(s, s.global().time + 4 * period, [&] {
+        double amplitude = 0;
+        for (const measure::Sample& q : measure::samples(s)) amplitude += q.v[0] * std::sin(k * q.x[0]);
+        sum += amplitude * amplitude;
+        ++n;
+      });
+      return sum / n;
+    };
+    const double t0 = s.global().time, first = mean_square_amplitude();
+    const double t1 = s.global().time, second = mean_square_amplitude();
+    const double rate = 0.5 * std::log(first / second) / (t1 - t0);
+    const double expected = 0.5 * delta * scene.smoothing_length * c * k * k;
+    std::printf("acoustic wave, delta %.1f: decay rate %.3f 1/s, expected %.3f\n", delta, rate, expected);
+    EXPECT_NEAR(rate, expected, 0.01 * expected + 0.02);
+  }
+}
+
 // Pair forces are antisymmetric to the bit, so only the rounding of sums moves the total momentum.
 TEST(TaylorGreen, MomentumIsConserved) {
   const decomp::Comm comm(MPI_COMM_SELF);

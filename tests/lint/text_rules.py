@@ -46,10 +46,8 @@ def _search(root, pattern, message):
 
 def machine_path(root):
     """Nothing that is true of one machine only."""
-    # The pattern does not contain what it looks for, and neither may anything else.
     folders = "|".join(("work", "tmp", "root", "home", "scratch", "Users"))
-    return _search(root, re.compile(rf"(?<![\w.}})\]*/])/(?:{folders})/[\w.]+|(?<![\w.}}/])/(?:tmp|work|root)\b(?!/)"),
-                   "{}: a path of one machine")
+    return _search(root, re.compile(rf"(?<![\w.}})>*/])/(?:{folders})\b(?:/[\w.]+)?"), "{}: a path of one machine")
 
 
 def todo(root):

@@ -5,19 +5,20 @@
 //   equivalence --array SEED                             a 3-way covering array of the factors
 //   equivalence --full --seed S --part i/n --log FILE    every row, in an order drawn from S; goes on from
 //   FILE equivalence --row "scene=... precision=... ..."      one row, as printed
-// with [--seed S] [--steps N] (last step compared, 300), [--every] (compare at every step), [--limit SECONDS]
-// (start no row after that long). The last line is "N passed, M failed"; exit status 1 if any failed.
+// with [--seed S], [--steps N] (the last that is compared: 300), [--long N] (of every eighth row of an array:
+// 2000), [--every] (compare at every step), [--limit SECONDS] (start no row after that long). The last line
+// is "N passed, M failed"; exit status 1 if any failed.
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <memory>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -34,7 +35,7 @@ constexpr int most_ranks = 8;
 struct Options {
   enum class Mode { array, full, row } mode = Mode::array;
   std::uint64_t seed = 1;
-  std::int64_t steps = 300;
+  std::int64_t steps = 300, long_steps = 2000;
   bool every = false;
   std::string row, log;
   std::size_t part = 1, parts = 1;
@@ -59,6 +60,8 @@ Options parse(int argc, char** argv) {
       o.seed = std::stoull(value());
     else if (key == "--steps")
       o.steps = std::stoll(value());
+    else if (key == "--long")
+      o.long_steps = std::stoll(value());
     else if (key == "--every")
       o.every = true;
     else if (key == "--log")
@@ -90,17 +93,18 @@ std::vector<Row> rows_of(const Options& o) {
   return mine;
 }
 
-Steps steps_of(const Options& o) {
-  if (o.every) {
-    Steps all(static_cast<std::size_t>(o.steps));
-    std::iota(all.begin(), all.end(), std::int64_t{1});
-    return all;
+/// The rows with the steps at which they are compared. In an array every eighth row is a long one.
+std::vector<Case> cases_of(const Options& o) {
+  std::vector<Case> cases;
+  for (const Row& row : rows_of(o)) {
+    const bool longer = o.mode == Options::Mode::array && cases.size() % 8 == 0;
+    const std::int64_t last = longer ? std::max(o.steps, o.long_steps) : o.steps;
+    Case c{row, {}};
+    for (std::int64_t s = 1; s <= last; ++s)
+      if (o.every || s == 1 || s == 100 || s == 300 || s == last) c.steps.push_back(s);
+    cases.push_back(std::move(c));
   }
-  Steps steps;
-  for (std::int64_t s : {std::int64_t{1}, std::int64_t{100}})
-    if (s < o.steps) steps.push_back(s);
-  steps.push_back(o.steps);
-  return steps;
+  return cases;
 }
 
 /// A barrier at which waiting costs nothing: ranks that have no part in a row must not take the cores of
@@ -169,7 +173,7 @@ class Matrix {
         options_(options),
         comms_(world),
         scratch_(world),
-        cases_(steps_of(options), options.seed, scratch_.path()) {
+        cases_(options.seed, scratch_.path()) {
     if (world.rank() != 0 || options.log.empty()) return;
     done_ = passed_before(options.log);
     log_.open(options.log, std::ios::app);
@@ -177,16 +181,20 @@ class Matrix {
   }
 
   /// The number of rows that failed, on rank 0.
-  int run(const std::vector<Row>& rows) {
+  int run(const std::vector<Case>& cases) {
     if (world_.rank() == 0)
-      std::printf("%zu rows, %lld steps, seed %llu\n", rows.size(), static_cast<long long>(options_.steps),
-                  static_cast<unsigned long long>(options_.seed));
-    for (const Row& row : rows) {
-      const bool wanted = world_.rank() == 0 && !done_.contains(to_text(row));
+      std::printf("%zu rows, seed %llu\n", cases.size(), static_cast<unsigned long long>(options_.seed));
+    for (const Case& c : cases) {
+      const bool wanted = world_.rank() == 0 && !done_.contains(to_text(c.row));
       const bool late = world_.rank() == 0 && seconds() > options_.limit;
       const std::int64_t go = world_.max(std::int64_t{late ? 2 : wanted ? 1 : 0});
       if (go == 2) break;
-      if (go == 1) run(row);
+      if (go != 1) continue;
+      try {
+        run(c);
+      } catch (const std::exception& error) {
+        throw std::runtime_error(to_text(c.row) + ": " + error.what());
+      }
     }
     if (world_.rank() == 0) std::printf("%d passed, %d failed\n", passed_, failed_);
     return failed_;
@@ -197,37 +205,38 @@ class Matrix {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  void run(const Row& row) {
+  void run(const Case& c) {
     const bool first = world_.rank() == 0;
-    if (first) cases_.prepare(*comms_.first(1), row);
+    if (first) cases_.prepare(*comms_.first(1), c);
     sleep_until_all_are_here(world_.get());
     const double begin = seconds();
     Outcome total;
     std::string route;
-    for (const Leg& leg : legs_of(row, options_.steps, options_.seed)) {
+    for (const Leg& leg : legs_of(c, options_.seed)) {
       if (world_.rank() < leg.ranks && total.mismatch.empty()) {
-        const Outcome outcome = cases_.run(*comms_.first(leg.ranks), row, leg);
+        const Outcome outcome = cases_.run(*comms_.first(leg.ranks), c, leg);
         total = {outcome.mismatch, total.rebuilds + outcome.rebuilds};
       }
       route += (leg.from > 0 ? " -" + std::to_string(leg.from) + "-> " : "") + std::to_string(leg.ranks);
       sleep_until_all_are_here(world_.get());
       if (world_.max(std::int64_t{!total.mismatch.empty()}) > 0) break;
     }
-    if (first) report(row, total, route, seconds() - begin);
+    if (first) report(c, total, route, seconds() - begin);
     sleep_until_all_are_here(world_.get());
   }
 
-  void report(const Row& row, const Outcome& outcome, const std::string& route, double time) {
+  void report(const Case& c, const Outcome& outcome, const std::string& route, double time) {
     const bool good = outcome.mismatch.empty();
     ++(good ? passed_ : failed_);
     char line[400];
     std::snprintf(line, sizeof line, "%s %s | %s ranks, %lld steps, seed %llu, %lld rebuilds, %.2f s",
-                  good ? "ok" : "FAILED", to_text(row).c_str(), route.c_str(),
-                  static_cast<long long>(options_.steps), static_cast<unsigned long long>(options_.seed),
+                  good ? "ok" : "FAILED", to_text(c.row).c_str(), route.c_str(),
+                  static_cast<long long>(c.steps.back()), static_cast<unsigned long long>(options_.seed),
                   static_cast<long long>(outcome.rebuilds), time);
     std::printf("%s\n", line);
     if (!good)
-      std::printf("       %s: %s\n", outcome.mismatch.c_str(), cases_.explain(*comms_.first(1), row).c_str());
+      std::printf("       %s: %s\n", outcome.mismatch.c_str(),
+                  cases_.explain(*comms_.first(1), c.row).c_str());
     std::fflush(stdout);
     if (log_.is_open()) log_ << line << std::endl;
   }
@@ -252,7 +261,7 @@ int main(int argc, char** argv) {
     const decomp::Comm world(MPI_COMM_WORLD);
     if (world.size() != most_ranks) throw std::runtime_error("the matrix runs on 8 ranks");
     const Options options = parse(argc, argv);
-    failed = Matrix(world, options).run(rows_of(options));
+    failed = Matrix(world, options).run(cases_of(options));
   } catch (const std::exception& error) {
     // A rank that has given up cannot tell the others, who wait for it.
     std::fprintf(stderr, "equivalence: %s\n", error.what());

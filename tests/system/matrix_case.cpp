@@ -1,7 +1,6 @@
 #include "matrix_case.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 #include <numeric>
 #include <stdexcept>
@@ -25,9 +24,9 @@ void write_state(const fs::path& path, const sph::Simulation& s) {
                       s.particle_count());
 }
 
-void write_restart(const fs::path& dir, const sph::Simulation& s, const sph::Particles& particles) {
+void write_restart(const fs::path& dir, const sph::Simulation& s) {
   const sph::RunRecord record{s.global(), s.scale(), sph::to_toml(s.scene()), ""};
-  sph::write_checkpoint(s.comm(), dir, particles, nullptr, record, s.wrap(), provenance_of(s), 0);
+  sph::write_checkpoint(s.comm(), dir, s.particles(), nullptr, record, s.wrap(), provenance_of(s), 0);
 }
 
 /// The scene as anybody would run it on one rank.
@@ -39,23 +38,31 @@ sph::Scene reference_scene(const Row& row) {
   return scene;
 }
 
-/// The particles of the start in a random order. As a checkpoint of step 0: every rank reads an equal share
-/// of its rows wherever they lie, so with them shuffled each gets particles from everywhere.
-void write_shuffled_start(const fs::path& dir, const sph::Simulation& s, std::uint64_t seed) {
-  const decomp::Table& from = s.particles().table();
-  std::vector<std::size_t> order(from.owned());
+/// The particles of the start in a random order, as a user's file may have them: each rank reads an equal
+/// share of the lines, so that it gets particles from everywhere. 17 digits give every double back.
+void write_shuffled_start(const fs::path& path, const sph::Simulation& s, std::uint64_t seed) {
+  const sph::Particles& p = s.particles();
+  const auto d = static_cast<std::size_t>(p.dim());
+  std::vector<std::size_t> order(p.owned());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t n = order.size(); n > 1; --n)
-    std::swap(order[n - 1], order[draw(seed, "arrival" + std::to_string(n)) % n]);
-  sph::Particles shuffled(s.scene().dim, s.particles().fields());
-  shuffled.table().resize(order.size(), 0);
-  for (int c = 0; c < from.columns(); ++c) {
-    const std::size_t width = from.column(c).width();
-    for (std::size_t i = 0; i < order.size(); ++i)
-      std::memcpy(shuffled.table().column(c).data() + i * width, from.column(c).data() + order[i] * width,
-                  width);
+    std::swap(order[n - 1], order[draw(seed, "line" + std::to_string(n)) % n]);
+
+  const double* gas = p.data<sph::Field::gas_content>();
+  std::ofstream out(path);
+  out.precision(17);
+  out << (d == 2 ? "id,x,y,vx,vy,group,rho" : "id,x,y,z,vx,vy,vz,group,rho") << (gas != nullptr ? ",m" : "");
+  for (const std::size_t i : order) {
+    out << '\n' << p.data<sph::Field::id>()[i];
+    for (std::size_t a = 0; a < d; ++a)
+      out << ',' << s.scale().metres(p.data<sph::Field::position>()[i * d + a]);
+    for (std::size_t a = 0; a < d; ++a) out << ',' << p.data<sph::Field::velocity>()[i * d + a];
+    out << ',' << s.scene().groups[p.data<sph::Field::group>()[i]].name << ','
+        << p.data<sph::Field::density>()[i];
+    if (gas != nullptr) out << ',' << gas[i];
   }
-  write_restart(dir, s, shuffled);
+  out << '\n';
+  if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
 std::string lines_of(const fs::path& path) {
@@ -65,7 +72,9 @@ std::string lines_of(const fs::path& path) {
 
 }  // namespace
 
-std::vector<Leg> legs_of(const Row& row, std::int64_t steps, std::uint64_t seed) {
+std::vector<Leg> legs_of(const Case& c, std::uint64_t seed) {
+  const Row& row = c.row;
+  const std::int64_t steps = c.steps.back();
   const int ranks = row.ranks();
   const std::string_view restart = row[Factor::restart];
   if (restart == "none" || steps < 2) return {{ranks, 0, steps}};
@@ -80,26 +89,30 @@ std::vector<Leg> legs_of(const Row& row, std::int64_t steps, std::uint64_t seed)
   return {{first, 0, at}, {second, at, steps}};
 }
 
-std::string Cases::key(const Row& row) const {
+std::string Cases::key(const Row& row) {
   return std::string(row[Factor::scene]) + "_" + std::string(row[Factor::precision]);
 }
 fs::path Cases::run_dir(const Row& row) const { return scratch_ / ("run_" + key(row)); }
-fs::path Cases::start_dir(const Row& row) const { return scratch_ / ("start_" + key(row)); }
+fs::path Cases::start_file(const Row& row) const { return scratch_ / ("start_" + key(row) + ".csv"); }
 
-void Cases::prepare(const decomp::Comm& one, const Row& row) {
-  fs::remove_all(run_dir(row));
-  fs::create_directories(run_dir(row));
+void Cases::prepare(const decomp::Comm& one, const Case& c) {
+  fs::remove_all(run_dir(c.row));
+  fs::create_directories(run_dir(c.row));
   mismatch_step_ = -1;
-  if (references_.contains(key(row))) return;
-  sph::Simulation simulation(one, reference_scene(row));
-  write_shuffled_start(start_dir(row), simulation, seed_);
-  const Liveliness start = liveliness(simulation);
-  Fingerprints& reference = references_[key(row)];
-  for (const std::int64_t step : steps_) {
-    while (simulation.global().step < step) simulation.step();
-    reference[step] = simulation.fingerprint();
+  Reference& reference = references_[key(c.row)];
+  if (!reference.simulation) {
+    reference.simulation = std::make_unique<sph::Simulation>(one, reference_scene(c.row));
+    reference.start = liveliness(*reference.simulation);
+    write_shuffled_start(start_file(c.row), *reference.simulation, seed_);
   }
-  if (steps_.back() >= 300) check_lively(simulation.scene(), start, liveliness(simulation));
+  sph::Simulation& simulation = *reference.simulation;
+  while (simulation.global().step < c.steps.back()) {
+    simulation.step();
+    reference.fingerprint[simulation.global().step] = simulation.fingerprint();
+  }
+  constexpr std::int64_t long_enough = 300;
+  if (simulation.global().step >= long_enough)
+    check_lively(simulation.scene(), reference.start, liveliness(simulation));
 }
 
 // A replay follows a recording of the same length as a run that rebuilds at every step; beyond the end of a
@@ -135,16 +148,16 @@ void Cases::set_cuts(const decomp::Comm& comm, const Row& row, const Leg& leg, s
   comm.barrier();
 }
 
-std::unique_ptr<sph::Simulation> Cases::begin(const decomp::Comm& comm, const Row& row,
-                                              const sph::Scene& scene, const Leg& leg) const {
+std::unique_ptr<sph::Simulation> Cases::begin(const decomp::Comm& comm, const Row& row, sph::Scene& scene,
+                                              const Leg& leg) const {
   if (leg.from > 0)
     return std::make_unique<sph::Simulation>(comm, scene, sph::find_checkpoint(comm, run_dir(row)));
-  if (row[Factor::order] == "shuffled")
-    return std::make_unique<sph::Simulation>(comm, scene, sph::find_checkpoint(comm, start_dir(row)));
+  if (row[Factor::order] == "shuffled") scene.start.file = start_file(row).string();
   return std::make_unique<sph::Simulation>(comm, scene);
 }
 
-Outcome Cases::run(const decomp::Comm& comm, const Row& row, const Leg& leg) {
+Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
+  const Row& row = c.row;
   sph::Scene scene = scene_of(row);
   set_cuts(comm, row, leg, scene);
   const auto simulation = begin(comm, row, scene, leg);
@@ -153,15 +166,15 @@ Outcome Cases::run(const decomp::Comm& comm, const Row& row, const Leg& leg) {
   while (simulation->global().step < leg.to) {
     simulation->step();
     const std::int64_t step = simulation->global().step;
-    if (!std::binary_search(steps_.begin(), steps_.end(), step)) continue;
+    if (!std::binary_search(c.steps.begin(), c.steps.end(), step)) continue;
     const std::string fingerprint = simulation->fingerprint();
-    const bool differs = comm.rank() == 0 && fingerprint != references_.at(key(row)).at(step);
+    const bool differs = comm.rank() == 0 && fingerprint != references_.at(key(row)).fingerprint.at(step);
     if (comm.max(std::int64_t{differs}) == 0) continue;
     write_state(run_dir(row) / "row.h5", *simulation);
     mismatch_step_ = step;
     return {"step " + std::to_string(step), simulation->counters().rebuilds};
   }
-  if (leg.to < steps_.back()) write_restart(run_dir(row), *simulation, simulation->particles());
+  if (leg.to < c.steps.back()) write_restart(run_dir(row), *simulation);
   Outcome outcome{"", simulation->counters().rebuilds};
   if (comm.rank() == 0 && !scene.decomposition.record.empty() &&
       !lines_of(scene.decomposition.replay).starts_with(lines_of(scene.decomposition.record)))

@@ -17,7 +17,7 @@ const std::vector<Source>& sources() {
        "apps/buoyant_cylinder/fluid.toml",
        {"group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=",
         "group.cylinder.sound_speed=200", "group.cylinder.bulk_viscosity=300", "time.dt=", "time.cfl=0.7",
-        "start.jitter=0.1", "start.velocity=[3, -1]", "terms.artificial_viscosity=0.02"}},
+        "start.jitter=0.05", "start.velocity=[2, -0.5]", "terms.artificial_viscosity=0.02"}},
       {"solid2d",
        "apps/buoyant_cylinder/solid.toml",
        {"group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7",
@@ -27,7 +27,7 @@ const std::vector<Source>& sources() {
        {"group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7",
         "group.spray.bulk_modulus=5e7", "time.dt=", "time.cfl=0.6", "start.jitter=0.1",
         "start.velocity=[2, 2]", "start.region.3.centre=[22, 32]",
-        "group.cylinder.fragmentation.void_fraction=0.15"}},
+        "group.cylinder.fragmentation.void_fraction=0.35"}},
       {"ida2d",
        "apps/buoyant_cylinder/fluid.toml",
        {"formulation=ida", "group.melt.bulk_modulus=", "group.melt.sound_speed=160",
@@ -38,8 +38,11 @@ const std::vector<Source>& sources() {
        "tests/scenes/taylor_green.toml",
        {"domain.upper=[2, 0.5]", "start.flow_length=0.5", "time.until=", "time.steps=1"}},
       {"fluid3d", "tests/scenes/box3d_fluid.toml", {}},
-      {"solid3d", "tests/scenes/box3d_solid.toml", {}},
-      {"gas3d", "tests/scenes/box3d_gas.toml", {}},
+      // smaller balls: those of the file fill the channel and push melt through its walls
+      {"solid3d",
+       "tests/scenes/box3d_solid.toml",
+       {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3"}},
+      {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.fragmentation.void_fraction=0.09"}},
   };
   return table;
 }
@@ -54,9 +57,8 @@ sph::Scene scene_of(const Row& row) {
   overrides.push_back("decomposition.overlap=" +
                       std::string(row[Factor::overlap] == "on" ? "true" : "false"));
   const std::string_view list = row[Factor::list];
-  overrides.push_back("decomposition.skin=" + std::string(list == "small"   ? "0.05"
-                                                          : list == "large" ? "0.6"
-                                                                            : "0.2"));
+  const std::string small = row[Factor::scene] == "flow2d" ? "0.1" : "0.05";
+  overrides.push_back("decomposition.skin=" + (list == "small" ? small : list == "large" ? "0.59" : "0.2"));
   overrides.push_back("decomposition.rebuild_every=" + std::string(list == "every" ? "1" : "0"));
   return sph::read_scene(std::string(PEPERITE_SOURCE_DIR) + "/" + std::string(source.file), overrides);
 }

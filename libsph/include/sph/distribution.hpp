@@ -23,6 +23,7 @@ class Distribution {
   /// Throws InputError when the ranks do not fit the grid, naming the largest number that does.
   Distribution(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale);
 
+  [[nodiscard]] const decomp::Comm& comm() const { return comm_; }
   [[nodiscard]] const decomp::CellGrid& grid() const { return grid_; }
   [[nodiscard]] const decomp::JaggedPartition& partition() const { return partition_; }
   [[nodiscard]] decomp::HaloPlan& halo() { return plan_; }

@@ -3,8 +3,6 @@
 // and the program must be ended for them.
 #pragma once
 
-#include <mpi.h>
-
 #include <exception>
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
 // The start: particles on a lattice painted by the scene's regions, with their initial fields. Ids follow
-// from the lattice index alone; each rank places only what lies in its own box.
+// from the lattice index alone; each rank places only what lies in its own box. Or particles from a file.
 #pragma once
 
 #include "sph/distribution.hpp"
@@ -9,8 +9,8 @@
 
 namespace sph {
 
-/// Fills `particles` (empty) with this rank's share. Throws InputError if nothing is placed anywhere.
-void place_particles(const Scene& scene, const PositionScale& scale, const Distribution& distribution,
+/// Fills `particles` (empty) with this rank's share. Collective. Throws InputError if the file is wrong.
+void place_particles(const Scene& scene, const PositionScale& scale, Distribution& distribution,
                      Particles& particles);
 
 }  // namespace sph

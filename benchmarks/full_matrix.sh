@@ -1,0 +1,14 @@
+#!/bin/sh
+# The full product of the equivalence matrix (tests/system): about 23000 rows in a seeded random order.
+#   sh benchmarks/full_matrix.sh [LOG] [PART/PARTS] [SEED] [STEPS]
+# Goes on where LOG ends: rows with "ok" in it are not run again. PART/PARTS splits the work, a tenth: 1/10.
+set -eu
+cd "$(dirname "$0")/.."
+. cmake/environment.sh
+log=${1:-full_matrix.log}
+part=${2:-1/1}
+seed=${3:-1}
+steps=${4:-2000}
+[ -d build ] || configure
+cmake --build build --target equivalence
+exec mpirun -n 8 build/bin/equivalence --full --seed "$seed" --part "$part" --log "$log" --steps "$steps"
