@@ -17,8 +17,13 @@ decomp::CellGrid make_grid(const Scene& scene, const PositionScale& scale, std::
 
 decomp::Cuts first_cuts(const decomp::CellGrid& grid, const Scene& scene, int ranks) {
   const auto [row, column] = scene.decomposition.cut_axes;
-  return decomp::uniform_cuts(ranks, grid.cells()[static_cast<std::size_t>(row)],
-                              grid.cells()[static_cast<std::size_t>(column)]);
+  try {
+    return decomp::uniform_cuts(ranks, grid.cells()[static_cast<std::size_t>(row)],
+                                grid.cells()[static_cast<std::size_t>(column)]);
+  } catch (const InputError& error) {
+    throw InputError(scene.file + ": " + error.what() +
+                     "; start fewer, or reduce decomposition.skin or start.spacing for smaller cells");
+  }
 }
 
 std::unique_ptr<decomp::CutPolicy> make_policy(const Decomposition& d) {
@@ -123,15 +128,14 @@ void Distribution::scatter(Particles& particles) {
   decomp::redistribute(comm_, owners(particles), particles.table(), nullptr);
 }
 
-void Distribution::rebuild(Particles& particles, double cost_seconds,
-                           const std::vector<bool>& is_wall_group) {
+void Distribution::rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group,
+                           double moved) {
   wrap_positions(particles);
   if (comm_.size() > 1) {
     const decomp::JaggedPartition before = partition_;
     move_cuts(scene_.decomposition.cost == CostSource::time ? cost_seconds
                                                             : static_cast<double>(particles.owned()));
-    // Between rebuilds no particle moves further than half the skin.
-    const std::int64_t strayed = scale_.quanta(0.5 * skin_) + 1;
+    const std::int64_t strayed = scale_.quanta(moved) + 1;
     const decomp::MigrationPeers peers = decomp::migration_peers(before, partition_, comm_.rank(), strayed);
     migrated_ += static_cast<std::int64_t>(
         decomp::migrate(comm_, owners(particles), peers, particles.table(), nullptr));

@@ -100,8 +100,8 @@ Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene
   constants_.artificial_viscosity = scene.terms.artificial_viscosity;
   constants_.inverse_w_spacing = 1 / kernel.w_spacing;
 
-  fields_ = {Field::id,    Field::position, Field::velocity, Field::density,  Field::mass,
-             Field::group, Field::pressure, Field::force,    Field::reference};
+  fields_ = {Field::id,   Field::position, Field::velocity, Field::density,
+             Field::mass, Field::group,    Field::pressure, Field::force};
   if (scene.has_bubbly()) fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     fields_ |= FieldSet{Field::stress};
@@ -201,10 +201,13 @@ double Physics::time_step(const StepMaxima& maxima) const {
   return dt;
 }
 
-double Physics::longest_move(const GlobalState& global) const {
-  // Shifting adds at most half of U_max dt; the margin covers the rounding to quanta.
-  const double move = global.max_speed * global.dt;
-  return 1.0001 * (scene_->terms.shifting ? 1.5 * move : move);
+// The margin covers the rounding to quanta.
+double Physics::longest_advance(const GlobalState& global) const {
+  return 1.0001 * global.max_speed * global.dt;
+}
+
+double Physics::longest_shift(const GlobalState& global) const {
+  return scene_->terms.shifting ? 0.5 * longest_advance(global) : 0.0;
 }
 
 double Physics::courant_number(double dt) const {

@@ -104,8 +104,10 @@ void add_particle(const StartRows& rows, std::size_t k, const Scene& scene, cons
   set_initial_fields(scene, p);
   for (std::size_t a = 0; a < d; ++a) p.velocity[a] = rows.v[k * d + a];
   if (!rows.rho.empty()) {
-    p.density = p.mass = rows.rho[k];
-    for (std::size_t a = 0; a < d; ++a) p.mass *= scene.spacing;
+    double volume = 1;
+    for (std::size_t a = 0; a < d; ++a) volume *= scene.spacing;
+    p.density = rows.rho[k];
+    p.mass = p.density * volume;  // as on a lattice, to the bit
   }
   if (!rows.mass.empty()) p.mass = rows.mass[k];
   append(scene, p, q, particles);

@@ -13,6 +13,7 @@ std::int64_t Simulation::step(std::int64_t request) {
   {
     const auto timing = timers_.time(decomp::Region::update);
     physics_.advance(particles_, distribution_.ranges(), global_.dt);
+    moved_ += physics_.longest_advance(global_);
     changed({Field::position});
   }
   if (stale_) rebuild();
@@ -43,7 +44,7 @@ std::int64_t Simulation::step(std::int64_t request) {
 void Simulation::rebuild() {
   {
     const auto timing = timers_.time(decomp::Region::migrate);
-    distribution_.rebuild(particles_, timers_.take_cost(), is_wall_group_);
+    distribution_.rebuild(particles_, timers_.take_cost(), is_wall_group_, moved_);
     if (decomp::census(comm_, particles_.table(), particles_.column(Field::id)) != census_)
       throw GuardError("step " + std::to_string(global_.step) +
                        ": a particle was lost or duplicated in migration; reduce time.dt");
@@ -53,9 +54,7 @@ void Simulation::rebuild() {
   refresh_end();
   lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
                distribution_.ranges(), timers_);
-  const auto timing = timers_.time(decomp::Region::lists);
-  const std::size_t values = particles_.rows() * static_cast<std::size_t>(particles_.dim());
-  std::copy_n(particles_.data<Field::position>(), values, particles_.data<Field::reference>());
+  moved_ = 0;
   ++counters_.rebuilds;
 }
 
@@ -105,47 +104,31 @@ void Simulation::refresh_halo(FieldSet fields) {
 
 // The one reduction of a step. What it brings acts in the next step.
 std::int64_t Simulation::finish_step(const StepMaxima& maxima, std::int64_t request) {
-  const double moved = displacement();
   const bool finite = std::isfinite(maxima.speed) && std::isfinite(maxima.acceleration);
-  std::array<double, 5> all{maxima.speed, maxima.acceleration, moved, finite ? 0.0 : 1.0,
+  std::array<double, 4> all{maxima.speed, maxima.acceleration, finite ? 0.0 : 1.0,
                             static_cast<double>(request)};
   {
     const auto timing = timers_.time(decomp::Region::reduce);
     if (!finite) all[0] = all[1] = 0;
     comm_.max(all);
   }
-  if (all[3] > 0) stop_at_bad_particle();
-  if (all[2] > 0.5 * distribution_.skin())
-    throw GuardError(
-        "step " + std::to_string(global_.step) + ": a particle moved " + std::to_string(all[2]) +
-        " m since the last list rebuild, more than half the skin; enlarge decomposition.skin or reduce "
-        "time.dt");
+  if (all[2] > 0) stop_at_bad_particle();
+  moved_ += physics_.longest_shift(global_);
   ++global_.step;
   global_.time += global_.dt;
   global_.max_speed = all[0];
   global_.max_acceleration = all[1];
   global_.dt = physics_.time_step({all[0], all[1]});
   const int every = scene_.decomposition.rebuild_every;
-  // The list must still hold at the end of the next step.
-  stale_ = all[2] + physics_.longest_move(global_) > 0.5 * distribution_.skin() ||
-           (every > 0 && global_.step % every == 0);
-  return static_cast<std::int64_t>(all[4]);
-}
-
-double Simulation::displacement() const {
-  const std::size_t d = static_cast<std::size_t>(particles_.dim());
-  const std::int64_t* x = particles_.data<Field::position>();
-  const std::int64_t* reference = particles_.data<Field::reference>();
-  double largest = 0;
-  for (std::size_t i = 0; i < particles_.owned(); ++i) {
-    double r2 = 0;
-    for (std::size_t a = 0; a < d; ++a) {
-      const double r = static_cast<double>(x[i * d + a] - reference[i * d + a]);
-      r2 += r * r;
-    }
-    largest = r2 > largest ? r2 : largest;
-  }
-  return std::sqrt(largest) * scale_.quantum;
+  // The list must still hold at the end of the next step. moved_ bounds every particle's path since the
+  // rebuild by the largest speed of each step: no positions to remember, and never late.
+  const double next = physics_.longest_advance(global_) + physics_.longest_shift(global_);
+  if (next > 0.5 * scene_.support())
+    throw GuardError("step " + std::to_string(global_.step) + ": the fastest particle would move " +
+                     std::to_string(next) +
+                     " m in one step, more than half the kernel's radius; reduce time.dt or time.cfl");
+  stale_ = moved_ + next > 0.5 * distribution_.skin() || (every > 0 && global_.step % every == 0);
+  return static_cast<std::int64_t>(all[3]);
 }
 
 // ---- set-up ---------------------------------------------------------------------------------------------
@@ -159,7 +142,10 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
       particles_(scene_.dim, physics_.fields()),
       lists_(lanes_of(scene_.precision)) {
   place_particles(scene_, scale_, distribution_, particles_);
-  global_.dt = physics_.time_step({});
+  std::array<double, 1> fastest{physics_.largest_speed(particles_)};
+  comm_.max(fastest);
+  global_.max_speed = fastest[0];
+  global_.dt = physics_.time_step({global_.max_speed, 0});
   begin();
 }
 
@@ -185,7 +171,7 @@ void Simulation::begin() {
   physics_.derive(particles_, 0, particles_.owned());
   // Sorts the rows: advance() needs to know which of them move.
   rebuild();
-  stale_ = true;  // nothing is known yet of how far the first step moves particles
+  stale_ = true;  // the first advance may leave the skin
 }
 
 Wrap Simulation::wrap() const {

@@ -132,6 +132,18 @@ void Physics::update_ida(Particles& p, std::size_t first, std::size_t last, doub
   }
 }
 
+double Physics::largest_speed(const Particles& p) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double* v = p.data<Field::velocity>();
+  double speed2 = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    double v2 = 0;
+    for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
+    speed2 = v2 > speed2 ? v2 : speed2;
+  }
+  return std::sqrt(speed2);
+}
+
 void Physics::advance(Particles& p, const RowRanges& ranges, double dt) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   std::int64_t* x = p.data<Field::position>();

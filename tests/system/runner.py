@@ -51,7 +51,7 @@ class Runner:
         return subprocess.Popen(self.command(ranks, program, arguments), cwd=self.folder, env=self.environment,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
-    def finish(self, process, timeout=120):
+    def finish(self, process, timeout=240):
         try:
             out, err = process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:

@@ -39,8 +39,10 @@ class Distribution {
   void scatter(Particles& particles);
 
   /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
-  /// plans the halo. Halo rows are allocated, not filled.
-  void rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group);
+  /// plans the halo. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
+  /// since the last call.
+  void rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group,
+               double moved);
 
  private:
   void move_cuts(double cost);

@@ -29,7 +29,6 @@ enum class Field : std::uint8_t {
   velocity_gradient,
   spread,
   wall_sums,
-  reference,
   velocity_mean,
   pressure_mean,
   count_
@@ -85,8 +84,6 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "gradient of the particle concentration, against which particles are shifted"},
     {Field::wall_sums, "wall_sums", "1", Type::f64, Shape::wall, false, false,
      "kernel sums over the fluid near a wall particle: weight, pressure, velocity"},
-    {Field::reference, "reference", "quantum", Type::i64, Shape::vector, false, false,
-     "position at the last list rebuild"},
     {Field::velocity_mean, "velocity_mean", "m/s", Type::f64, Shape::vector, true, true,
      "running average over output.average_time"},
     {Field::pressure_mean, "pressure_mean", "Pa", Type::f64, Shape::scalar, true, true,

@@ -58,8 +58,11 @@ class Physics {
 
   /// Largest step the integrator takes [s], from the maxima of the step before.
   [[nodiscard]] double time_step(const StepMaxima& maxima) const;
-  /// Bound on how far any particle moves in the next step, shifting included [m].
-  [[nodiscard]] double longest_move(const GlobalState& global) const;
+  /// Bounds on how far advance() and the shifting in integrate() move any particle, from the maxima known
+  /// at the start of the step [m].
+  [[nodiscard]] double longest_advance(const GlobalState& global) const;
+  [[nodiscard]] double longest_shift(const GlobalState& global) const;
+  [[nodiscard]] double largest_speed(const Particles& particles) const;  ///< of this rank's particles [m/s]
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
   [[nodiscard]] double courant_number(double dt) const;
 

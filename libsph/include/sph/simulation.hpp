@@ -57,7 +57,6 @@ class Simulation {
   void refresh_begin(FieldSet wanted);
   void refresh_end();
   std::int64_t finish_step(const StepMaxima& maxima, std::int64_t request);
-  [[nodiscard]] double displacement() const;
   [[noreturn]] void stop_at_bad_particle() const;
 
   const decomp::Comm& comm_;
@@ -77,6 +76,7 @@ class Simulation {
   bool refreshing_ = false;
   FieldSet fresh_;  ///< fields whose halo copies are up to date
   bool stale_ = true;
+  double moved_ = 0;  ///< bound on any particle's path since the last rebuild [m]
   std::int64_t count_ = 0;
   decomp::Census census_;
 };

@@ -2,8 +2,8 @@
 // (Fourtakas et al. 2019): d rho_i/dt += 2 delta h sum_j V_j (p_i - p_j + rho_ij g.(x_j - x_i)) / c_ij  W'/r,
 // only between particles of one group. c_ij is the larger of the two: the stiffer particle's pressure then
 // relaxes at the rate delta c / h, bounded by its own acoustic rate. With the smaller c a liquid particle
-// (c = 2800 m/s) beside a foamed one (36 m/s) would relax at delta c_l^2 / (c_f h): unstable at any useful dt.
-// V_i d rho_i is antisymmetric: the pairs exchange density, none is made.
+// (c = 2800 m/s) beside a foamed one (36 m/s) would relax at delta c_l^2 / (c_f h): unstable at any useful
+// dt. V_i d rho_i is antisymmetric: the pairs exchange density, none is made.
 #pragma once
 
 #include "sph/pair_rows.hpp"
@@ -24,9 +24,9 @@ struct DensityDiffusion {
         V(typename P::Scalar(0.5)) * (p.template i<Value::density>() + p.template j<Value::density>());
     const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * head;
     const V sound = max(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
-    const V term = p.template j<Value::volume>() * p.f * (excess / sound);
+    const V rate = p.template j<Value::volume>() * p.f * (excess / sound);
     sums.template add<Field::diffusion>(
-        0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), term));
+        0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), rate));
   }
 };
 
