@@ -1,0 +1,35 @@
+#!/bin/sh
+# Runs the solid, fluid and gas cases to 20 s and draws the pictures in gallery/: four minutes on two quiet cores.
+# Cases that have already come to their end in RUNS are only drawn.
+#
+#     sh apps/buoyant_cylinder/gallery.sh [PROGRAMS] [RUNS] [RANKS]     default: build/bin out/gallery 2
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+programs=${1:-build/bin}
+runs=${2:-out/gallery}
+ranks=${3:-2}
+. "$here/../../cmake/environment.sh"
+
+for case in solid fluid gas; do
+  if [ ! -f "$runs/$case/perf.json" ]; then
+    mpirun -np "$ranks" "$programs/buoyant_cylinder" "$here/$case.toml" --out "$runs/$case" \
+      --set output.snapshot_interval=0.4 --set output.average_time=0.2
+  fi
+done
+
+# draw NAME PICTURE [arguments of plot.py]: PICTURE becomes gallery/NAME.png.
+draw() {
+  name=$1 picture=$2
+  shift 2
+  /usr/bin/python3 "$here/plot.py" "$@" --draw "$picture" --out "$runs" > /dev/null
+  mv "$runs/$picture.png" "$here/gallery/$name.png"
+  echo "$here/gallery/$name.png"
+}
+
+mkdir -p "$here/gallery"
+for case in solid fluid gas; do
+  draw "${case}_10s" particles "$runs/$case" --time 10
+done
+draw gas_fragmented particles "$runs/gas" --time 13.6
+draw gas_pressure pressure "$runs/gas" --time 13.6 --average time
+draw time_series series "$runs/solid" "$runs/fluid" "$runs/gas"

@@ -1,0 +1,131 @@
+"""The files of a run: snapshots and time series of two-dimensional scenes."""
+
+import tomllib
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+
+class BadInput(Exception):
+    """What is wrong with the arguments or with a file, in one line."""
+
+
+class Snapshot:
+    """The particles at one time."""
+
+    def __init__(self, path):
+        self.path, self.remark = path, ""
+        try:
+            with h5py.File(path) as file:
+                self.time = float(file.attrs["time"])
+                self.step = int(file.attrs["step"])
+                self.scene = tomllib.loads(file.attrs["scene"])
+        except (OSError, KeyError, ValueError) as error:
+            raise BadInput(f"{path}: not a snapshot: {error}") from None
+
+    def __getattr__(self, field):
+        """Fields are read when they are first looked at; None where the scene does not have them."""
+        if field.startswith("_"):
+            raise AttributeError(field)
+        try:
+            with h5py.File(self.path) as file:
+                values = file["particles"][field][()] if field in file["particles"] else None
+        except (OSError, KeyError) as error:
+            raise BadInput(f"{self.path}: cannot read {field}: {error}") from None
+        setattr(self, field, values)
+        return values
+
+    def averaged(self, over):
+        """The same with velocity and pressure averaged over "time" or "space" (None: unchanged)."""
+        if over is None:
+            return self
+        suffix, key = {"time": ("mean", "average_time"), "space": ("smooth", "average_space")}[over]
+        other = Snapshot(self.path)
+        for field in ("velocity", "pressure"):
+            values = getattr(self, f"{field}_{suffix}")
+            if values is None:
+                raise BadInput(f"{self.path}: no averages over {over} in it: run with output.{key}")
+            setattr(other, field, values)
+        window = f"{self.scene['output']['average_time']:g} s" if over == "time" else "neighbours"
+        other.remark = f"; velocity and pressure averaged over {window}"
+        return other
+
+    @property
+    def diameter(self):
+        """Of a circle inside the square that holds the particle's mass: it swells as density falls."""
+        return np.sqrt(self.mass / self.density)
+
+    def hydrostatic(self):
+        """Pressure of the first fluid at rest, zero at the surface height."""
+        start, domain = self.scene["start"], self.scene["domain"]
+        rho = next(g["density"] for g in self.scene["group"] if g["kind"] != "wall")
+        surface = start.get("surface_height", domain["upper"][1])
+        return -rho * domain["gravity"][1] * (surface - self.position[:, 1])
+
+    def principal_stresses(self, dynamic):
+        """Greater and smaller principal value (tension > 0) and the angle of the greater one's axis."""
+        zero = np.zeros(len(self.pressure))
+        xx, yy, xy = self.stress.T if self.stress is not None else (zero, zero, zero)
+        pressure = self.pressure
+        if self.scene.get("formulation") == "ida" and self.stress is not None:
+            pressure = zero  # already part of the stress
+        if dynamic:
+            pressure = pressure - self.hydrostatic()
+        centre, half = (xx + yy) / 2 - pressure, (xx - yy) / 2
+        radius = np.hypot(half, xy)
+        return centre + radius, centre - radius, np.arctan2(xy, half) / 2
+
+
+class Run:
+    """A folder of snapshots and its time series."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        if not self.folder.is_dir():
+            raise BadInput(f"{folder}: no such folder")
+        self.snapshots = sorted((Snapshot(p) for p in self.folder.glob("snapshot_*.h5")), key=lambda s: s.step)
+        if not self.snapshots:
+            raise BadInput(f"{folder}: no snapshot_*.h5 in it")
+        self.scene = self.snapshots[-1].scene
+        if self.scene["dimension"] != 2:
+            raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions; only 2 can be drawn")
+        self.name = self.folder.resolve().name
+        self.title = self.scene.get("title", self.name)
+        self.kinds = [g["kind"] for g in self.scene["group"]]
+        self.names = [g["name"] for g in self.scene["group"]]
+        self.sprays = {g["fragmentation"]["group"] for g in self.scene["group"] if "fragmentation" in g}
+        self.spacing = self.scene["start"]["spacing"]
+
+    def nearest(self, time):
+        if time is None:
+            return self.snapshots[-1]
+        return min(self.snapshots, key=lambda s: abs(s.time - time))
+
+    def is_wall(self, snapshot):
+        return np.array([kind == "wall" for kind in self.kinds])[snapshot.group]
+
+    def heading(self, snapshot):
+        return f"{self.title}, t = {snapshot.time:.1f} s{snapshot.remark}"
+
+    def series(self):
+        path = self.folder / "series.csv"
+        try:
+            table = np.genfromtxt(path, delimiter=",", names=True, ndmin=1)
+        except (OSError, ValueError) as error:
+            raise BadInput(f"{path}: cannot read it: {str(error).splitlines()[0]}") from None
+        if table.dtype.names is None or "t" not in table.dtype.names or table.size == 0:
+            raise BadInput(f"{path}: no time series in it")
+        return table
+
+    def tracked(self):
+        """Name of the first monitor that follows a particle."""
+        return next((m["name"] for m in self.scene.get("monitor", []) if m["kind"] == "particle"), None)
+
+    def fragmentation(self, table):
+        """When the first particle fragmented; None if none did or the scene does not count them."""
+        for monitor in self.scene.get("monitor", []):
+            if monitor.get("group") in self.sprays and f"{monitor['name']}_n" in table.dtype.names:
+                when = table["t"][table[f"{monitor['name']}_n"] > 0]
+                return when[0] if when.size else None
+        return None
