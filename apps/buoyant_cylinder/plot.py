@@ -32,7 +32,7 @@ RUNS = ("#1b6ca8", "#c8553d", "#3a7d44", "#7a4f9e", "#8a6d1d", "#444444")
 TENSION, COMPRESSION = "#d62839", "#1d3557"
 
 STYLE = {
-    "font.size": 10, "axes.titlesize": 11, "axes.titlelocation": "left", "figure.titlesize": 13,
+    "font.size": 10, "axes.titlesize": 11, "axes.titlelocation": "left",
     "axes.edgecolor": "#555555", "axes.linewidth": 0.8, "axes.axisbelow": True, "grid.color": "#dddddd",
     "xtick.color": "#333333", "ytick.color": "#333333", "legend.frameon": False, "figure.dpi": 110,
 }
@@ -103,7 +103,7 @@ def note(axes, text):
 
 def beyond(snapshot, view):
     count = int(np.sum(np.any((snapshot.position < view[0]) | (snapshot.position > view[1]), axis=1)))
-    return f"{count} outside the frame" if count else ""
+    return f"{count} not shown" if count else ""
 
 
 def circles(axes, snapshot, chosen=slice(None), **options):
@@ -165,7 +165,8 @@ def draw_stresses(axes, run, snapshot, dynamic):
         axes.add_collection(LineCollection(ends, colors=np.where(value > 0, TENSION, COMPRESSION), linewidths=0.9))
     bar = nice(4 * largest)
     scale_bar(axes, bar * per_pascal, pressure_text(bar))
-    handles = [Line2D([], [], color=COMPRESSION, label="compression"), Line2D([], [], color=TENSION, label="tension")]
+    labels = ("above hydrostatic", "below") if dynamic else ("compression", "tension")
+    handles = [Line2D([], [], color=c, label=label) for c, label in zip((COMPRESSION, TENSION), labels)]
     axes.legend(handles=handles, ncols=2, bbox_to_anchor=(0.5, -0.06), **BELOW)
     cut = int(np.sum((np.abs(greater) > largest) | (np.abs(smaller) > largest)))
     return f"{cut} larger ones cut at {pressure_text(float(f'{largest:.2g}'))}" if cut else ""
@@ -173,7 +174,7 @@ def draw_stresses(axes, run, snapshot, dynamic):
 
 def draw_particles(run, snapshot, dynamic):
     view = view_of(run, [snapshot])
-    figure, (left, right) = panels(view, 2, 5.2, 0.95)
+    figure, (left, right) = panels(view, 2, 5.0, 0.95)
     draw_velocities(left, run, snapshot)
     counts = np.bincount(snapshot.group, minlength=len(run.names))
     left.legend(handles=group_handles(run, counts), ncols=4, bbox_to_anchor=(0.5, -0.06), **BELOW)
@@ -204,15 +205,15 @@ def draw_pressure(run, snapshot):
     view = view_of(run, [snapshot])
     movers = ~run.is_wall(snapshot)
     gas = snapshot.void_fraction is not None
-    figure, all_axes = panels(view, 3 if gas else 2, 4.0, 1.4)
+    figure, all_axes = panels(view, 3 if gas else 2, 3.6 if gas else 4.4, 1.4)
     pressure = snapshot.pressure / 1e6
     low, high = np.quantile(pressure[movers], (0.002, 0.998))
     draw_map(figure, all_axes[0], run, snapshot, pressure, (min(0, low), max(high, 1e-6)), "viridis",
-             "p above the surface's (MPa)")
+             "p less surface pressure (MPa)")
     all_axes[0].set_title("Pressure")
     excess = (snapshot.pressure - snapshot.hydrostatic()) / 1e3
     reach = max(np.quantile(np.abs(excess[movers]), 0.98), 1e-3)
-    draw_map(figure, all_axes[1], run, snapshot, excess, (-reach, reach), "RdBu_r", "p − p of melt at rest (kPa)")
+    draw_map(figure, all_axes[1], run, snapshot, excess, (-reach, reach), "RdBu_r", "p less pressure of melt at rest (kPa)")
     all_axes[1].set_title("Pressure less hydrostatic")
     if gas:
         bubbly = np.array([g.get("eos") == "bubbly" for g in run.scene["group"]])[snapshot.group]
@@ -259,13 +260,13 @@ def spread(values, least):
 
 def draw_series(runs):
     quantities = (("y", "height y (m)", 1), ("vy", "velocity $v_y$ (m/s)", 1), ("rho", "density ρ (kg/m³)", 1),
-                  ("p", "pressure p above the surface's (MPa)", 1e6))
+                  ("p", "p less surface pressure (MPa)", 1e6))
     colours = RUNS * len(runs)
     figure, grid = plt.subplots(2, 2, figsize=(11, 7.2), sharex=True, layout="constrained")
     handles, ends = [], {axes: [] for axes in grid.flat}
     for run, label, colour in zip(runs, labels_of(runs), colours):
         table, monitor = run.series(), run.tracked()
-        if monitor is None or f"{monitor}_y" not in table.dtype.names:
+        if monitor is None or f"{monitor}_y" not in table:
             raise BadInput(f"{run.folder / 'series.csv'}: the scene follows no particle: give it a [[monitor]]")
         text = f"{label}: {run.title}" if len(runs) > 1 else run.title
         handles.append(Line2D([], [], color=colour, label=text))
@@ -291,9 +292,10 @@ def draw_series(runs):
                               va="center", weight="bold")
     for axes in grid[1]:
         axes.set_xlabel("time t (s)")
-    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
+    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.89))
     figure.legend(handles=handles, loc="lower center", ncols=4)
-    figure.suptitle("The particle that starts at the centre of the cylinder", x=0.06, ha="left", weight="bold")
+    figure.text(0.01, 0.975, "Height, velocity, density and pressure of the tracked particle", va="center",
+                fontsize=13, weight="bold")
     return figure
 
 
@@ -339,7 +341,7 @@ def pictures(runs, given):
         yield "series.png", draw_series(runs)
 
 
-def to_palette(rgb, flat=64, total=160):
+def to_palette(rgb, flat=128, total=192):
     """A picture of few colours, a quarter as large: the `flat` most frequent ones are exact."""
     packed = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
     colours, where, count = np.unique(packed, return_inverse=True, return_counts=True)

@@ -109,14 +109,19 @@ class Run:
         return f"{self.title}, t = {snapshot.time:.1f} s{snapshot.remark}"
 
     def series(self):
+        """Columns by name. A last line that is not complete is left out: the run may still be writing."""
         path = self.folder / "series.csv"
         try:
-            table = np.genfromtxt(path, delimiter=",", names=True, ndmin=1)
+            lines = path.read_text().rpartition("\n")[0].splitlines()
+            names = lines[0].split(",") if lines else []
+            rows = [[float(value) for value in line.split(",")] for line in lines[1:]]
+            if "t" not in names or not rows:
+                raise ValueError("no time series in it")
+            if any(len(row) != len(names) for row in rows):
+                raise ValueError("lines of different lengths")
         except (OSError, ValueError) as error:
-            raise BadInput(f"{path}: cannot read it: {str(error).splitlines()[0]}") from None
-        if table.dtype.names is None or "t" not in table.dtype.names or table.size == 0:
-            raise BadInput(f"{path}: no time series in it")
-        return table
+            raise BadInput(f"{path}: cannot read it: {error}") from None
+        return dict(zip(names, np.array(rows).T))
 
     def tracked(self):
         """Name of the first monitor that follows a particle."""
@@ -125,7 +130,7 @@ class Run:
     def fragmentation(self, table):
         """When the first particle fragmented; None if none did or the scene does not count them."""
         for monitor in self.scene.get("monitor", []):
-            if monitor.get("group") in self.sprays and f"{monitor['name']}_n" in table.dtype.names:
+            if monitor.get("group") in self.sprays and f"{monitor['name']}_n" in table:
                 when = table["t"][table[f"{monitor['name']}_n"] > 0]
                 return when[0] if when.size else None
         return None

@@ -76,6 +76,29 @@ void Distribution::move_cuts(double cost) {
   curve_ = cells_along_curve();
 }
 
+void Distribution::cut_by_counts(Particles& particles) {
+  constexpr std::int64_t most_columns = 2'000'000;  // summed over ranks in one message
+  const std::size_t row = static_cast<std::size_t>(scene_.decomposition.cut_axes[0]);
+  const std::size_t column = static_cast<std::size_t>(scene_.decomposition.cut_axes[1]);
+  const std::int64_t rows = grid_.cells()[row], columns = grid_.cells()[column];
+  if (scene_.decomposition.cuts != CutRule::literal || comm_.size() == 1 || rows * columns > most_columns)
+    return;
+  wrap_positions(particles);
+  const std::size_t d = static_cast<std::size_t>(particles.dim());
+  const std::int64_t* x = particles.data<Field::position>();
+  std::vector<std::int64_t> count(static_cast<std::size_t>(rows * columns), 0);
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    decomp::Int3 p{};
+    for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+    const decomp::Int3 cell = grid_.cell_of(p);
+    ++count[static_cast<std::size_t>(cell[row] * columns + cell[column])];
+  }
+  comm_.sum(count);
+  partition_ = decomp::JaggedPartition(grid_, static_cast<int>(row), static_cast<int>(column),
+                                       decomp::weighted_cuts(comm_.size(), rows, columns, count));
+  curve_ = cells_along_curve();
+}
+
 std::vector<std::uint32_t> Distribution::cells_along_curve() const {
   const decomp::Box own = own_cells();
   const decomp::Int3& cells = grid_.cells();

@@ -158,7 +158,6 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
       particles_(scene_.dim, physics_.fields()),
       lists_(lanes_of(scene_.precision)) {
   read_checkpoint(comm_, checkpoint, particles_, nullptr);
-  distribution_.scatter(particles_);
   global_ = checkpoint.record.global;
   begin();
 }
@@ -168,6 +167,8 @@ void Simulation::begin() {
   census_ = decomp::census(comm_, particles_.table(), particles_.column(Field::id));
   count_ = census_.count;
   if (count_ == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
+  distribution_.cut_by_counts(particles_);
+  distribution_.scatter(particles_);
   physics_.derive(particles_, 0, particles_.owned());
   // Sorts the rows: advance() needs to know which of them move.
   rebuild();

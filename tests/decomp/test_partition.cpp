@@ -283,3 +283,33 @@ TEST(Partition, NeighboursAreFoundQuicklyAmongManyRanks) {
 }
 
 }  // namespace
+
+namespace {
+
+// A pile in one corner: every part gets its share as far as cell lines allow, and no part is empty of cells.
+TEST(WeightedCuts, ShareOutAPileInOneCorner) {
+  constexpr std::int64_t rows = 40, columns = 30;
+  std::vector<std::int64_t> weight(rows * columns, 0);
+  for (std::int64_t r = 0; r < rows / 2; ++r)
+    for (std::int64_t c = 0; c < columns / 2; ++c) weight[static_cast<std::size_t>(r * columns + c)] = 10;
+  const decomp::CellGrid grid(2, {0, 0, 0}, {400, 300, 0}, {false, false, false}, 10);
+  for (const int ranks : {1, 2, 3, 4, 7, 12, 101}) {
+    const decomp::JaggedPartition partition(grid, 0, 1, decomp::weighted_cuts(ranks, rows, columns, weight));
+    ASSERT_EQ(partition.ranks(), ranks);
+    if (ranks > 12) continue;
+    std::int64_t total = 0, largest = 0;
+    for (int r = 0; r < ranks; ++r) {
+      const decomp::Box box = partition.cells(r);
+      std::int64_t sum = 0;
+      for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i)
+        for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j)
+          sum += weight[static_cast<std::size_t>(i * columns + j)];
+      total += sum;
+      largest = std::max(largest, sum);
+    }
+    EXPECT_EQ(total, 10 * rows * columns / 4);
+    EXPECT_LE(static_cast<double>(largest), 1.25 * static_cast<double>(total) / ranks) << ranks << " ranks";
+  }
+}
+
+}  // namespace

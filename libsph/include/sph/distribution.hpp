@@ -35,6 +35,10 @@ class Distribution {
   [[nodiscard]] decomp::Box own_cells() const { return partition_.cells(comm_.rank()); }
   [[nodiscard]] std::int64_t migrated() const { return migrated_; }  ///< rows this rank sent away
 
+  /// Where cuts may follow the load: shares out the particles, wherever their rows are now, evenly. Before
+  /// the first rebuild; scatter() must follow.
+  void cut_by_counts(Particles& particles);
+
   /// Sends every row to its owner wherever it is: set-up and resume.
   void scatter(Particles& particles);
 

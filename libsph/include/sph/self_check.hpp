@@ -6,7 +6,7 @@
 
 namespace sph {
 
-/// Takes about a tenth of a millisecond. Throws InputError if this build or this process breaks a rule.
+/// Takes less than a millisecond. Throws InputError if this build or this process breaks a rule.
 void self_check();
 
 }  // namespace sph
