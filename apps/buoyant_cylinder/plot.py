@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
-from matplotlib.colors import to_rgba
+from matplotlib.colors import to_rgb, to_rgba
 from matplotlib.lines import Line2D
 from PIL import Image
 
@@ -213,7 +213,8 @@ def draw_pressure(run, snapshot):
     all_axes[0].set_title("Pressure")
     excess = (snapshot.pressure - snapshot.hydrostatic()) / 1e3
     reach = max(np.quantile(np.abs(excess[movers]), 0.98), 1e-3)
-    draw_map(figure, all_axes[1], run, snapshot, excess, (-reach, reach), "RdBu_r", "p less pressure of melt at rest (kPa)")
+    draw_map(figure, all_axes[1], run, snapshot, excess, (-reach, reach), "RdBu_r",
+             "p less pressure of melt at rest (kPa)")
     all_axes[1].set_title("Pressure less hydrostatic")
     if gas:
         bubbly = np.array([g.get("eos") == "bubbly" for g in run.scene["group"]])[snapshot.group]
@@ -311,7 +312,8 @@ def arguments():
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", metavar="DIR", nargs="+", help="folder of a run")
     parser.add_argument("--out", metavar="DIR", type=Path, help="where the pictures go (default: the first DIR)")
-    parser.add_argument("--time", metavar="T", type=float, help="draw the snapshot nearest to T seconds (default: last)")
+    parser.add_argument("--time", metavar="T", type=float,
+                        help="draw the snapshot nearest to T seconds (default: last)")
     parser.add_argument("--dynamic", action="store_true", help="stresses: leave the hydrostatic pressure out")
     parser.add_argument("--average", choices=("time", "space"),
                         help="velocity and pressure: draw the averages of output.average_time or average_space")
@@ -341,16 +343,19 @@ def pictures(runs, given):
         yield "series.png", draw_series(runs)
 
 
-def to_palette(rgb, flat=128, total=192):
-    """A picture of few colours, a quarter as large: the `flat` most frequent ones are exact."""
+def to_palette(rgb, flat=112, others=64):
+    """A picture of few colours, a quarter as large. Exact are our own colours, which may be rare, and the `flat`
+    most frequent ones."""
+    own = np.array([to_rgb(c) for c in (WALL, SPRAY, TENSION, COMPRESSION, *GROUPS, *RUNS)])
+    own = np.concatenate([255 * (share * own + 1 - share) for share in (1, 0.7, 0.4)]).round().astype(np.uint8)
     packed = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
     colours, where, count = np.unique(packed, return_inverse=True, return_counts=True)
     channels = np.stack([colours >> 16, colours >> 8 & 255, colours & 255], axis=1).astype(np.uint8)
     order = np.argsort(-count, kind="stable")
-    palette, rest = channels[order[:flat]], order[flat:]
+    palette, rest = np.concatenate([own, channels[order[:flat]]]), order[flat:]
     if rest.size:
         edges = np.repeat(channels[rest], np.ceil(np.sqrt(count[rest])).astype(int), axis=0)
-        chosen = Image.fromarray(edges[None]).quantize(total - flat).getpalette()[: 3 * (total - flat)]
+        chosen = Image.fromarray(edges[None]).quantize(others).getpalette()[: 3 * others]
         palette = np.concatenate([palette, np.reshape(chosen, (-1, 3)).astype(np.uint8)])
     distance = sum((channels[:, None, c].astype(np.int32) - palette[None, :, c]) ** 2 for c in range(3))
     picture = Image.fromarray(distance.argmin(axis=1).astype(np.uint8)[where].reshape(rgb.shape[:2]), mode="P")

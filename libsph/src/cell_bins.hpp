@@ -16,7 +16,8 @@ class CellBins {
   static constexpr std::size_t padding = 16;  ///< readable, never matching entries after the last
 
   /// Positions are held relative to the corner of the bins in units of `radius` quanta.
-  CellBins(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own, std::int64_t radius)
+  CellBins(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own,
+           std::int64_t radius)
       : grid_(grid), dim_(particles.dim()) {
     decomp::Int3 corner{};
     for (int a = 0; a < 3; ++a) {
@@ -49,7 +50,9 @@ class CellBins {
   }
 
   [[nodiscard]] std::uint32_t cell(std::size_t row) const { return cell_[row]; }
-  [[nodiscard]] std::uint32_t place(std::size_t row) const { return position_[row]; }  ///< of a row in the bins
+  [[nodiscard]] std::uint32_t place(std::size_t row) const {
+    return position_[row];
+  }  ///< of a row in the bins
   [[nodiscard]] const std::vector<std::uint32_t>& rows() const { return row_; }
   [[nodiscard]] const float* x(int axis) const { return x_[axis].data(); }
   /// Squared list radius with room for the rounding of positions to float: a list may hold more than it
@@ -65,7 +68,8 @@ class CellBins {
   };
   /// The runs of candidates of a cell; returns how many.
   [[nodiscard]] int runs(std::uint32_t cell, Run (&out)[9]) const {
-    const std::int64_t z = cell / (extent_[0] * extent_[1]), y = cell / extent_[0] % extent_[1], x = cell % extent_[0];
+    const std::int64_t z = cell / (extent_[0] * extent_[1]), y = cell / extent_[0] % extent_[1],
+                       x = cell % extent_[0];
     int n = 0;
     for (std::int64_t k = std::max<std::int64_t>(z - 1, 0); k <= std::min(z + 1, extent_[2] - 1); ++k)
       for (std::int64_t j = std::max<std::int64_t>(y - 1, 0); j <= std::min(y + 1, extent_[1] - 1); ++j) {

@@ -18,8 +18,9 @@ constexpr std::size_t chunk = Simd<float>::lanes;
 /// Appends to `out` the tags of the 16 bins from `first` on that lie within the radius of `at`, except
 /// `own`; writes up to 16 beyond the end. Returns how many were appended.
 template <int D>
-std::size_t append_within(const CellBins& bins, const std::uint32_t* tags, std::size_t first, std::size_t last,
-                          const float* at, float limit, std::uint32_t own, std::uint32_t* out) {
+std::size_t append_within(const CellBins& bins, const std::uint32_t* tags, std::size_t first,
+                          std::size_t last, const float* at, float limit, std::uint32_t own,
+                          std::uint32_t* out) {
   Simd<float> d2 = Simd<float>::zero();
   for (int a = 0; a < D; ++a) {
     Simd<float> x;
@@ -54,7 +55,8 @@ void transpose_lists(const std::uint32_t* lists, std::size_t stride, std::size_t
   for (std::size_t k = 0; k < longest; k += 8) {
     Simd<float> column[8];
     simd_detail::load8(reinterpret_cast<const float*>(lists) + k, stride, index, column);
-    for (std::size_t c = 0; c < 8 && k + c < longest; ++c) std::memcpy(out + (k + c) * lanes, &column[c].v, lanes * 4);
+    for (std::size_t c = 0; c < 8 && k + c < longest; ++c)
+      std::memcpy(out + (k + c) * lanes, &column[c].v, lanes * 4);
   }
 #else
   for (std::size_t k = 0; k < longest; ++k)
@@ -100,14 +102,16 @@ void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>
         std::size_t n = 0;
         for (int r = 0; r < run_count; ++r)
           for (std::size_t c = runs[r].first; c < runs[r].last; c += chunk)
-            n += append_within<D>(bins, tags.data(), c, runs[r].last, at, bins.limit(), tags[place], mine + n);
+            n +=
+                append_within<D>(bins, tags.data(), c, runs[r].last, at, bins.limit(), tags[place], mine + n);
         length[l] = n;
         pairs_ += n;
         longest = std::max(longest, n);
       }
       for (std::size_t l = 0; l < lanes; ++l)
         std::fill(lists.begin() + static_cast<std::ptrdiff_t>(l * stride + length[l]),
-                  lists.begin() + static_cast<std::ptrdiff_t>(l * stride + (longest + 7) / 8 * 8), no_partner);
+                  lists.begin() + static_cast<std::ptrdiff_t>(l * stride + (longest + 7) / 8 * 8),
+                  no_partner);
       const std::size_t start = entries_.size();
       entries_.resize(start + longest * lanes);
       transpose_lists(lists.data(), stride, lanes, longest, entries_.data() + start);
@@ -116,7 +120,8 @@ void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>
   }
 }
 
-void NeighbourLists::finish(const std::vector<std::uint32_t>& row_of_tag, const RowRanges& ranges, bool sort) {
+void NeighbourLists::finish(const std::vector<std::uint32_t>& row_of_tag, const RowRanges& ranges,
+                            bool sort) {
   const std::size_t lanes = static_cast<std::size_t>(lanes_);
   for (const RowRange& range : ranges)
     for (std::size_t first = range.first, b = range.first_block; first < range.last; first += lanes, ++b) {
@@ -131,8 +136,9 @@ void NeighbourLists::finish(const std::vector<std::uint32_t>& row_of_tag, const 
     }
 }
 
-void NeighbourLists::build(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
-                           std::int64_t radius, RowRanges& ranges, decomp::Timers& timers, PartnerOrder order) {
+void NeighbourLists::build(const Particles& particles, const decomp::CellGrid& grid,
+                           const decomp::Box& own_cells, std::int64_t radius, RowRanges& ranges,
+                           decomp::Timers& timers, PartnerOrder order) {
   const bool by_id = order == PartnerOrder::by_id;
   std::vector<std::uint32_t> row_of_tag, tag_of_row;
   {

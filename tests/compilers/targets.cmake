@@ -6,7 +6,7 @@ add_test(NAME compilers
   COMMAND ${PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/compilers/compare.py --native $<TARGET_FILE:fingerprints>
           --work ${CMAKE_CURRENT_BINARY_DIR}/compilers "--mpiexec=${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG}")
 set_tests_properties(compilers PROPERTIES
-  ENVIRONMENT "${PEPERITE_MPI_ENVIRONMENT}" TIMEOUT 600 PROCESSORS 2)
+  ENVIRONMENT "${PEPERITE_MPI_ENVIRONMENT}" TIMEOUT 900 PROCESSORS 2)
 
 add_executable(contraction compilers/test_contraction.cpp ${PROJECT_SOURCE_DIR}/libsph/src/self_check.cpp)
 target_include_directories(contraction PRIVATE ${PROJECT_SOURCE_DIR}/libsph/src)

@@ -161,7 +161,6 @@ Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
   sph::Scene scene = scene_of(row);
   set_cuts(comm, row, leg, scene);
   const auto simulation = begin(comm, row, scene, leg);
-  check_cells(*simulation);
   if (simulation->global().step != leg.from) throw std::runtime_error("resumed at another step");
   while (simulation->global().step < leg.to) {
     simulation->step();
@@ -174,6 +173,7 @@ Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
     mismatch_step_ = step;
     return {"step " + std::to_string(step), simulation->counters().rebuilds};
   }
+  if (leg.to - leg.from >= 100) check_shared_out(*simulation);
   if (leg.to < c.steps.back()) write_restart(run_dir(row), *simulation);
   Outcome outcome{"", simulation->counters().rebuilds};
   if (comm.rank() == 0 && !scene.decomposition.record.empty() &&

@@ -23,7 +23,8 @@ struct Liveliness {
 
 /// Throws std::runtime_error when a 1-rank run of `scene` was too quiet.
 void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveliness& end);
-/// Throws std::runtime_error when no cut axis has 16 cells.
-void check_cells(const sph::Simulation& simulation);
+/// Throws std::runtime_error when the cut axes have few cells, or when, after some 100 steps or more, the
+/// ranks have not exchanged particles and halos. Collective.
+void check_shared_out(const sph::Simulation& simulation);
 
 }  // namespace equivalence

@@ -185,7 +185,8 @@ inline void load4(const double* base, std::size_t stride, const std::uint32_t* i
   }
   const __m512d t0 = _mm512_unpacklo_pd(r[0], r[1]), t1 = _mm512_unpackhi_pd(r[0], r[1]);
   const __m512d t2 = _mm512_unpacklo_pd(r[2], r[3]), t3 = _mm512_unpackhi_pd(r[2], r[3]);
-  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
   out[0].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t0, low, t2));
   out[1].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t1, low, t3));
   out[2].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t0, high, t2));
@@ -204,7 +205,8 @@ inline void load4(const T* base, std::size_t stride, const std::uint32_t* index,
 
 }  // namespace simd_detail
 
-/// Rows index[0 .. lanes) of a table of Stride values a row, transposed: out[k] lane l = row index[l], value k.
+/// Rows index[0 .. lanes) of a table of Stride values a row, transposed: out[k] lane l = row index[l], value
+/// k.
 template <int Stride, class T>
 inline void load_rows(const T* base, const std::uint32_t* index, Simd<T>* out) {
   static_assert(Stride % 4 == 0);
