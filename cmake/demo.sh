@@ -1,10 +1,10 @@
 #!/bin/sh
 # Installs what is missing, builds, and runs the buoyant fluid cylinder on two ranks: about ten minutes on a
-# fresh machine with two cores, less than three of them for the run.
+# fresh machine with two cores, most of them for packages and compiler.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/environment.sh
-until=${1:-10}  # seconds of the scene, of its 20: about a minute
+until=${1:-10}  # seconds of the scene, of its 20: half a minute of run
 
 sh cmake/packages.sh
 configure -DPEPERITE_TESTS=OFF -DPEPERITE_BENCHMARKS=OFF

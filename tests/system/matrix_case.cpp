@@ -65,6 +65,34 @@ void write_shuffled_start(const fs::path& path, const sph::Simulation& s, std::u
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
+/// The first cuts that chaos draws.
+std::vector<decomp::Cuts> random_cuts(const decomp::Cuts& start, std::uint64_t seed, std::int64_t count) {
+  const auto policy = decomp::make_chaos(seed);
+  std::vector<decomp::Cuts> drawn;
+  for (std::int64_t k = 0; k < count; ++k)
+    drawn.push_back(policy->next(drawn.empty() ? start : drawn.back(), {},
+                                 {start.row.back(), start.column.front().back()}));
+  return drawn;
+}
+
+/// Is there a cut through the middle half of a line?
+bool divides(const std::vector<std::int64_t>& cut) {
+  return std::any_of(cut.begin(), cut.end(),
+                     [&](std::int64_t c) { return 4 * c >= cut.back() && 4 * c <= 3 * cut.back(); });
+}
+
+/// Chaos likes to leave everything to one rank, and with large lists it is not asked often: a seed with which
+/// two of the first three cuts divide the particles.
+std::uint64_t dividing_seed(const decomp::Cuts& start, std::uint64_t seed) {
+  for (seed >>= 1;; ++seed) {
+    const std::vector<decomp::Cuts> drawn = random_cuts(start, seed, 3);
+    if (std::count_if(drawn.begin(), drawn.end(), [](const decomp::Cuts& c) {
+          return divides(c.row) || std::any_of(c.column.begin(), c.column.end(), divides);
+        }) >= 2)
+      return seed;
+  }
+}
+
 std::string lines_of(const fs::path& path) {
   std::ifstream in(path);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -115,35 +143,26 @@ void Cases::prepare(const decomp::Comm& one, const Case& c) {
     check_lively(simulation.scene(), reference.start, liveliness(simulation));
 }
 
-// A replay follows a recording of the same length as a run that rebuilds at every step; beyond the end of a
-// recording the last cuts stay. Chaos draws the sequence: uniform cuts would not test that it is followed.
 void Cases::set_cuts(const decomp::Comm& comm, const Row& row, const Leg& leg, sph::Scene& scene) const {
   const std::string_view cuts = row[Factor::cuts];
   sph::Decomposition& d = scene.decomposition;
-  if (cuts == "uniform" || comm.size() == 1) d.cuts = sph::CutRule::fixed;
-  if (comm.size() == 1) return;
-  if (cuts == "time" || cuts == "counts") d.cuts = sph::CutRule::literal;
   d.cost = cuts == "counts" ? sph::CostSource::counts : sph::CostSource::time;
-  const std::uint64_t seed = draw(seed_, to_text(row) + " cuts" + std::to_string(leg.from));
-  d.chaos_seed = seed >> 1;
-  if (cuts == "chaos") d.cuts = sph::CutRule::chaos;
-  if (cuts != "replay") return;
+  d.cuts = cuts == "time" || cuts == "counts" ? sph::CutRule::literal : sph::CutRule::fixed;
+  if (comm.size() == 1 || (cuts != "chaos" && cuts != "replay")) return;
 
   const sph::Distribution distribution(comm, scene, sph::position_scale(scene));
-  const auto& cells = distribution.grid().cells();
-  const decomp::CutLimits limits{cells[static_cast<std::size_t>(d.cut_axes[0])],
-                                 cells[static_cast<std::size_t>(d.cut_axes[1])]};
-  d.cuts = sph::CutRule::replay;
+  const decomp::Cuts& start = distribution.partition().cuts();
+  d.chaos_seed = dividing_seed(start, draw(seed_, to_text(row) + " cuts" + std::to_string(leg.from)));
+  d.cuts = cuts == "chaos" ? sph::CutRule::chaos : sph::CutRule::replay;
+  if (cuts == "chaos") return;
+  // Uniform cuts would not show whether a recording is followed: it is one of chaos, as long as it can be
+  // used.
   d.replay = (run_dir(row) / "cuts.txt").string();
   d.record = (run_dir(row) / "followed.txt").string();
   if (comm.rank() == 0) {
     std::ofstream out(d.replay);
-    const auto policy = decomp::make_chaos(seed);
-    decomp::Cuts now = distribution.partition().cuts();
-    for (std::int64_t call = leg.from; call <= leg.to; ++call) {
-      now = policy->next(now, {}, limits);
-      out << decomp::to_text(now) << '\n';
-    }
+    for (const decomp::Cuts& c : random_cuts(start, d.chaos_seed, leg.to - leg.from + 2))
+      out << decomp::to_text(c) << '\n';
   }
   comm.barrier();
 }
@@ -162,8 +181,10 @@ Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
   set_cuts(comm, row, leg, scene);
   const auto simulation = begin(comm, row, scene, leg);
   if (simulation->global().step != leg.from) throw std::runtime_error("resumed at another step");
+  std::int64_t shared = 0;
   while (simulation->global().step < leg.to) {
     simulation->step();
+    shared += has_boundary(*simulation) ? 1 : 0;
     const std::int64_t step = simulation->global().step;
     if (!std::binary_search(c.steps.begin(), c.steps.end(), step)) continue;
     const std::string fingerprint = simulation->fingerprint();
@@ -173,7 +194,7 @@ Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
     mismatch_step_ = step;
     return {"step " + std::to_string(step), simulation->counters().rebuilds};
   }
-  if (leg.to - leg.from >= 100) check_shared_out(*simulation);
+  if (leg.to - leg.from >= 100) check_shared_out(*simulation, shared);
   if (leg.to < c.steps.back()) write_restart(run_dir(row), *simulation);
   Outcome outcome{"", simulation->counters().rebuilds};
   if (comm.rank() == 0 && !scene.decomposition.record.empty() &&

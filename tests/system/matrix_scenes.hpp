@@ -23,8 +23,10 @@ struct Liveliness {
 
 /// Throws std::runtime_error when a 1-rank run of `scene` was too quiet.
 void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveliness& end);
-/// Throws std::runtime_error when the cut axes have few cells, or when, after some 100 steps or more, the
-/// ranks have not exchanged particles and halos. Collective.
-void check_shared_out(const sph::Simulation& simulation);
+/// Has this rank movers with partners in the halo?
+[[nodiscard]] bool has_boundary(const sph::Simulation& simulation);
+/// Throws std::runtime_error when the cut axes have few cells, or when after some 100 steps most ranks have
+/// no particles or none ever had a boundary; `shared`: steps in which this rank had one. Collective.
+void check_shared_out(const sph::Simulation& simulation, std::int64_t shared);
 
 }  // namespace equivalence

@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+"""Speed side by side, alternating, medians of ratios. Run on a quiet machine.
+
+speed.py BUILD                two ranks against one on a balanced scene of 200,000 particles
+speed.py BUILD --lammps LMP   also LAMMPS's sph/taitwater on the 3D dam break (peers/build_lammps.sh makes LMP)
+"""
+import argparse
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+here = Path(__file__).resolve().parent
+environment = dict(
+    os.environ,
+    OMPI_ALLOW_RUN_AS_ROOT="1",
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+    OMPI_MCA_rmaps_base_oversubscribe="1",
+    OMPI_MCA_hwloc_base_binding_policy="none",
+    OMP_NUM_THREADS="1",
+)
+
+
+def run(command):
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stderr or done.stdout}")
+    return done.stdout
+
+
+def ours(build, scene, ranks, steps, settings=()):
+    """perf.json of a run of `scene` on `ranks` ranks."""
+    with tempfile.TemporaryDirectory() as directory:
+        sets = [word for s in settings for word in ("--set", s)]
+        run(["mpirun", "-np", str(ranks), build / "bin/peperite", "run", here / "scenes" / scene, "--steps", str(steps),
+             "--out", f"{directory}/run", *sets])
+        return json.loads(Path(directory, "run/perf.json").read_text())
+
+
+def loop_seconds(perf):
+    """Seconds of the run but its output."""
+    return perf["wall_seconds"] - perf["seconds"]["output"]["max"]
+
+
+def lammps(lmp, steps, ranks=1):
+    """Directed pairs of water particles within the support, and seconds a step."""
+    out = run(["mpirun", "-np", str(ranks), lmp, "-in", here / "peers/lmp_dam.in", "-log", "none", "-var", "n", str(steps)])
+    partners = float(re.search(r"directed pairs per water particle: (\S+)", out)[1])
+    water = int(re.search(r"(\d+) atoms in group water", out)[1])
+    seconds = float(re.findall(r"Loop time of (\S+)", out)[-1])
+    return partners * water, seconds / steps
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("build", type=Path)
+    arguments.add_argument("--lammps", type=Path)
+    arguments.add_argument("--repeats", type=int, default=5)
+    options = arguments.parse_args()
+    build = options.build.resolve()
+
+    ratios = []
+    for _ in range(options.repeats):
+        one = loop_seconds(ours(build, "vortices_200k.toml", 1, 300))
+        two = loop_seconds(ours(build, "vortices_200k.toml", 2, 300))
+        ratios.append(one / two)
+    print(f"two ranks / one rank, 200,704 particles: {statistics.median(ratios):.2f}x  {sorted(round(r, 2) for r in ratios)}")
+
+    if options.lammps:
+        for precision in ("mixed", "double"):
+            ratios, speeds = [], []
+            for _ in range(options.repeats):
+                perf = ours(build, "dam_break.toml", 1, 200, [f"precision={precision}"])
+                pairs, seconds = lammps(options.lammps.resolve(), 200)  # the same lattice: the same pairs
+                mine, theirs = pairs * perf["steps"] / loop_seconds(perf), pairs / seconds
+                speeds.append((mine, theirs))
+                ratios.append(mine / theirs)
+            mine, theirs = (statistics.median(column) / 1e6 for column in zip(*speeds))
+            print(f"3D dam break, {precision}: {mine:.0f} M directed pairs/s, LAMMPS sph/taitwater {theirs:.0f}: "
+                  f"{statistics.median(ratios):.2f}x  {sorted(round(r, 2) for r in ratios)}")
+
+
+if __name__ == "__main__":
+    main()
