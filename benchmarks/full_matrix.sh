@@ -1,11 +1,12 @@
 #!/bin/sh
 # The full product of the equivalence matrix (tests/system): about 23000 rows in a seeded random order.
 #   sh benchmarks/full_matrix.sh [LOG] [PART/PARTS] [SEED] [STEPS]
-# Goes on where LOG ends: rows with "ok" in it are not run again. PART/PARTS splits the work, a tenth: 1/10.
+# LOG is build/full_matrix.log by default; rows that it calls good over as many STEPS (2000) are not run again.
+# PART/PARTS splits the work: 1/10 is a random tenth. Rows that fail are said, and the exit status is then 1.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/environment.sh
-log=${1:-full_matrix.log}
+log=${1:-build/full_matrix.log}
 part=${2:-1/1}
 seed=${3:-1}
 steps=${4:-2000}

@@ -51,6 +51,12 @@ struct Case {
   const char* precision;
 };
 
+std::string shortest(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
 std::string scene_text(const Case& c) {
   const std::string kind = c.stress ? "solid" : "fluid";
   const auto triple = [&](const char* a) {
@@ -62,7 +68,7 @@ std::string scene_text(const Case& c) {
          "\nupper = " + triple("1") + "\nperiodic = " + flags +
          "\n[kernel]\nh_over_dx = 0.8333333333333334\n[[group]]\nname = \"matter\"\nkind = \"" + kind +
          "\"\ndensity = 1\nsound_speed = 10\nviscosity = 0.001\n" +
-         (c.stress ? "poisson_ratio = 0.25\n" : "") + "[start]\nspacing = " + std::to_string(1.0 / c.side) +
+         (c.stress ? "poisson_ratio = 0.25\n" : "") + "[start]\nspacing = " + shortest(1.0 / c.side) +
          "\njitter = 0.1\nvelocity = \"taylor_green\"\nflow_speed = 1\nflow_length = 1\npressure = "
          "\"taylor_green\"\n"
          "[[start.region]]\ngroup = \"matter\"\n[time]\ncfl = 0.8\nsteps = 1\n";

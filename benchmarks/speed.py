@@ -49,7 +49,7 @@ def loop_seconds(perf):
 def lammps(lmp, steps, ranks=1):
     """Directed pairs of water particles within the support, and seconds a step."""
     out = run(["mpirun", "-np", str(ranks), lmp, "-in", here / "peers/lmp_dam.in", "-log", "none", "-var", "n", str(steps)])
-    partners = float(re.search(r"directed pairs per water particle: (\S+)", out)[1])
+    partners = float(re.findall(r"^ +\d+ +\S+ +(\S+) *$", out, re.M)[0])  # thermo column c_mean
     water = int(re.search(r"(\d+) atoms in group water", out)[1])
     seconds = float(re.findall(r"Loop time of (\S+)", out)[-1])
     return partners * water, seconds / steps

@@ -2,12 +2,12 @@
 // arrival, the lists and the restarts. One MPI program on 8 ranks; a row on k ranks uses the first k, the
 // others sleep. Every row's fingerprints are compared with those of the scene's run on one rank.
 //
-//   equivalence --array SEED                             a 3-way covering array of the factors
-//   equivalence --full --seed S --part i/n --log FILE    every row, in an order drawn from S; goes on from
-//   FILE equivalence --row "scene=... precision=... ..."      one row, as printed
-// with [--seed S], [--steps N] (the last that is compared: 300), [--long N] (of every eighth row of an array:
-// 2000), [--every] (compare at every step), [--limit SECONDS] (start no row after that long). The last line
-// is "N passed, M failed"; exit status 1 if any failed.
+//   equivalence --array SEED                    a 3-way covering array of the factors
+//   equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run again
+//   equivalence --row "scene=... ranks=..."     one row, as printed
+// with --seed S (of the order, the cuts and the restarts: 1), --steps N (the last that is compared: 300),
+// --long N (of every eighth row of an array: 2000), --every (compare at every step), --limit SECONDS (start
+// no row after that long). The last line is "N passed, M failed"; exit status 1 if any failed.
 #include <mpi.h>
 #include <unistd.h>
 
@@ -157,12 +157,15 @@ class Scratch {
   fs::path path_;
 };
 
-/// What earlier runs of a full product have found good: lines "ok <row> ...".
-std::set<std::string> passed_before(const std::string& log) {
+std::string steps_text(std::int64_t steps) { return ", " + std::to_string(steps) + " steps,"; }
+
+/// Rows that earlier runs have found good over as many steps: lines "ok <row> | ..., N steps, ...".
+std::set<std::string> passed_before(const std::string& log, std::int64_t steps) {
   std::set<std::string> rows;
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);)
-    if (line.starts_with("ok ")) rows.insert(line.substr(3, line.find(" |") - 3));
+    if (line.starts_with("ok ") && line.find(steps_text(steps)) != std::string::npos)
+      rows.insert(line.substr(3, line.find(" |") - 3));
   return rows;
 }
 
@@ -175,7 +178,7 @@ class Matrix {
         scratch_(world),
         cases_(options.seed, scratch_.path()) {
     if (world.rank() != 0 || options.log.empty()) return;
-    done_ = passed_before(options.log);
+    done_ = passed_before(options.log, options.steps);
     log_.open(options.log, std::ios::app);
     if (!log_) throw std::runtime_error("cannot write " + options.log);
   }
@@ -229,9 +232,9 @@ class Matrix {
     const bool good = outcome.mismatch.empty();
     ++(good ? passed_ : failed_);
     char line[400];
-    std::snprintf(line, sizeof line, "%s %s | %s ranks, %lld steps, seed %llu, %lld rebuilds, %.2f s",
+    std::snprintf(line, sizeof line, "%s %s | %s ranks%s seed %llu, %lld rebuilds, %.2f s",
                   good ? "ok" : "FAILED", to_text(c.row).c_str(), route.c_str(),
-                  static_cast<long long>(c.steps.back()), static_cast<unsigned long long>(options_.seed),
+                  steps_text(c.steps.back()).c_str(), static_cast<unsigned long long>(options_.seed),
                   static_cast<long long>(outcome.rebuilds), time);
     std::printf("%s\n", line);
     if (!good)

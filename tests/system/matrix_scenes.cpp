@@ -57,8 +57,9 @@ sph::Scene scene_of(const Row& row) {
   overrides.push_back("decomposition.overlap=" +
                       std::string(row[Factor::overlap] == "on" ? "true" : "false"));
   const std::string_view list = row[Factor::list];
-  const std::string small = row[Factor::scene] == "flow2d" ? "0.1" : "0.05";
-  overrides.push_back("decomposition.skin=" + (list == "small" ? small : list == "large" ? "0.59" : "0.2"));
+  overrides.push_back(std::string("decomposition.skin=") + (list == "small"   ? "0.05"
+                                                            : list == "large" ? "0.59"
+                                                                              : "0.2"));
   overrides.push_back("decomposition.rebuild_every=" + std::string(list == "every" ? "1" : "0"));
   return sph::read_scene(std::string(PEPERITE_SOURCE_DIR) + "/" + std::string(source.file), overrides);
 }

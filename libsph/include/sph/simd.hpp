@@ -136,7 +136,7 @@ namespace simd_detail {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 
 /// Rows 0..3 of this quarter in the low halves and 4..7 in the high ones, transposed 4 x 4 in every 128 bits.
-inline void transpose_quarters(__m512 (&r)[4]) {
+[[gnu::always_inline]] inline void transpose_quarters(__m512 (&r)[4]) {
   const __m512 t0 = _mm512_unpacklo_ps(r[0], r[1]), t1 = _mm512_unpacklo_ps(r[2], r[3]);
   const __m512 t2 = _mm512_unpackhi_ps(r[0], r[1]), t3 = _mm512_unpackhi_ps(r[2], r[3]);
   r[0] = _mm512_shuffle_ps(t0, t1, 0x44);
@@ -146,7 +146,8 @@ inline void transpose_quarters(__m512 (&r)[4]) {
 }
 
 /// Eight values of 16 rows (the rest of a row may be anything): 16 loads of 256 bits and 24 shuffles.
-inline void load8(const float* base, std::size_t stride, const std::uint32_t* index, Simd<float>* out) {
+[[gnu::always_inline]] inline void load8(const float* base, std::size_t stride, const std::uint32_t* index,
+                                         Simd<float>* out) {
   const auto row = [=](int l) { return base + index[l] * stride; };
   __m512 a[4], b[4];
   for (int k = 0; k < 4; ++k) {
@@ -163,7 +164,8 @@ inline void load8(const float* base, std::size_t stride, const std::uint32_t* in
   }
 }
 
-inline void load4(const float* base, std::size_t stride, const std::uint32_t* index, Simd<float>* out) {
+[[gnu::always_inline]] inline void load4(const float* base, std::size_t stride, const std::uint32_t* index,
+                                         Simd<float>* out) {
   const auto row = [=](int l) { return base + index[l] * stride; };
   __m512 r[4];
   for (int k = 0; k < 4; ++k) {
@@ -176,7 +178,8 @@ inline void load4(const float* base, std::size_t stride, const std::uint32_t* in
   for (int k = 0; k < 4; ++k) out[k].v = std::bit_cast<Simd<float>::Native>(r[k]);
 }
 
-inline void load4(const double* base, std::size_t stride, const std::uint32_t* index, Simd<double>* out) {
+[[gnu::always_inline]] inline void load4(const double* base, std::size_t stride, const std::uint32_t* index,
+                                         Simd<double>* out) {
   const auto row = [=](int l) { return base + index[l] * stride; };
   __m512d r[4];
   for (int k = 0; k < 4; ++k) {
@@ -196,7 +199,8 @@ inline void load4(const double* base, std::size_t stride, const std::uint32_t* i
 #else
 
 template <class T>
-inline void load4(const T* base, std::size_t stride, const std::uint32_t* index, Simd<T>* out) {
+[[gnu::always_inline]] inline void load4(const T* base, std::size_t stride, const std::uint32_t* index,
+                                         Simd<T>* out) {
   for (std::size_t k = 0; k < 4; ++k)
     for (int l = 0; l < Simd<T>::lanes; ++l) out[k].v[l] = base[index[l] * stride + k];
 }
@@ -208,7 +212,7 @@ inline void load4(const T* base, std::size_t stride, const std::uint32_t* index,
 /// Rows index[0 .. lanes) of a table of Stride values a row, transposed: out[k] lane l = row index[l], value
 /// k.
 template <int Stride, class T>
-inline void load_rows(const T* base, const std::uint32_t* index, Simd<T>* out) {
+[[gnu::always_inline]] inline void load_rows(const T* base, const std::uint32_t* index, Simd<T>* out) {
   static_assert(Stride % 4 == 0);
   int k = 0;
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
