@@ -74,8 +74,8 @@ def main():
         for precision in ("mixed", "double"):
             ratios, speeds = [], []
             for _ in range(options.repeats):
-                perf = ours(build, "dam_break.toml", 1, 200, [f"precision={precision}"])
-                pairs, seconds = lammps(options.lammps.resolve(), 200)  # the same lattice: the same pairs
+                perf = ours(build, "dam_break.toml", 1, 100, [f"precision={precision}"])
+                pairs, seconds = lammps(options.lammps.resolve(), 100)  # the same lattice: the same pairs
                 mine, theirs = pairs * perf["steps"] / loop_seconds(perf), pairs / seconds
                 speeds.append((mine, theirs))
                 ratios.append(mine / theirs)
