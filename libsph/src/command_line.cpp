@@ -9,6 +9,7 @@
 
 #include "sph/report.hpp"
 #include "sph/run.hpp"
+#include "sph/self_check.hpp"
 #include "sph/snapshot.hpp"
 
 namespace sph {
@@ -113,7 +114,10 @@ int run_program(int argc, char** argv, Work&& work) {
   const Mpi mpi(argc, argv);
   const decomp::Comm comm(MPI_COMM_WORLD);
   Failure failure(comm);
-  return failure.guard([&] { return work(comm, failure); });
+  return failure.guard([&] {
+    self_check();
+    return work(comm, failure);
+  });
 }
 
 /// The serial subcommands: one rank does the work, all return its exit code.
