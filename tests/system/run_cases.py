@@ -15,9 +15,9 @@ from pathlib import Path
 import runner
 from runner import Runner, damage, kill_somehow, rows_in, wait_for
 
-LONG = 600  # steps: about a second on an idle machine
-# Interrupted runs: a row every step, five snapshots, a checkpoint as often as possible.
-BUSY = ["--set", "output.series_interval=0", "--set", "output.snapshot_interval=0.02"]
+LONG = 6000  # steps: two seconds on an idle machine, long enough to be interrupted
+# Interrupted runs: a row every step, six snapshots, a checkpoint as often as possible.
+BUSY = ["--set", "output.series_interval=0", "--set", "output.snapshot_interval=0.2"]
 OFTEN = ["--set", "output.checkpoint_interval=0.05"]
 
 
@@ -174,9 +174,10 @@ class Cases:
         self.expect_reference(self.run.run(3, "peperite", "resume", "longer", "--steps", LONG), "longer")
 
     def test_kills(self):
-        kills = 0
+        kills = runs = 0
         while kills < self.kills:
-            out = f"kill{kills}"
+            out = f"kill{runs}"  # a run may end before it is killed
+            runs += 1
             process = self.start(self.random.randint(1, 3), out, *OFTEN)
             wait_for(lambda: (self.run.folder / out / "scene.toml").exists() or process.poll() is not None)
             result = None
