@@ -45,7 +45,6 @@ class Simulation {
 
   struct Counters {
     std::int64_t rebuilds = 0, refreshes = 0;
-    std::uint64_t halo_bytes = 0;  ///< sent by this rank
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
