@@ -8,9 +8,9 @@ add_test(NAME compilers
 set_tests_properties(compilers PROPERTIES
   ENVIRONMENT "${PEPERITE_MPI_ENVIRONMENT}" TIMEOUT 900 PROCESSORS 2)
 
-add_executable(contraction compilers/test_contraction.cpp ${PROJECT_SOURCE_DIR}/libsph/src/self_check.cpp)
+add_executable(contraction compilers/test_contraction.cpp ${PROJECT_SOURCE_DIR}/libsph/src/run/self_check.cpp)
 target_include_directories(contraction PRIVATE ${PROJECT_SOURCE_DIR}/libsph/src)
 target_link_libraries(contraction PRIVATE sph peperite_build)
-set_source_files_properties(${PROJECT_SOURCE_DIR}/libsph/src/self_check.cpp PROPERTIES
+set_source_files_properties(${PROJECT_SOURCE_DIR}/libsph/src/run/self_check.cpp PROPERTIES
   COMPILE_OPTIONS "-O2;-mfma;-ffp-contract=fast")  # of this folder's target only; comes after the target's own
 add_test(NAME self_check.contraction COMMAND contraction)

@@ -11,11 +11,11 @@ OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "signal.h", "sys/stat.h", "sys/types.
 # header: files that may include it
 HIDDEN = {
     r"metis\.h": r"libdecomp/src/metis\.cpp",
-    r"hdf5\.h": r"libsph/src/hdf5_\w+\.cpp",
-    r"toml\+\+/.*": r"libsph/src/toml_tree\.cpp",
-    r"nlohmann/.*": r"libsph/src/\w+\.cpp|benchmarks/.*\.cpp",
-    r"sleef\.h": r"libsph/src/exact_math\.cpp",
-    r"xxhash\.h": r"libsph/src/(fingerprint|content_hash|self_check)\.cpp",
+    r"hdf5\.h": r"libsph/src/output/hdf5_file\.cpp",
+    r"toml\+\+/.*": r"libsph/src/scene/toml_tree\.cpp",
+    r"nlohmann/.*": r"libsph/src/.*\.cpp|benchmarks/.*\.cpp",
+    r"sleef\.h": r"libsph/src/physics/exact_math\.cpp",
+    r"xxhash\.h": r"libsph/src/(output/fingerprint|output/content_hash|run/self_check)\.cpp",
     r"CLI/.*": r"(libsph/src|apps|benchmarks)/.*\.cpp",
     r"fmt/.*": r"(libsph/src|apps|benchmarks)/.*\.cpp",
     r"mpi\.h": r"libdecomp/.*|libsph/src/.*|apps/.*|benchmarks/.*",
@@ -27,7 +27,7 @@ HIDDEN = {
 LAYERS = [
     (r"libsph/include/sph/terms/", r"sph/(pair_rows|kernels)\.hpp|sph/(materials|terms)/\w+\.hpp"),
     (r"libsph/include/", r"(decomp|sph)/.*"),
-    (r"libsph/src/", r"(decomp|sph)/.*"),
+    (r"libsph/src/", r"(decomp|sph|scene|start|pairs|physics|grains|output|checkpoint|run)/.*"),
     (r"libdecomp/", r"decomp/.*"),
     (r"apps/", r"(decomp|sph)/.*"),
     (r"benchmarks/", r"(decomp|sph)/.*"),

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "../../libsph/src/hdf5_file.hpp"
+#include "output/hdf5_file.hpp"  // private: the tests look at what is on disk
 #include "sph/error.hpp"
 #include "sph/fingerprint.hpp"
 #include "sph/snapshot.hpp"

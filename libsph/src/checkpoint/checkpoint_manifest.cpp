@@ -1,0 +1,130 @@
+#include "checkpoint/checkpoint_manifest.hpp"
+
+#include <bit>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "output/content_hash.hpp"
+
+namespace sph {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* format = "peperite checkpoint 1";
+
+/// The bits are what counts; the value is for readers with eyes.
+Json exact(double x) { return {{"bits", to_hex(std::bit_cast<std::uint64_t>(x))}, {"value", x}}; }
+double exact(const Json& json) { return std::bit_cast<double>(from_hex(json.at("bits").get<std::string>())); }
+
+/// Appends the hash of `text` as the last member of the JSON object that it holds.
+std::string sealed(std::string text) {
+  text.resize(text.find_last_of('}'));
+  text.resize(text.find_last_not_of(" \n") + 1);
+  const std::string hash = to_hex(content_hash(std::as_bytes(std::span(text))));
+  return text + ",\n \"hash\": \"" + hash + "\"\n}\n";
+}
+
+bool is_sealed(const std::string& text) {
+  const std::size_t last = text.rfind(",\n \"hash\": \"");
+  return last != std::string::npos && sealed(text.substr(0, last) + "}") == text;
+}
+
+Json json_of(const Part& part) {
+  Json extents = Json::array();
+  for (const Extent& extent : part.extents) extents.push_back({extent.offset, extent.bytes});
+  return {{"file", part.file},
+          {"bytes", part.bytes},
+          {"rows", part.rows},
+          {"frame_hash", to_hex(part.frame_hash)},
+          {"table_hash", to_hex(part.table_hash)},
+          {"extents", extents}};
+}
+
+Part part_of(const Json& json) {
+  Part part;
+  part.file = json.at("file").get<std::string>();
+  part.bytes = json.at("bytes").get<std::uint64_t>();
+  part.rows = json.at("rows").get<std::uint64_t>();
+  part.frame_hash = from_hex(json.at("frame_hash").get<std::string>());
+  part.table_hash = from_hex(json.at("table_hash").get<std::string>());
+  for (const Json& extent : json.at("extents"))
+    part.extents.push_back({extent.at(0).get<std::uint64_t>(), extent.at(1).get<std::uint64_t>()});
+  return part;
+}
+
+Field field_named(const std::string& name) {
+  for (const FieldInfo& i : field_table)
+    if (i.name == name) return i.field;
+  throw std::runtime_error("holds a field '" + name + "' that this program does not know");
+}
+
+}  // namespace
+
+std::uint64_t Manifest::rows() const {
+  std::uint64_t sum = 0;
+  for (const Part& part : parts) sum += part.rows;
+  return sum;
+}
+
+std::string to_text(const Part& part) { return json_of(part).dump() + "\n"; }
+Part part_from_text(const std::string& text) { return part_of(Json::parse(text)); }
+
+std::string to_text(const Manifest& m) {
+  const GlobalState& g = m.record.global;
+  Json fields = Json::array();
+  for (Field f : m.fields) fields.push_back(info(f).name);
+  Json parts = Json::array();
+  for (const Part& part : m.parts) parts.push_back(json_of(part));
+  const Json json{{"format", format},
+                  {"step", g.step},
+                  {"time", exact(g.time)},
+                  {"dt", exact(g.dt)},
+                  {"max_speed", exact(g.max_speed)},
+                  {"max_acceleration", exact(g.max_acceleration)},
+                  {"quantum", exact(m.record.scale.quantum)},
+                  {"origin", m.record.scale.origin},
+                  {"dim", m.dim},
+                  {"particles", m.rows()},
+                  {"fields", fields},
+                  {"history", m.history},
+                  {"fingerprint", m.provenance.fingerprint},
+                  {"group_names", m.provenance.group_names},
+                  {"version", m.version},
+                  {"git", m.git},
+                  {"compiler", m.compiler},
+                  {"flags", m.flags},
+                  {"scene", m.record.scene_toml},
+                  {"extra", m.record.extra_json},
+                  {"parts", parts}};
+  return sealed(json.dump(1));
+}
+
+Manifest manifest_from_text(const std::string& text) {
+  if (text.empty()) throw std::runtime_error("manifest.json is empty");
+  if (!is_sealed(text)) throw std::runtime_error("manifest.json is damaged: it does not have its own hash");
+  const Json json = Json::parse(text);
+  if (json.at("format") != format)
+    throw std::runtime_error("is of the format '" + json.at("format").get<std::string>() +
+                             "', this program reads '" + format + "'");
+  Manifest m;
+  m.record.global = {json.at("step").get<std::int64_t>(), exact(json.at("time")), exact(json.at("dt")),
+                     exact(json.at("max_speed")), exact(json.at("max_acceleration"))};
+  m.record.scale.quantum = exact(json.at("quantum"));
+  m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();
+  m.record.scene_toml = json.at("scene").get<std::string>();
+  m.record.extra_json = json.at("extra").get<std::string>();
+  m.dim = json.at("dim").get<int>();
+  m.history = json.at("history").get<bool>();
+  m.provenance = {m.record.scene_toml, json.at("fingerprint").get<std::string>(),
+                  json.at("group_names").get<std::vector<std::string>>()};
+  m.version = json.at("version").get<std::string>();
+  m.git = json.at("git").get<std::string>();
+  m.compiler = json.at("compiler").get<std::string>();
+  m.flags = json.at("flags").get<std::string>();
+  for (const Json& name : json.at("fields")) m.fields.push_back(field_named(name.get<std::string>()));
+  for (const Json& part : json.at("parts")) m.parts.push_back(part_of(part));
+  return m;
+}
+
+}  // namespace sph

@@ -1,0 +1,94 @@
+#include "output/averages.hpp"
+
+#include <cmath>
+
+#include "sph/kernels.hpp"
+
+namespace sph {
+namespace {
+
+/// Kernel without its normalisation, which cancels.
+double weight(const Scene& scene, double q) {
+  switch (scene.kernel) {
+    case KernelShape::wendland_c2:
+      return scene.dim == 2 ? WendlandC2::value<2>(q) : WendlandC2::value<3>(q);
+    case KernelShape::wendland_c4:
+      return scene.dim == 2 ? WendlandC4::value<2>(q) : WendlandC4::value<3>(q);
+    case KernelShape::quintic:
+      break;
+  }
+  return scene.dim == 2 ? Quintic::value<2>(q) : Quintic::value<3>(q);
+}
+
+class Smoother {
+ public:
+  explicit Smoother(const Simulation& s)
+      : scene_(s.scene()),
+        particles_(s.particles()),
+        d_(static_cast<std::size_t>(s.scene().dim)),
+        quanta_per_h_(s.scene().smoothing_length / s.scale().quantum) {}
+
+  /// Adds particle j's share in the average of particle i. Partners outside the support, which a list may
+  /// hold or not, share nothing.
+  void add(std::size_t i, std::size_t j) {
+    if (particles_.data<Field::group>()[j] != particles_.data<Field::group>()[i]) return;
+    const std::int64_t* x = particles_.data<Field::position>();
+    double r2 = 0;
+    for (std::size_t a = 0; a < d_; ++a) {
+      const auto r = static_cast<double>(x[i * d_ + a] - x[j * d_ + a]);
+      r2 += r * r;
+    }
+    const double w = weight(scene_, std::sqrt(r2) / quanta_per_h_);
+    if (w == 0) return;
+    const double share = w * particles_.data<Field::mass>()[j] / particles_.data<Field::density>()[j];
+    shares_ += share;
+    for (std::size_t a = 0; a < d_; ++a)
+      velocity_[a] += share * particles_.data<Field::velocity>()[j * d_ + a];
+    pressure_ += share * particles_.data<Field::pressure>()[j];
+  }
+  /// Writes the averages of particle i and begins the next.
+  void finish(std::size_t i, std::vector<double>& velocity, std::vector<double>& pressure) {
+    for (std::size_t a = 0; a < d_; ++a) velocity[i * d_ + a] = velocity_[a] / shares_;
+    pressure[i] = pressure_ / shares_;
+    velocity_ = {};
+    pressure_ = shares_ = 0;
+  }
+
+ private:
+  const Scene& scene_;
+  const Particles& particles_;
+  std::size_t d_;
+  double quanta_per_h_;
+  Double3 velocity_{};
+  double pressure_ = 0, shares_ = 0;
+};
+
+}  // namespace
+
+std::vector<ExtraColumn> extra_columns(const Scene& scene) {
+  if (!scene.output.average_space) return {};
+  return {{"velocity_smooth", "m/s", scene.dim, {}}, {"pressure_smooth", "Pa", 1, {}}};
+}
+
+std::vector<ExtraColumn> averages(Simulation& s) {
+  std::vector<ExtraColumn> columns = extra_columns(s.scene());
+  if (columns.empty()) return columns;
+  s.refresh_halo(
+      {Field::position, Field::velocity, Field::density, Field::mass, Field::group, Field::pressure});
+  const std::size_t n = s.particles().owned(), lanes = static_cast<std::size_t>(s.lists().lanes());
+  columns[0].values.resize(n * static_cast<std::size_t>(s.scene().dim));
+  columns[1].values.resize(n);
+  Smoother smoother(s);
+  for (const RowRange& range : s.distribution().ranges())
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      const std::size_t k = i - range.first;
+      const auto block = s.lists().block(range.first_block + k / lanes);
+      smoother.add(i, i);
+      for (std::size_t entry = k % lanes; entry < block.size(); entry += lanes)
+        if (block[entry] != i) smoother.add(i, block[entry]);
+      smoother.finish(i, columns[0].values, columns[1].values);
+    }
+  return columns;
+}
+
+}  // namespace sph

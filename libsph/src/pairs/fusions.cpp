@@ -1,0 +1,78 @@
+#include "sph/fusions.hpp"
+
+#include <algorithm>
+
+namespace sph {
+
+std::vector<Fusion> fusions_2d_float();
+std::vector<Fusion> fusions_2d_double();
+std::vector<Fusion> fusions_3d_float();
+std::vector<Fusion> fusions_3d_double();
+
+const std::vector<Fusion>& all_fusions() {
+  static const std::vector<Fusion> all = [] {
+    std::vector<Fusion> list;
+    for (const auto& part :
+         {fusions_2d_float(), fusions_2d_double(), fusions_3d_float(), fusions_3d_double()})
+      list.insert(list.end(), part.begin(), part.end());
+    return list;
+  }();
+  return all;
+}
+
+std::string name_of(Term term) {
+  switch (term) {
+    case Term::pressure:
+      return "Pressure";
+    case Term::viscosity:
+      return "Viscosity";
+    case Term::uniform_viscosity:
+      return "UniformViscosity";
+    case Term::stress_divergence:
+      return "StressDivergence";
+    case Term::artificial_viscosity:
+      return "ArtificialViscosity";
+    case Term::divergence:
+      return "Divergence";
+    case Term::velocity_gradient:
+      return "VelocityGradient";
+    case Term::density_diffusion:
+      return "DensityDiffusion";
+    case Term::uniform_density_diffusion:
+      return "UniformDensityDiffusion";
+    case Term::shifting:
+      return "Shifting";
+    case Term::wall_extrapolation:
+      return "WallExtrapolation";
+    case Term::ida_gradient:
+      return "IdaGradient";
+    case Term::ida_stress:
+      return "IdaStress";
+  }
+  return "?";
+}
+
+const Fusion& find_fusion(int dim, Precision precision, KernelShape kernel, const std::vector<Term>& terms) {
+  const auto sorted = [](std::vector<Term> t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  for (const Fusion& f : all_fusions())
+    if (f.dim == dim && f.precision == precision && f.kernel == kernel && sorted(f.terms) == sorted(terms))
+      return f;
+  std::string line = kernel == KernelShape::quintic       ? "fuse<Quintic"
+                     : kernel == KernelShape::wendland_c2 ? "fuse<WendlandC2"
+                                                          : "fuse<WendlandC4";
+  for (Term t : terms) line += ", " + name_of(t);
+  throw InputError("this combination of terms is not compiled; add the line \"" + line +
+                   ">(),\" to libsph/src/pairs/fusion_list.hpp and rebuild");
+}
+
+std::byte* aligned_scratch(std::vector<std::byte>& scratch, std::size_t bytes) {
+  constexpr std::size_t alignment = 64;
+  if (scratch.size() < bytes + alignment) scratch.resize(bytes + bytes / 8 + alignment);
+  const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());
+  return scratch.data() + (alignment - address % alignment) % alignment;
+}
+
+}  // namespace sph

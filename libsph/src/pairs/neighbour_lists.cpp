@@ -1,0 +1,167 @@
+#include "sph/neighbour_lists.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "pairs/cell_bins.hpp"
+#include "pairs/id_rank.hpp"
+#include "pairs/lane_sort.hpp"
+#include "sph/simd.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::uint32_t no_partner = ~std::uint32_t{0};
+constexpr std::size_t chunk = Simd<float>::lanes;
+
+/// Appends to `out` the tags of the 16 bins from `first` on that lie within the radius of `at`, except
+/// `own`; writes up to 16 beyond the end. Returns how many were appended.
+template <int D>
+std::size_t append_within(const CellBins& bins, const std::uint32_t* tags, std::size_t first,
+                          std::size_t last, const float* at, float limit, std::uint32_t own,
+                          std::uint32_t* out) {
+  Simd<float> d2 = Simd<float>::zero();
+  for (int a = 0; a < D; ++a) {
+    Simd<float> x;
+    std::memcpy(&x.v, bins.x(a) + first, sizeof x.v);
+    x -= Simd<float>(at[a]);
+    d2 += x * x;
+  }
+  const unsigned inside = last - first >= chunk ? 0xffffu : (1u << (last - first)) - 1;
+#if defined(__AVX512F__)
+  const __m512i tag = _mm512_loadu_si512(tags + first);
+  __mmask16 mask = _mm512_cmp_ps_mask(std::bit_cast<__m512>(d2.v), _mm512_set1_ps(limit), _CMP_LT_OQ);
+  mask = static_cast<__mmask16>(mask & inside);
+  mask = _mm512_mask_cmpneq_epi32_mask(mask, tag, _mm512_set1_epi32(static_cast<int>(own)));
+  _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(mask, tag));
+  return static_cast<std::size_t>(std::popcount(static_cast<unsigned>(mask)));
+#else
+  std::size_t n = 0;
+  for (std::size_t l = 0; l < chunk; ++l) {
+    out[n] = tags[first + l];
+    n += (inside >> l & 1u) != 0 && d2[static_cast<int>(l)] < limit && tags[first + l] != own;
+  }
+  return n;
+#endif
+}
+
+/// Turns `lanes` lists of `longest` entries, stored one after the other `stride` apart, into the SIMD order.
+void transpose_lists(const std::uint32_t* lists, std::size_t stride, std::size_t lanes, std::size_t longest,
+                     std::uint32_t* out) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  std::uint32_t index[chunk];
+  for (std::size_t l = 0; l < chunk; ++l) index[l] = static_cast<std::uint32_t>(l % lanes);
+  for (std::size_t k = 0; k < longest; k += 8) {
+    Simd<float> column[8];
+    simd_detail::load8(reinterpret_cast<const float*>(lists) + k, stride, index, column);
+    for (std::size_t c = 0; c < 8 && k + c < longest; ++c)
+      std::memcpy(out + (k + c) * lanes, &column[c].v, lanes * 4);
+  }
+#else
+  for (std::size_t k = 0; k < longest; ++k)
+    for (std::size_t l = 0; l < lanes; ++l) out[k * lanes + l] = lists[l * stride + k];
+#endif
+}
+
+}  // namespace
+
+// Entries are tags (ranks by id, or rows) until finish() turns them into rows; short lists end in no_partner.
+template <int D>
+void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>& tags, RowRanges& ranges) {
+  const std::size_t lanes = static_cast<std::size_t>(lanes_);
+  begin_.assign(1, 0);
+  entries_.clear();
+  pairs_ = 0;
+  std::size_t stride = 0;
+  std::vector<std::uint32_t> lists;
+  for (RowRange& range : ranges) {
+    range.first_block = begin_.size() - 1;
+    std::uint32_t cell = no_partner;
+    CellBins::Run runs[9];
+    int run_count = 0;
+    for (std::size_t first = range.first; first < range.last; first += lanes) {
+      std::size_t longest = 0, length[chunk] = {};
+      for (std::size_t l = 0; l < std::min(lanes, range.last - first); ++l) {
+        const std::size_t place = bins.place(first + l);
+        if (bins.cell(first + l) != cell) {
+          cell = bins.cell(first + l);
+          run_count = bins.runs(cell, runs);
+          std::size_t candidates = 2 * chunk;
+          for (int r = 0; r < run_count; ++r) candidates += runs[r].last - runs[r].first;
+          if (candidates > stride) {
+            std::vector<std::uint32_t> wider(lanes * 2 * candidates);
+            for (std::size_t k = 0; k < l; ++k)
+              std::copy_n(lists.data() + k * stride, length[k], wider.data() + k * 2 * candidates);
+            lists.swap(wider);
+            stride = 2 * candidates;
+          }
+        }
+        const float at[3] = {bins.x(0)[place], bins.x(1)[place], D == 3 ? bins.x(2)[place] : 0};
+        std::uint32_t* const mine = lists.data() + l * stride;
+        std::size_t n = 0;
+        for (int r = 0; r < run_count; ++r)
+          for (std::size_t c = runs[r].first; c < runs[r].last; c += chunk)
+            n +=
+                append_within<D>(bins, tags.data(), c, runs[r].last, at, bins.limit(), tags[place], mine + n);
+        length[l] = n;
+        pairs_ += n;
+        longest = std::max(longest, n);
+      }
+      for (std::size_t l = 0; l < lanes; ++l)
+        std::fill(lists.begin() + static_cast<std::ptrdiff_t>(l * stride + length[l]),
+                  lists.begin() + static_cast<std::ptrdiff_t>(l * stride + (longest + 7) / 8 * 8),
+                  no_partner);
+      const std::size_t start = entries_.size();
+      entries_.resize(start + longest * lanes);
+      transpose_lists(lists.data(), stride, lanes, longest, entries_.data() + start);
+      begin_.push_back(entries_.size());
+    }
+  }
+}
+
+void NeighbourLists::finish(const std::vector<std::uint32_t>& row_of_tag, const RowRanges& ranges,
+                            bool sort) {
+  const std::size_t lanes = static_cast<std::size_t>(lanes_);
+  for (const RowRange& range : ranges)
+    for (std::size_t first = range.first, b = range.first_block; first < range.last; first += lanes, ++b) {
+      std::uint32_t* entries = entries_.data() + begin_[b];
+      const std::size_t longest = (begin_[b + 1] - begin_[b]) / lanes;
+      if (sort) lanes_ == 16 ? sort_lanes<16>(entries, longest) : sort_lanes<8>(entries, longest);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const std::uint32_t self = static_cast<std::uint32_t>(std::min(first + l, range.last - 1));
+        for (std::size_t k = l; k < longest * lanes; k += lanes)
+          entries[k] = entries[k] == no_partner ? self : row_of_tag[entries[k]];
+      }
+    }
+}
+
+void NeighbourLists::build(const Particles& particles, const decomp::CellGrid& grid,
+                           const decomp::Box& own_cells, std::int64_t radius, RowRanges& ranges,
+                           decomp::Timers& timers, PartnerOrder order) {
+  const bool by_id = order == PartnerOrder::by_id;
+  std::vector<std::uint32_t> row_of_tag, tag_of_row;
+  {
+    const auto timing = timers.time(decomp::Region::order);
+    if (by_id) {
+      IdRank ids(particles.data<Field::id>(), particles.rows());
+      row_of_tag = std::move(ids.row_of_rank);
+      tag_of_row = std::move(ids.rank_of_row);
+    } else {
+      row_of_tag.resize(particles.rows());
+      std::iota(row_of_tag.begin(), row_of_tag.end(), 0u);
+      tag_of_row = row_of_tag;
+    }
+  }
+  {
+    const auto timing = timers.time(decomp::Region::lists);
+    const CellBins bins(particles, grid, own_cells, radius);
+    std::vector<std::uint32_t> tags(bins.rows().size(), no_partner);
+    for (std::size_t k = 0; k < particles.rows(); ++k) tags[k] = tag_of_row[bins.rows()[k]];
+    particles.dim() == 2 ? find<2>(bins, tags, ranges) : find<3>(bins, tags, ranges);
+  }
+  const auto timing = timers.time(by_id ? decomp::Region::order : decomp::Region::lists);
+  finish(row_of_tag, ranges, by_id);
+}
+
+}  // namespace sph

@@ -1,0 +1,231 @@
+// Local updates: what happens to one particle between two passes, from its own values and pair sums alone.
+#include <cmath>
+
+#include "physics/fixed_point.hpp"
+#include "sph/physics.hpp"
+#include "sph/stress_update.hpp"
+
+namespace sph {
+namespace {
+
+template <class Function>
+void for_movers(const RowRanges& ranges, Function function) {
+  for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+    const RowRange& r = ranges[static_cast<std::size_t>(c)];
+    for (std::size_t i = r.first; i < r.last; ++i) function(i);
+  }
+}
+
+double trace_of(const double* matrix, std::size_t d) {
+  double t = 0;
+  for (std::size_t a = 0; a < d; ++a) t += matrix[a * (d + 1)];
+  return t;
+}
+
+}  // namespace
+
+void Physics::derive(Particles& p, std::size_t first, std::size_t last) const {
+  const double* rho = p.data<Field::density>();
+  const auto* group = p.data<Field::group>();
+  double* pressure = p.data<Field::pressure>();
+  double* sound = p.data<Field::sound_speed>();
+  double* psi = p.data<Field::void_fraction>();
+  const double* gas = p.data<Field::gas_content>();
+  for (std::size_t i = first; i < last; ++i) {
+    const Group& g = scene_->groups[group[i]];
+    if (g.kind == GroupKind::wall && scene_->formulation == Formulation::conservative) {
+      if (sound != nullptr) sound[i] = groups_.sound_speed[group[i]], psi[i] = 0;
+      continue;  // extrapolated from the fluid
+    }
+    double absolute, c = groups_.sound_speed[group[i]], void_fraction = 0;
+    if (g.eos == EosKind::bubbly) {
+      const BubblyEos eos = gas[i] == g.gas_content ? bubbly_[group[i]] : bubbly_eos(g, gas[i]);
+      absolute = eos.pressure(rho[i]);
+      c = eos.sound_speed(absolute);
+      void_fraction = eos.void_fraction(absolute);
+    } else {
+      absolute = g.bulk_modulus * ((rho[i] - g.density) / g.density);
+    }
+    pressure[i] = absolute - scene_->surface_pressure;
+    if (sound != nullptr) sound[i] = c, psi[i] = void_fraction;
+  }
+}
+
+void Physics::update_movers(Particles& p, std::size_t first, std::size_t last, double dt) const {
+  double* rho = p.data<Field::density>();
+  const double* diffusion = p.data<Field::diffusion>();
+  const double* divergence = p.data<Field::divergence>();
+  const double* gradient = p.data<Field::velocity_gradient>();
+  double* stress = p.data<Field::stress>();
+  const auto* group = p.data<Field::group>();
+  const std::size_t d = static_cast<std::size_t>(p.dim()), components_of_stress = d * (d + 1) / 2;
+  for (std::size_t i = first; i < last; ++i) {
+    const Group& g = scene_->groups[group[i]];
+    double div = 0;
+    if (divergence != nullptr) {
+      div = divergence[i];
+    } else {
+      div = trace_of(gradient + i * d * d, d);
+      if (g.kind == GroupKind::solid) {
+        if (d == 2)
+          update_deviator<2>(stress + i * components_of_stress, gradient + i * 4, g.shear_modulus, dt);
+        else
+          update_deviator<3>(stress + i * components_of_stress, gradient + i * 9, g.shear_modulus, dt);
+      }
+    }
+    const double exchanged = g.kind == GroupKind::solid ? 0.0 : diffusion[i];
+    rho[i] += dt * (exchanged - rho[i] * div);
+  }
+  derive(p, first, last);
+  if (!bulk_viscous_) return;
+  // Second viscosity, Ida eq. (9): an excess pressure -zeta div v in the forces of this step only.
+  double* pressure = p.data<Field::pressure>();
+  for (std::size_t i = first; i < last; ++i)
+    pressure[i] -= scene_->groups[group[i]].bulk_viscosity *
+                   (divergence != nullptr ? divergence[i] : trace_of(gradient + i * d * d, d));
+}
+
+void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double* sums = p.data<Field::wall_sums>();
+  double* pressure = p.data<Field::pressure>();
+  double* v = p.data<Field::velocity>();
+  const auto* group = p.data<Field::group>();
+  for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
+    const RowRange& r = ranges[static_cast<std::size_t>(c)];
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const double* s = sums + i * (2 + d);
+      const Double3& own = scene_->groups[group[i]].wall_velocity;
+      const bool wet = s[0] > 0;
+      pressure[i] = wet ? s[1] / s[0] : 0.0;
+      for (std::size_t a = 0; a < d; ++a) v[i * d + a] = wet ? 2 * own[a] - s[2 + a] / s[0] : own[a];
+    }
+  }
+}
+
+void Physics::update_ida(Particles& p, std::size_t first, std::size_t last, double dt) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
+  const double* gradient = p.data<Field::velocity_gradient>();
+  double* rho = p.data<Field::density>();
+  double* stress = p.data<Field::stress>();
+  const auto* group = p.data<Field::group>();
+  for (std::size_t i = first; i < last; ++i) rho[i] -= dt * rho[i] * trace_of(gradient + i * d * d, d);
+  derive(p, first, last);
+  for (std::size_t i = first; i < last; ++i) {
+    const Group& g = scene_->groups[group[i]];
+    double* s = stress + i * n;
+    const double* grad = gradient + i * d * d;
+    if (g.kind == GroupKind::solid) {
+      // (11) less its isotropic part: -K div v is the rate of -p in (10), so lambda - K = -2/3 mu is left.
+      if (d == 2)
+        update_hooke_literal<2>(s, grad, -2.0 / 3.0 * g.shear_modulus, g.shear_modulus, dt);
+      else
+        update_hooke_literal<3>(s, grad, -2.0 / 3.0 * g.shear_modulus, g.shear_modulus, dt);
+      continue;
+    }
+    const double div = trace_of(grad, d);
+    for (std::size_t a = 0; a < d; ++a)
+      for (std::size_t b = a; b < d; ++b) {
+        const std::size_t k = a == b ? a : d + a + b - 1;
+        s[k] = g.viscosity * (grad[a * d + b] + grad[b * d + a]) + (a == b ? g.bulk_viscosity * div : 0.0);
+      }
+  }
+}
+
+double Physics::largest_speed(const Particles& p) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double* v = p.data<Field::velocity>();
+  double speed2 = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    double v2 = 0;
+    for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
+    speed2 = v2 > speed2 ? v2 : speed2;
+  }
+  return std::sqrt(speed2);
+}
+
+void Physics::advance(Particles& p, const RowRanges& ranges, double dt) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  std::int64_t* x = p.data<Field::position>();
+  const double* v = p.data<Field::velocity>();
+  const double quanta_per_metre = 1 / scale_.quantum;
+  for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+    const RowRange& r = ranges[static_cast<std::size_t>(c)];
+    for (std::size_t k = r.first * d; k < r.last * d; ++k)
+      x[k] += round_to_quanta(v[k] * dt * quanta_per_metre);
+  }
+}
+
+StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const GlobalState& global) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double dt = global.dt;
+  double* v = p.data<Field::velocity>();
+  const double* force = p.data<Field::force>();
+  const double* mass = p.data<Field::mass>();
+  const auto* group = p.data<Field::group>();
+  double speed2 = 0, acceleration2 = 0;
+  for_movers(ranges, [&](std::size_t i) {
+    const double inverse_mass = 1 / mass[i];
+    double v2 = 0, a2 = 0;
+    for (std::size_t a = 0; a < d; ++a) {
+      const double acceleration = force[i * d + a] * inverse_mass + scene_->gravity[a];
+      v[i * d + a] += acceleration * dt;
+      a2 += acceleration * acceleration;
+      v2 += v[i * d + a] * v[i * d + a];
+    }
+    // Written so that a NaN becomes the maximum and is noticed.
+    speed2 = v2 <= speed2 ? speed2 : v2;
+    acceleration2 = a2 <= acceleration2 ? acceleration2 : a2;
+  });
+  for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
+    const RowRange& r = ranges[static_cast<std::size_t>(c)];
+    for (std::size_t i = r.first; i < r.last; ++i)
+      for (std::size_t a = 0; a < d; ++a) v[i * d + a] = scene_->groups[group[i]].wall_velocity[a];
+  }
+  if (scene_->terms.shifting) shift(p, ranges, global);
+  if (bulk_viscous_) for_movers(ranges, [&](std::size_t i) { derive(p, i, i + 1); });
+  if (!transitions_.empty()) for_movers(ranges, [&](std::size_t i) { change_group(p, i); });
+  if (p.has(Field::velocity_mean)) average(p, global);
+  return {std::sqrt(speed2), std::sqrt(acceleration2)};
+}
+
+// a += dt/T (f - a), T the time since the start until that is the scene's window: from the plain mean to an
+// exponential one. Nothing reads it but output.
+void Physics::average(Particles& p, const GlobalState& global) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double weight = global.dt / std::fmin(scene_->output.average_time, global.time + global.dt);
+  const double w = std::fmin(weight, 1.0);
+  const auto follow = [&](double* mean, const double* value, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) mean[k] += w * (value[k] - mean[k]);
+  };
+  follow(p.data<Field::velocity_mean>(), p.data<Field::velocity>(), p.owned() * d);
+  follow(p.data<Field::pressure_mean>(), p.data<Field::pressure>(), p.owned());
+}
+
+// Sun et al. (2017): delta r = -2 h U_max dt S, at most U_max dt / 2 long.
+void Physics::shift(Particles& p, const RowRanges& ranges, const GlobalState& global) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  std::int64_t* x = p.data<Field::position>();
+  const double* spread = p.data<Field::spread>();
+  const double reach = global.max_speed * global.dt;
+  const double scale = -2 * scene_->smoothing_length * reach;
+  for_movers(ranges, [&](std::size_t i) {
+    double length2 = 0;
+    for (std::size_t a = 0; a < d; ++a) length2 += (scale * spread[i * d + a]) * (scale * spread[i * d + a]);
+    const double length = std::sqrt(length2);
+    const double cap = length > 0.5 * reach ? 0.5 * reach / length : 1.0;
+    for (std::size_t a = 0; a < d; ++a)
+      x[i * d + a] += round_to_quanta(scale * spread[i * d + a] * cap / scale_.quantum);
+  });
+}
+
+// Fragmentation (paper, 4.3): a bubbly particle whose gas fraction exceeds psi_f joins the spray, for good.
+// Mass, momentum and gas stay with the particle; only its constitutive constants change.
+void Physics::change_group(Particles& p, std::size_t i) const {
+  auto* group = p.data<Field::group>();
+  const Group& g = scene_->groups[group[i]];
+  if (g.fragments_to >= 0 && p.data<Field::void_fraction>()[i] > *g.fragmentation_void_fraction)
+    group[i] = static_cast<std::uint32_t>(g.fragments_to);
+}
+
+}  // namespace sph

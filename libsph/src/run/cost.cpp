@@ -1,0 +1,92 @@
+#include "run/cost.hpp"
+
+namespace sph {
+namespace {
+
+/// Directed pairs of this rank that lie within the support.
+std::int64_t pairs_within_support(const Simulation& s) {
+  const auto d = static_cast<std::size_t>(s.scene().dim);
+  const auto lanes = static_cast<std::size_t>(s.lists().lanes());
+  const double support = s.scene().support() / s.scale().quantum;
+  const std::int64_t* x = s.particles().data<Field::position>();
+  std::int64_t pairs = 0;
+  for (const RowRange& range : s.distribution().ranges())
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      const std::size_t k = i - range.first;
+      const auto block = s.lists().block(range.first_block + k / lanes);
+      for (std::size_t entry = k % lanes; entry < block.size(); entry += lanes) {
+        const std::size_t j = block[entry];
+        double r2 = 0;
+        for (std::size_t a = 0; a < d; ++a) {
+          const auto r = static_cast<double>(x[i * d + a] - x[j * d + a]);
+          r2 += r * r;
+        }
+        if (j != i && r2 < support * support) ++pairs;
+      }
+    }
+  return pairs;
+}
+
+}  // namespace
+
+std::size_t bytes_of(FieldSet fields, int dim) {
+  std::size_t bytes = 0;
+  for (Field f : fields.list()) bytes += width(f, dim);
+  return bytes;
+}
+
+FieldSet halo_fields(const Physics& physics) {
+  FieldSet fields{Field::id, Field::position};
+  for (const Pass& pass : physics.passes()) fields |= pass.reads;
+  return fields & physics.fields();
+}
+
+std::vector<FieldSet> refreshes_of(const Physics& physics) {
+  std::vector<FieldSet> sent(physics.passes().size());
+  FieldSet fresh{Field::id};
+  for (int round = 0; round < 2; ++round) {  // the second is a step in the middle of a run
+    fresh = fresh.without({Field::position});
+    for (std::size_t k = 0; k < sent.size(); ++k) {
+      const Pass& pass = physics.passes()[k];
+      sent[k] = (pass.reads & physics.fields()).without(fresh);
+      fresh |= sent[k];
+      if (pass.update) fresh = fresh.without(pass.changes);
+    }
+    fresh = fresh.without(physics.integrated());
+  }
+  return sent;
+}
+
+Performance performance_of(Simulation& s) {
+  const decomp::Comm& comm = s.comm();
+  const decomp::HaloPlan& halo = s.distribution().halo();
+  const int dim = s.scene().dim;
+  std::size_t sent = 0;
+  for (FieldSet fields : refreshes_of(s.physics())) sent += bytes_of(fields, dim);
+
+  Performance p;
+  p.scene = s.scene().name;
+  p.fingerprint = s.fingerprint();
+  p.ranks = comm.size();
+  p.particles = s.particle_count();
+  p.end = s.global();
+  std::array<std::int64_t, 5> sums{static_cast<std::int64_t>(s.lists().pairs()), pairs_within_support(s),
+                                   static_cast<std::int64_t>(halo.rows_received() + halo.rows_copied()),
+                                   static_cast<std::int64_t>(halo.rows_sent()), s.distribution().migrated()};
+  comm.sum(std::span<std::int64_t>(sums));
+  const auto particles = static_cast<double>(p.particles);
+  p.neighbours_per_particle = static_cast<double>(sums[0]) / particles;
+  p.pairs_per_particle = static_cast<double>(sums[1]) / particles;
+  p.halo_per_particle = static_cast<double>(sums[2]) / particles;
+  p.halo_bytes_per_step = static_cast<double>(sums[3]) * static_cast<double>(sent);
+  p.migrated = sums[4];
+  p.state_bytes_per_particle = static_cast<double>(bytes_of(state_of(s.physics().fields()), dim));
+  p.bytes_per_particle = static_cast<double>(bytes_of(s.physics().fields(), dim));
+  p.bytes_per_halo_particle = static_cast<double>(bytes_of(halo_fields(s.physics()), dim));
+  p.rebuilds = s.counters().rebuilds;
+  p.refreshes = s.counters().refreshes;
+  p.regions = s.timers().summary(comm);
+  return p;
+}
+
+}  // namespace sph

@@ -1,0 +1,65 @@
+// perf.json: the numbers of the final table for programs, with what the run was built from.
+#include <nlohmann/json.hpp>
+
+#include "output/durable_file.hpp"
+#include "sph/error.hpp"
+#include "sph/report.hpp"
+
+namespace sph {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json build_json() {
+  const BuildInfo& b = build_info();
+  return {{"version", b.version},       {"git", b.git}, {"compiler", b.compiler}, {"flags", b.flags},
+          {"build_type", b.build_type}, {"mpi", b.mpi}, {"hdf5", b.hdf5}};
+}
+
+Json regions_json(const std::vector<decomp::Timers::Row>& regions) {
+  Json out = Json::object();
+  for (const decomp::Timers::Row& row : regions)
+    out[std::string(decomp::name_of(row.region))] = {{"min", row.min},
+                                                     {"mean", row.mean},
+                                                     {"max", row.max},
+                                                     {"calls", row.calls},
+                                                     {"computation", decomp::is_computation(row.region)}};
+  return out;
+}
+
+}  // namespace
+
+void write_perf_json(const std::filesystem::path& path, const Performance& p) {
+  const double particle_steps = static_cast<double>(p.particles) * static_cast<double>(p.steps);
+  const Json json{{"scene", p.scene},
+                  {"fingerprint", p.fingerprint},
+                  {"precision", p.precision},
+                  {"formulation", p.formulation},
+                  {"ranks", p.ranks},
+                  {"steps", p.steps},
+                  {"particles", p.particles},
+                  {"end", {{"step", p.end.step}, {"time", p.end.time}, {"dt", p.end.dt}}},
+                  {"wall_seconds", p.wall_seconds},
+                  {"particle_steps_per_second", p.wall_seconds > 0 ? particle_steps / p.wall_seconds : 0},
+                  {"imbalance", p.imbalance},
+                  {"neighbours_per_particle", p.neighbours_per_particle},
+                  {"pairs_per_particle", p.pairs_per_particle},
+                  {"halo_per_particle", p.halo_per_particle},
+                  {"halo_bytes_per_step", p.halo_bytes_per_step},
+                  {"state_bytes_per_particle", p.state_bytes_per_particle},
+                  {"bytes_per_particle", p.bytes_per_particle},
+                  {"bytes_per_halo_particle", p.bytes_per_halo_particle},
+                  {"rebuilds", p.rebuilds},
+                  {"late_rebuilds", p.late_rebuilds},
+                  {"migrated", p.migrated},
+                  {"refreshes", p.refreshes},
+                  {"seconds", regions_json(p.regions)},
+                  {"build", build_json()}};
+  try {
+    write_atomically(path, json.dump(2) + "\n");
+  } catch (const std::exception& error) {
+    throw OutputError("cannot write " + path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace sph

@@ -1,0 +1,135 @@
+#include "sph/run.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "output/output_schedule.hpp"
+#include "physics/stability.hpp"
+#include "run/run_control.hpp"
+#include "run/run_files.hpp"
+#include "run/run_start.hpp"
+#include "run/screen.hpp"
+#include "sph/report.hpp"
+
+namespace sph {
+namespace {
+
+class Run {
+ public:
+  Run(RunStart start, const RunOptions& options, RunControl::Clock::time_point begin, Failure& failure)
+      : simulation_(*start.simulation),
+        files_(start.memory ? RunFiles(simulation_, start.dir, *start.memory)
+                            : RunFiles(simulation_, start.dir)),
+        control_(simulation_.comm().rank(), begin, simulation_.scene().output, start.dir / "stop",
+                 options.max_seconds),
+        screen_(simulation_),
+        failure_(failure),
+        start_(std::move(start)) {
+    if (start_.memory) {
+      series_.done(simulation_.global().time);
+      snapshots_.done(simulation_.global().time);
+    }
+  }
+
+  int go() {
+    screen_.banner();
+    if (!start_.memory) write_due_output();
+    while (!finished()) {
+      const auto wish = static_cast<Wish>(step());
+      write_due_output();
+      if (wish == Wish::give_up) files_.check(simulation_);
+      if (wish == Wish::status) screen_.status();
+      if (wish >= Wish::checkpoint) checkpoint();
+      control_.granted(wish);
+      if (wish == Wish::stop && !finished()) return stopped();
+    }
+    return done();
+  }
+
+ private:
+  [[nodiscard]] bool finished() const { return is_finished(simulation_.scene(), simulation_.global()); }
+
+  std::int64_t step() {
+    const auto wish = static_cast<std::int64_t>(control_.wish(files_.failed()));
+    try {
+      return simulation_.step(wish);
+    } catch (const GuardError& error) {
+      const std::string kept = attempt_to_keep_state();
+      throw GuardError(std::string(error.what()) + kept);
+    }
+  }
+
+  std::string attempt_to_keep_state() {
+    try {
+      return "; the state is kept in " +
+             files_.keep_crashed_state(simulation_, failure_.everywhere()).string();
+    } catch (const std::exception& error) {
+      return std::string("; the state could not be kept: ") + error.what();
+    }
+  }
+
+  void write_due_output() {
+    const auto timing = simulation_.timers().time(decomp::Region::output);
+    const double t = simulation_.global().time;
+    if (simulation_.scene().output.series_interval == 0 || series_.due(t)) {
+      files_.add_series_row(simulation_);
+      series_.done(t);
+    }
+    if (snapshots_.due(t)) {
+      files_.add_snapshot(simulation_, true);
+      snapshots_.done(t);
+      last_snapshot_ = simulation_.global().step;
+    }
+  }
+
+  void checkpoint() {
+    const auto timing = simulation_.timers().time(decomp::Region::output);
+    const auto begin = RunControl::Clock::now();
+    files_.write_checkpoint(simulation_);
+    control_.checkpoint_took(std::chrono::duration<double>(RunControl::Clock::now() - begin).count());
+  }
+
+  int done() {
+    if (last_snapshot_ != simulation_.global().step) {
+      const auto timing = simulation_.timers().time(decomp::Region::output);
+      files_.add_snapshot(simulation_, false);
+    }
+    checkpoint();
+    screen_.final_report(files_.dir());
+    return exit_done;
+  }
+
+  int stopped() {
+    screen_.final_report(files_.dir());
+    if (simulation_.comm().rank() == 0)
+      fmt::print(stderr, "peperite: stopped at step {} with a checkpoint; go on with: peperite resume {}\n",
+                 simulation_.global().step, files_.dir().string());
+    return exit_resume;
+  }
+
+  Simulation& simulation_;
+  RunFiles files_;
+  RunControl control_;
+  Screen screen_;
+  Failure& failure_;
+  RunStart start_;
+  OutputSchedule series_{simulation_.scene().output.series_interval};
+  OutputSchedule snapshots_{simulation_.scene().output.snapshot_interval};
+  std::int64_t last_snapshot_ = -1;
+};
+
+}  // namespace
+
+int run_case(const RunOptions& options, const decomp::Comm& comm, Failure& failure) {
+  const auto begin = RunControl::Clock::now();
+  RunStart start = options.resume.empty() ? start_new(options, comm) : start_again(options, comm);
+  const Simulation& simulation = *start.simulation;
+  if (start.memory && is_finished(simulation.scene(), simulation.global())) {
+    print_fingerprint(simulation);
+    return exit_done;
+  }
+  return Run(std::move(start), options, begin, failure).go();
+}
+
+}  // namespace sph

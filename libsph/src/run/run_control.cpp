@@ -1,0 +1,95 @@
+#include "run/run_control.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "sph/run.hpp"
+
+namespace sph {
+namespace {
+
+// A handler can reach nothing but objects of static storage.
+volatile std::sig_atomic_t stop_signal = 0;
+volatile std::sig_atomic_t checkpoint_signal = 0;
+volatile std::sig_atomic_t terminations = 0;
+
+extern "C" void on_signal(int number) {
+  if (number == SIGUSR2) {
+    checkpoint_signal = 1;
+    return;
+  }
+  stop_signal = 1;
+  if (number != SIGTERM) return;
+  if (terminations != 0) _exit(128 + SIGTERM);
+  terminations = 1;
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;  // a signal must not fail a write under way
+  sigemptyset(&action.sa_mask);
+  // A limit on the size of files is then an error of the write, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (int number : {SIGUSR1, SIGUSR2, SIGTERM}) sigaction(number, &action, nullptr);
+}
+
+RunControl::RunControl(int rank, Clock::time_point begin, const OutputControl& output,
+                       std::filesystem::path stop_file, std::optional<double> max_seconds)
+    : rank_(rank),
+      checkpoint_interval_(output.checkpoint_interval),
+      status_interval_(output.status_interval),
+      stop_file_(std::move(stop_file)),
+      max_seconds_(max_seconds),
+      begin_(begin) {}
+
+bool RunControl::stop_file_found() {
+  constexpr double seconds_between_looks = 0.25;  // a metadata call may be slow on a shared disk
+  if (seconds_since(last_look_) < seconds_between_looks) return false;
+  last_look_ = Clock::now();
+  std::error_code none;
+  return std::filesystem::exists(stop_file_, none);
+}
+
+Wish RunControl::wish(bool failed) {
+  if (failed) return Wish::give_up;
+  if (last_wish_) longest_step_ = std::max(longest_step_, seconds_since(*last_wish_));
+  last_wish_ = Clock::now();
+  if (rank_ == 0) {
+    const double needed = 2 * longest_step_ + 2 * checkpoint_seconds_;
+    stopping_ =
+        stopping_ || (max_seconds_ && seconds_since(begin_) + needed >= *max_seconds_) || stop_file_found();
+  }
+  if (stopping_ || stop_signal != 0) return Wish::stop;
+  if (checkpoint_signal != 0) return Wish::checkpoint;
+  if (rank_ != 0) return Wish::none;
+  if (checkpoint_interval_ > 0 && seconds_since(last_checkpoint_) >= checkpoint_interval_)
+    return Wish::checkpoint;
+  if (seconds_since(last_status_) >= status_interval_) return Wish::status;
+  return Wish::none;
+}
+
+void RunControl::granted(Wish wish) {
+  switch (wish) {
+    case Wish::none:
+    case Wish::give_up:
+      return;
+    case Wish::status:
+      last_status_ = Clock::now();
+      return;
+    case Wish::stop: {
+      std::error_code none;
+      if (rank_ == 0) std::filesystem::remove(stop_file_, none);  // else it would stop the resumed run
+      [[fallthrough]];
+    }
+    case Wish::checkpoint:
+      checkpoint_signal = 0;
+      last_checkpoint_ = Clock::now();
+  }
+}
+
+}  // namespace sph

@@ -1,0 +1,190 @@
+#include "run/run_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "output/averages.hpp"
+#include "output/durable_file.hpp"
+#include "run/agree.hpp"
+#include "sph/checkpoint.hpp"
+
+namespace sph {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+bool is_snapshot(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with("snapshot_") && name.ends_with(".h5");
+}
+
+/// Throws InputError on all ranks if `work`, which is rank 0's, fails.
+template <class Work>
+void on_root_or_refuse(const decomp::Comm& comm, const std::string& what, Work&& work) {
+  const std::string failure = agree(comm, attempt([&] {
+                                      if (comm.rank() == 0) work();
+                                    }));
+  if (!failure.empty()) throw InputError(what + failure);
+}
+
+template <class Work>
+void on_root(const decomp::Comm& comm, const std::string& what, Work&& work) {
+  all_or_none(comm, what, [&] {
+    if (comm.rank() == 0) work();
+  });
+}
+
+std::vector<std::string> group_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Group& g : scene.groups) names.push_back(g.name);
+  return names;
+}
+
+}  // namespace
+
+std::string to_json(const RunMemory& memory) {
+  Json snapshots = Json::array();
+  for (const SnapshotEntry& s : memory.snapshots)
+    snapshots.push_back({{"file", s.file},
+                         {"step", s.step},
+                         {"time_bits", std::bit_cast<std::uint64_t>(s.time)},
+                         {"rows", s.rows}});
+  return Json{
+      {"monitor_ids", memory.monitor_ids}, {"series_bytes", memory.series_bytes}, {"snapshots", snapshots}}
+      .dump();
+}
+
+RunMemory memory_from_json(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    RunMemory memory;
+    memory.monitor_ids = json.at("monitor_ids").get<std::vector<std::uint64_t>>();
+    memory.series_bytes = json.at("series_bytes").get<std::uint64_t>();
+    for (const Json& s : json.at("snapshots"))
+      memory.snapshots.push_back({s.at("file").get<std::string>(), s.at("step").get<std::int64_t>(),
+                                  std::bit_cast<double>(s.at("time_bits").get<std::uint64_t>()),
+                                  s.at("rows").get<std::int64_t>()});
+    return memory;
+  } catch (const Json::exception& error) {
+    throw InputError(std::string("the checkpoint was not written by a run: ") + error.what());
+  }
+}
+
+void refuse_used_directory(const decomp::Comm& comm, const fs::path& dir) {
+  on_root_or_refuse(comm, "", [&] {
+    const std::string advice = "; choose another with --out";
+    std::error_code none;
+    if (!fs::exists(dir, none)) return;
+    if (!fs::is_directory(dir)) throw InputError(dir.string() + " is not a directory" + advice);
+    bool used = false;
+    for (const char* name : {"scene.toml", "series.csv", "particles.xdmf", "checkpoint"})
+      used = used || fs::exists(dir / name);
+    for (const fs::directory_entry& entry : fs::directory_iterator(dir))
+      used = used || is_snapshot(entry.path());
+    if (used)
+      throw InputError(fmt::format("{} holds a run already{}, or go on with it: peperite resume {}",
+                                   dir.string(), advice, dir.string()));
+  });
+}
+
+RunFiles::RunFiles(const Simulation& s, fs::path dir) : dir_(std::move(dir)), monitors_(s) {
+  on_root_or_refuse(s.comm(),
+                    "cannot write in " + dir_.string() + ", choose another place with --out: ", [&] {
+                      fs::create_directories(dir_);
+                      write_scene(s);
+                      remove_unlisted_snapshots(s);
+                      fs::remove(dir_ / "particles.xdmf");
+                      series_.emplace(dir_ / "series.csv", monitors_.names());
+                      series_bytes_ = series_->bytes();
+                    });
+}
+
+RunFiles::RunFiles(const Simulation& s, fs::path dir, const RunMemory& memory)
+    : dir_(std::move(dir)),
+      monitors_(s, memory.monitor_ids),
+      series_bytes_(memory.series_bytes),
+      snapshots_(memory.snapshots) {
+  const std::vector<ExtraColumn> extra = extra_columns(s.scene());
+  on_root_or_refuse(s.comm(), "", [&] {
+    write_scene(s);
+    series_.emplace(dir_ / "series.csv", memory.series_bytes);
+    remove_unlisted_snapshots(s);
+    if (snapshots_.empty())
+      fs::remove(dir_ / "particles.xdmf");
+    else
+      write_xdmf(dir_ / "particles.xdmf", snapshots_, s.particles(), extra);
+  });
+}
+
+void RunFiles::write_scene(const Simulation& s) const {
+  write_atomically(dir_ / "scene.toml", to_toml(s.scene()));
+}
+
+void RunFiles::remove_unlisted_snapshots(const Simulation&) const {
+  for (const fs::directory_entry& entry : fs::directory_iterator(dir_)) {
+    const std::string name = entry.path().filename().string();
+    const bool listed = std::any_of(snapshots_.begin(), snapshots_.end(),
+                                    [&](const SnapshotEntry& s) { return s.file == name; });
+    if (is_snapshot(entry.path()) && !listed) fs::remove(entry.path());
+  }
+}
+
+Provenance RunFiles::provenance(const Simulation& s) const {
+  return {to_toml(s.scene()), s.fingerprint(), group_names(s.scene())};
+}
+
+void RunFiles::add_series_row(const Simulation& s) {
+  const std::vector<double> values = monitors_.values(s);
+  if (s.comm().rank() != 0 || failed()) return;
+  failure_ = attempt([&] { series_->add(s.global().step, s.global().time, values); });
+  series_bytes_ = series_->bytes();
+}
+
+void RunFiles::check(const Simulation& s) const {
+  const std::string failure = agree(s.comm(), failure_);
+  if (!failure.empty()) throw OutputError(failure);
+}
+
+void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
+  const GlobalState& g = s.global();
+  const SnapshotEntry entry{fmt::format("snapshot_{:09}.h5", g.step), g.step, g.time, s.particle_count()};
+  const std::vector<ExtraColumn> extra = averages(s);
+  write_snapshot(s.comm(), dir_ / entry.file, s.particles(), g, s.scale(), s.wrap(), provenance(s), extra,
+                 s.scene().output.sort_limit);
+  std::vector<SnapshotEntry> listed = snapshots_;
+  listed.push_back(entry);
+  if (scheduled) snapshots_ = listed;
+  on_root(s.comm(), "particles.xdmf",
+          [&] { write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra); });
+}
+
+void RunFiles::write_checkpoint(const Simulation& s) {
+  check(s);
+  on_root(s.comm(), "series.csv", [&] { sync_to_disk(dir_ / "series.csv"); });
+  const RunRecord record{s.global(), s.scale(), to_toml(s.scene()),
+                         to_json({monitors_.ids(), series_bytes_, snapshots_})};
+  sph::write_checkpoint(s.comm(), dir_, s.particles(), nullptr, record, s.wrap(), provenance(s),
+                        s.scene().output.checkpoint_files);
+}
+
+fs::path RunFiles::keep_crashed_state(const Simulation& s, bool together) const {
+  const fs::path crash = dir_ / "crash";
+  const fs::path file =
+      crash / (together ? fmt::format("snapshot_{:09}.h5", s.global().step)
+                        : fmt::format("snapshot_{:09}_rank_{}.h5", s.global().step, s.comm().rank()));
+  std::error_code ignored;
+  fs::create_directories(crash, ignored);
+  // The fingerprint of a state that broke a rule means nothing, and computing it may need ranks that are
+  // gone.
+  const Provenance from{to_toml(s.scene()), "", group_names(s.scene())};
+  const decomp::Comm alone(MPI_COMM_SELF);
+  write_snapshot(together ? s.comm() : alone, file, s.particles(), s.global(), s.scale(), s.wrap(), from, {},
+                 s.scene().output.sort_limit);
+  return file;
+}
+
+}  // namespace sph

@@ -1,0 +1,109 @@
+#include "run/run_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "checkpoint/checkpoint_files.hpp"
+#include "output/durable_file.hpp"
+#include "physics/stability.hpp"
+#include "run/agree.hpp"
+#include "sph/checkpoint.hpp"
+
+namespace sph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// --steps and --until replace whatever end the scene has.
+std::vector<std::string> with_end(const RunOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.steps) {
+    overrides.push_back("time.until=");
+    overrides.push_back("time.steps=" + std::to_string(*options.steps));
+  } else if (options.until) {
+    overrides.push_back("time.steps=");
+    overrides.push_back("time.until=" + *options.until);
+  }
+  return overrides;
+}
+
+template <class Make>
+std::unique_ptr<Simulation> simulate(const Scene& scene, Make&& make) {
+  return naming_file(scene, [&] {
+    check_time_step(scene);
+    return make();
+  });
+}
+
+void check_record(const decomp::Comm& comm, const Scene& scene) {
+  const fs::path record = scene.decomposition.record;
+  if (record.empty()) return;
+  const std::string failure = agree(comm, attempt([&] {
+                                      if (comm.rank() == 0) write_atomically(record, "");
+                                    }));
+  if (!failure.empty()) throw InputError(scene.file + ": decomposition.record: " + failure);
+}
+
+bool has_checkpoint(const fs::path& dir) {
+  const std::vector<fs::path> found = checkpoint_directories(checkpoint_root(dir));
+  return std::any_of(found.begin(), found.end(),
+                     [](const fs::path& checkpoint) { return fs::exists(manifest_path(checkpoint)); });
+}
+
+}  // namespace
+
+Scene scene_of(const RunOptions& options) { return read_scene(options.scene, with_end(options)); }
+
+bool is_finished(const Scene& scene, const GlobalState& global) {
+  return (scene.time.steps && global.step >= *scene.time.steps) ||
+         (scene.time.until && global.time >= *scene.time.until);
+}
+
+RunStart start_new(const RunOptions& options, const decomp::Comm& comm) {
+  const Scene scene = scene_of(options);
+  RunStart start;
+  start.dir = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
+  refuse_used_directory(comm, start.dir);
+  check_record(comm, scene);
+  start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene); });
+  return start;
+}
+
+RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
+  RunStart start;
+  start.dir = options.resume;
+  const std::string file = (start.dir / "scene.toml").string();
+  std::string text;
+  const std::string failure =
+      agree(comm, attempt([&] {
+              if (comm.rank() != 0) return;
+              if (!fs::is_directory(start.dir))
+                throw InputError(start.dir.string() + " is not the directory of a run");
+              if (has_checkpoint(start.dir)) return;
+              if (!fs::exists(file))
+                throw InputError("there is no run in " + start.dir.string() +
+                                 ": neither checkpoint nor scene.toml");
+              text = read_text(file);
+            }));
+  if (!failure.empty()) throw InputError(failure);
+  text = comm.broadcast(text, 0);
+  if (!text.empty()) {
+    if (comm.rank() == 0)
+      fmt::print(stderr, "peperite: {} has no checkpoint yet: beginning anew\n", start.dir.string());
+    const Scene scene = parse_scene(text, file, with_end(options));
+    check_record(comm, scene);
+    start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene); });
+    return start;
+  }
+  const CheckpointHandle checkpoint = find_checkpoint(comm, start.dir);
+  if (!checkpoint.warning.empty() && comm.rank() == 0)
+    fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
+  const Scene scene = parse_scene(checkpoint.record.scene_toml, file, with_end(options));
+  check_record(comm, scene);
+  start.memory = memory_from_json(checkpoint.record.extra_json);
+  start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
+  return start;
+}
+
+}  // namespace sph

@@ -1,0 +1,119 @@
+#include "run/screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "run/agree.hpp"
+#include "run/cost.hpp"
+#include "sph/monitors.hpp"
+#include "sph/report.hpp"
+
+namespace sph {
+namespace {
+
+double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+/// Largest over mean.
+double imbalance_of(const decomp::Comm& comm, double seconds_here) {
+  double sum = 0, largest = 0;
+  for (double s : comm.all_gather(seconds_here)) {
+    sum += s;
+    largest = std::max(largest, s);
+  }
+  return sum > 0 ? largest * comm.size() / sum : 1;
+}
+
+const char* name_of(Formulation f) { return f == Formulation::ida ? "ida" : "conservative"; }
+const char* name_of(Precision p) { return p == Precision::mixed ? "mixed" : "double"; }
+
+void print(const decomp::Comm& comm, const std::string& text) {
+  if (comm.rank() != 0) return;
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+Screen::Screen(Simulation& simulation)
+    : simulation_(simulation), first_(simulation.global()), last_(first_), last_computation_(computation()) {}
+
+double Screen::computation() const {
+  double sum = 0;
+  for (int r = 0; r < decomp::region_count; ++r)
+    if (decomp::is_computation(static_cast<decomp::Region>(r)))
+      sum += simulation_.timers().seconds(static_cast<decomp::Region>(r));
+  return sum;
+}
+
+void Screen::banner() const {
+  const BuildInfo& build = build_info();
+  const Scene& scene = simulation_.scene();
+  const GlobalState& g = simulation_.global();
+  std::string end;
+  if (scene.time.until) end += fmt::format(" to t = {} s", *scene.time.until);
+  if (scene.time.steps) end += fmt::format(" to step {}", *scene.time.steps);
+  const std::string text = fmt::format(
+      "peperite {} ({}), {} {}, {}, HDF5 {}\n{}: {}\n{}D, {}, {} pairs, {} particles, {} ranks\n"
+      "from step {}, t = {} s{}, dt = {:.4g} s, c dt/h = {:.3g}\n",
+      build.version, build.git, build.compiler, build.build_type, build.mpi, build.hdf5, scene.file,
+      scene.name, scene.dim, name_of(scene.formulation), name_of(scene.precision),
+      simulation_.particle_count(), simulation_.comm().size(), g.step, g.time, end, g.dt,
+      simulation_.physics().courant_number(g.dt));
+  print(simulation_.comm(), text);
+}
+
+double Screen::seconds_left() const {
+  const GlobalState& now = simulation_.global();
+  const TimeControl& end = simulation_.scene().time;
+  const double wall = seconds(Clock::now() - begin_);
+  double left = -1;
+  const auto consider = [&](double done, double to_do) {
+    if (done <= 0) return;
+    const double estimate = wall * std::max(to_do, 0.0) / done;
+    left = left < 0 ? estimate : std::min(left, estimate);
+  };
+  if (end.until) consider(now.time - first_.time, *end.until - now.time);
+  if (end.steps)
+    consider(static_cast<double>(now.step - first_.step), static_cast<double>(*end.steps - now.step));
+  return left;
+}
+
+void Screen::status() {
+  const GlobalState& now = simulation_.global();
+  const double wall = seconds(Clock::now() - last_time_);
+  const double work = computation();
+  Status status;
+  status.global = now;
+  status.particle_steps_per_second = static_cast<double>(simulation_.particle_count()) *
+                                     static_cast<double>(now.step - last_.step) / std::max(wall, 1e-9);
+  status.imbalance = imbalance_of(simulation_.comm(), work - last_computation_);
+  status.kinetic_energy = kinetic_energy(simulation_);
+  status.seconds_left = seconds_left();
+  print(simulation_.comm(), status_line(status) + "\n");
+  last_ = now;
+  last_time_ = Clock::now();
+  last_computation_ = work;
+}
+
+void Screen::final_report(const std::filesystem::path& dir) {
+  Performance p = performance_of(simulation_);
+  p.wall_seconds = seconds(Clock::now() - begin_);
+  p.steps = simulation_.global().step - first_.step;
+  p.formulation = name_of(simulation_.scene().formulation);
+  p.precision = name_of(simulation_.scene().precision);
+  p.imbalance = imbalance_of(simulation_.comm(), computation());
+  all_or_none(simulation_.comm(), "report", [&] {
+    if (simulation_.comm().rank() == 0) write_perf_json(dir / "perf.json", p);
+  });
+  print(simulation_.comm(), final_table(p));
+  print_fingerprint(simulation_);
+}
+
+void print_fingerprint(const Simulation& s) {
+  print(s.comm(),
+        fmt::format("fingerprint {} step {} t {}\n", s.fingerprint(), s.global().step, s.global().time));
+}
+
+}  // namespace sph

@@ -1,0 +1,204 @@
+// [[group]]: materials, with what each kind needs and what it must not have.
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "scene/nearest.hpp"
+#include "scene/scene_resolve.hpp"
+
+namespace sph {
+namespace {
+
+std::string read_name(const TableReader& table) {
+  const std::string name = table.required_text("name");
+  const auto allowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  };
+  bool good = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
+  for (char c : name) good = good && allowed(c);
+  if (!good)
+    table.fail("name", fmt::format("is \"{}\"", name),
+               "a name is a letter followed by letters, digits, _ or -");
+  if (name == "none")
+    table.fail("name", "is \"none\"", "that word means an empty region; choose another name");
+  return name;
+}
+
+/// Elastic constants: K from the sound speed, mu from Poisson's ratio, as the paper's readers know them.
+void read_stiffness(const TableReader& table, Group& group, const Group* like) {
+  table.not_both("bulk_modulus", "sound_speed");
+  table.not_both("poisson_ratio", "shear_modulus");
+  const std::optional<double> modulus = table.number("bulk_modulus", dimension::pressure, Bound::positive);
+  const std::optional<double> speed = table.number("sound_speed", dimension::speed, Bound::positive);
+  if (modulus)
+    group.bulk_modulus = *modulus;
+  else if (speed)
+    group.bulk_modulus = group.density * *speed * *speed;
+  else if (like != nullptr)
+    group.bulk_modulus = like->bulk_modulus;
+  else
+    table.fail_missing("bulk_modulus", "give it in Pa, or sound_speed in m/s");
+
+  if (!(group.bulk_modulus > 0 && std::isfinite(group.bulk_modulus)))
+    table.fail(speed ? "sound_speed" : "bulk_modulus", "makes a modulus beyond the range of numbers",
+               "check its unit");
+
+  const bool solid = group.kind == GroupKind::solid;
+  table.only_if(solid, "poisson_ratio", "only groups with kind = \"solid\" have it");
+  table.only_if(solid, "shear_modulus", "only groups with kind = \"solid\" have it");
+  if (!solid) return;
+  if (const auto mu = table.number("shear_modulus", dimension::pressure, Bound::positive)) {
+    group.shear_modulus = *mu;
+  } else if (const auto nu = table.number("poisson_ratio", dimension::none, Bound::any)) {
+    if (!(*nu > -1 && *nu < 0.5))
+      table.fail("poisson_ratio", fmt::format("is {}", *nu), "it must be between -1 and 0.5, both excluded");
+    group.shear_modulus = 3 * group.bulk_modulus * (1 - 2 * *nu) / (2 * (1 + *nu));
+    if (!(group.shear_modulus > 0 && std::isfinite(group.shear_modulus)))
+      table.fail("poisson_ratio", "makes a modulus beyond the range of numbers", "check it and bulk_modulus");
+  } else {
+    table.fail_missing("poisson_ratio", "give it, or shear_modulus in Pa");
+  }
+}
+
+void read_gas(const TableReader& table, Group& group) {
+  const bool bubbly = group.eos == EosKind::bubbly;
+  for (const std::string_view key :
+       {"gas_content", "gas_rt", "solubility_pressure", "solubility_exponent", "fragmentation"})
+    table.only_if(bubbly, key, "only groups with eos = \"bubbly\" have it");
+  if (!bubbly) return;
+  group.gas_content = table.required_number("gas_content", dimension::none, Bound::positive);
+  if (group.gas_content >= 1)
+    table.fail("gas_content", fmt::format("is {}", group.gas_content),
+               "it is a mass per mass of liquid, below 1");
+  group.gas_rt = table.required_number("gas_rt", dimension::specific_energy, Bound::positive);
+  group.solubility_pressure =
+      table.required_number("solubility_pressure", dimension::pressure, Bound::positive);
+  group.solubility_exponent =
+      table.number("solubility_exponent", dimension::none, Bound::positive).value_or(1);
+}
+
+/// `like` supplies what a wall does not say itself; nullptr for groups that must say everything.
+Group read_material(const TableReader& table, const std::string& name, GroupKind kind, const Group* like,
+                    int dim) {
+  Group group;
+  group.name = name;
+  group.kind = kind;
+  group.eos = table.choice("eos", eos_words()).value_or(EosKind::linear);
+  if (kind != GroupKind::fluid && group.eos == EosKind::bubbly)
+    table.fail("eos", "is \"bubbly\"", "only groups with kind = \"fluid\" hold gas");
+  if (like == nullptr)
+    group.density = table.required_number("density", dimension::density, Bound::positive);
+  else
+    group.density = table.number("density", dimension::density, Bound::positive).value_or(like->density);
+  read_stiffness(table, group, like);
+  const auto viscosity = [&](std::string_view key, double fallback) {
+    return table.number(key, dimension::viscosity, Bound::not_negative).value_or(fallback);
+  };
+  group.viscosity = viscosity("viscosity", like == nullptr ? 0 : like->viscosity);
+  group.bulk_viscosity = viscosity("bulk_viscosity", like == nullptr ? 0 : like->bulk_viscosity);
+  read_gas(table, group);
+  table.only_if(kind == GroupKind::wall, "velocity",
+                "only groups with kind = \"wall\" have it; movers start with start.velocity");
+  if (kind == GroupKind::wall)
+    group.wall_velocity = table.vector("velocity", dimension::speed, dim).value_or(Double3{});
+  return group;
+}
+
+void check_target(const TableReader& table, const Group& from, const Group& to) {
+  const auto same = [&](bool equal, std::string_view key) {
+    if (!equal)
+      table.fail("group",
+                 fmt::format("names \"{}\", whose {} differs from that of \"{}\"", to.name, key, from.name),
+                 "fragments keep the equation of state: repeat its values in both groups");
+  };
+  if (to.kind != GroupKind::fluid)
+    table.fail("group", fmt::format("names \"{}\", which is no fluid", to.name), "fragments are a fluid");
+  same(from.eos == to.eos, "eos");
+  same(from.density == to.density, "density");
+  same(from.bulk_modulus == to.bulk_modulus, "bulk_modulus");
+  same(from.gas_rt == to.gas_rt, "gas_rt");
+  same(from.solubility_pressure == to.solubility_pressure, "solubility_pressure");
+  same(from.solubility_exponent == to.solubility_exponent, "solubility_exponent");
+}
+
+void read_fragmentation(const TableReader& table, std::size_t self, std::vector<Group>& groups) {
+  Group& group = groups[self];
+  if (!table.has("fragmentation")) return;
+  const TableReader inner = table.table("fragmentation", scene_keys::fragmentation);
+  const double psi = inner.required_number("void_fraction", dimension::none, Bound::positive);
+  if (psi >= 1)
+    inner.fail("void_fraction", fmt::format("is {}", psi), "it must be between 0 and 1, both excluded");
+  (void)inner.required_text("group");
+  const int target = read_group_name(inner, "group", groups);
+  if (target == static_cast<int>(self))
+    inner.fail("group", "names the group itself", "fragments join another group");
+  check_target(inner, group, groups[static_cast<std::size_t>(target)]);
+  group.fragmentation_void_fraction = psi;
+  group.fragments_to = target;
+}
+
+struct Header {
+  std::string name;
+  GroupKind kind;
+};
+
+std::vector<Header> read_headers(const std::vector<TableReader>& tables) {
+  std::vector<Header> out;
+  bool movers = false;
+  for (const TableReader& t : tables) {
+    const std::string name = read_name(t);
+    for (const Header& other : out)
+      if (other.name == name)
+        t.fail("name", fmt::format("\"{}\" is taken by an earlier group", name),
+               "give each group its own name");
+    const std::optional<GroupKind> kind = t.choice("kind", group_kind_words());
+    if (!kind) t.fail_missing("kind", "give \"fluid\", \"solid\" or \"wall\"");
+    movers = movers || *kind != GroupKind::wall;
+    out.push_back({name, *kind});
+  }
+  if (!movers)
+    tables.front().fail("kind", "every group is a wall", "at least one group must be a fluid or a solid");
+  return out;
+}
+
+}  // namespace
+
+std::vector<Group> read_groups(const TableReader& top, int dim) {
+  const std::vector<TableReader> tables = top.tables("group", scene_keys::group);
+  if (tables.empty()) top.fail_missing("group", "describe each material in a [[group]] table");
+  const std::vector<Header> headers = read_headers(tables);
+  std::vector<Group> groups(tables.size());
+  const Group* first_fluid = nullptr;
+  for (const GroupKind pass : {GroupKind::fluid, GroupKind::solid, GroupKind::wall})
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      if (headers[k].kind != pass) continue;
+      const Group* like = pass == GroupKind::wall ? first_fluid : nullptr;
+      groups[k] = read_material(tables[k], headers[k].name, pass, like, dim);
+      if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &groups[k];
+    }
+  for (std::size_t k = 0; k < tables.size(); ++k) read_fragmentation(tables[k], k, groups);
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const int target = groups[k].fragments_to;
+    if (target >= 0 && groups[static_cast<std::size_t>(target)].fragments_to >= 0)
+      tables[k].fail("fragmentation", "leads to a group that fragments again",
+                     "fragments must stay what they are");
+    tables[k].finish();
+  }
+  return groups;
+}
+
+int read_group_name(const TableReader& table, std::string_view key, const std::vector<Group>& groups) {
+  const std::optional<std::string> name = table.text(key);
+  if (!name) return -1;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (groups[k].name == *name) return static_cast<int>(k);
+    names.push_back(groups[k].name);
+  }
+  table.fail(key, fmt::format("names the unknown group \"{}\"", *name), suggestion(*name, names));
+}
+
+}  // namespace sph

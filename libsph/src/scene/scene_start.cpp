@@ -1,0 +1,177 @@
+// [start]: the lattice and its painted regions, or a particle file; initial velocity and pressure.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "scene/nearest.hpp"
+#include "scene/scene_resolve.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr double most_lattice_points = 1e12;
+
+int read_painted_group(const TableReader& table, const Scene& scene) {
+  const std::string name = table.required_text("group");
+  return name == "none" ? -1 : read_group_name(table, "group", scene.groups);
+}
+
+Region read_region(const TableReader& table, const Scene& scene, const Start& start) {
+  Region region;
+  region.group = read_painted_group(table, scene);
+  region.shape = table.choice("shape", region_words()).value_or(RegionShape::everywhere);
+  const bool box = region.shape == RegionShape::box;
+  const bool ball = region.shape == RegionShape::ball;
+  for (const std::string_view key : {"lower", "upper"})
+    table.only_if(box, key, "only shape = \"box\" has it");
+  for (const std::string_view key : {"centre", "radius"})
+    table.only_if(ball, key, "only shape = \"ball\" has it");
+  bool outside = false;
+  if (box) {
+    region.lower = table.required_vector("lower", dimension::length, scene.dim);
+    region.upper = table.required_vector("upper", dimension::length, scene.dim);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+      if (!(region.lower[a] < region.upper[a]))
+        table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+      outside = outside || region.upper[a] <= start.lower[a] || region.lower[a] >= start.upper[a];
+    }
+  }
+  if (ball) {
+    region.centre = table.required_vector("centre", dimension::length, scene.dim);
+    region.radius = table.required_number("radius", dimension::length, Bound::positive);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+      outside = outside || region.centre[a] + region.radius <= start.lower[a] ||
+                region.centre[a] - region.radius >= start.upper[a];
+  }
+  if (outside)
+    table.fail("shape", "lies outside the filled lattice", "move it between start.lower and start.upper");
+  table.finish();
+  return region;
+}
+
+void check_fill(const TableReader& table, const Scene& scene, const Start& start) {
+  double points = 1;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    if (!(start.lower[a] < start.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "nothing would be filled");
+    if (start.lower[a] < scene.lower[a])
+      table.fail("lower", fmt::format("reaches below the domain in {}", axis_names[a]),
+                 fmt::format("it must be at least {} there", scene.lower[a]));
+    if (start.upper[a] > scene.upper[a])
+      table.fail("upper", fmt::format("reaches above the domain in {}", axis_names[a]),
+                 fmt::format("it must be at most {} there", scene.upper[a]));
+    points *= (start.upper[a] - start.lower[a]) / scene.spacing;
+  }
+  if (points < 1)
+    table.fail("spacing", fmt::format("is {} m, more than the filled extent", scene.spacing),
+               "reduce it so that particles fit in");
+  if (points > most_lattice_points)
+    table.fail("spacing", fmt::format("is {} m and would make {:.1e} particles", scene.spacing, points),
+               "check its unit");
+}
+
+/// A filled period must hold whole cells of the lattice, or its seam would be wider or narrower than dx.
+void check_seam(const TableReader& table, const Scene& scene, const Start& start) {
+  const std::size_t axes = start.lattice == LatticeKind::square ? static_cast<std::size_t>(scene.dim) : 1;
+  for (std::size_t a = 0; a < axes; ++a) {
+    const bool filled = start.lower[a] == scene.lower[a] && start.upper[a] == scene.upper[a];
+    if (!scene.periodic[a] || !filled) continue;
+    const double cells = (scene.upper[a] - scene.lower[a]) / scene.spacing;
+    if (std::fabs(cells - std::nearbyint(cells)) > 1e-6 * cells)
+      table.fail("spacing",
+                 fmt::format("divides the periodic length in {} into {:.6g} cells", axis_names[a], cells),
+                 "choose one that gives a whole number");
+  }
+}
+
+void read_lattice(const TableReader& table, const Scene& scene, Start& start) {
+  start.lattice = table.choice("lattice", lattice_words()).value_or(LatticeKind::square);
+  start.lower = table.vector("lower", dimension::length, scene.dim).value_or(scene.lower);
+  start.upper = table.vector("upper", dimension::length, scene.dim).value_or(scene.upper);
+  start.lattice_origin = table.vector("origin", dimension::length, scene.dim).value_or(start.lower);
+  check_fill(table, scene, start);
+  check_seam(table, scene, start);
+  start.jitter = table.number("jitter", dimension::none, Bound::not_negative).value_or(0);
+  if (start.jitter >= 0.5)
+    table.fail("jitter", fmt::format("is {}", start.jitter), "it is in spacings and must be below 0.5");
+  const std::vector<TableReader> regions = table.tables("region", scene_keys::region);
+  if (regions.empty()) table.fail_missing("region", "paint groups with [[start.region]], or give start.file");
+  bool matter = false;
+  for (const TableReader& r : regions) {
+    start.regions.push_back(read_region(r, scene, start));
+    const int group = start.regions.back().group;
+    matter = matter || (group >= 0 && scene.groups[static_cast<std::size_t>(group)].kind != GroupKind::wall);
+  }
+  if (!matter) table.fail("region", "no region paints a fluid or a solid", "paint at least one");
+}
+
+void read_velocity(const TableReader& table, const Scene& scene, Start& start) {
+  const toml_tree::Node* value = table.find("velocity");
+  if (value != nullptr && value->array() != nullptr) {
+    start.velocity = InitialVelocity::uniform;
+    start.uniform_velocity = *table.vector("velocity", dimension::speed, scene.dim);
+  } else if (value != nullptr) {
+    if (std::get_if<std::string>(&value->value) == nullptr)
+      table.fail("velocity", fmt::format("is {}", type_name(*value)),
+                 "it must be \"rest\", \"taylor_green\" or an array of speeds");
+    const Choices<InitialVelocity> words{{"rest", InitialVelocity::rest},
+                                         {"taylor_green", InitialVelocity::taylor_green}};
+    start.velocity = *table.choice("velocity", words);
+  }
+  start.flow_speed = table.number("flow_speed", dimension::speed, Bound::positive).value_or(1);
+  start.flow_length = table.number("flow_length", dimension::length, Bound::positive).value_or(1);
+  if (start.velocity != InitialVelocity::taylor_green) return;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double periods = (scene.upper[a] - scene.lower[a]) / start.flow_length;
+    if (!scene.periodic[a] || std::fabs(periods - std::nearbyint(periods)) > 1e-9 * periods)
+      table.fail("velocity",
+                 fmt::format("is \"taylor_green\", but {} does not repeat with the flow", axis_names[a]),
+                 "make x and y periodic with lengths that are multiples of flow_length");
+  }
+}
+
+void read_pressure(const TableReader& table, const Scene& scene, Start& start) {
+  const Choices<InitialPressure> words{{"zero", InitialPressure::zero},
+                                       {"hydrostatic", InitialPressure::hydrostatic},
+                                       {"taylor_green", InitialPressure::taylor_green}};
+  start.pressure = table.choice("pressure", words).value_or(InitialPressure::zero);
+  const std::optional<double> height = table.number("surface_height", dimension::length, Bound::any);
+  start.surface_height = height.value_or(0);
+  if (start.pressure == InitialPressure::taylor_green && start.velocity != InitialVelocity::taylor_green)
+    table.fail("pressure", "is \"taylor_green\" without that velocity",
+               "set velocity = \"taylor_green\" too");
+  if (start.pressure != InitialPressure::hydrostatic) return;
+  if (!height) table.fail_missing("surface_height", "give the height where the hydrostatic pressure is zero");
+  double weight = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    weight += std::fabs(scene.gravity[a]);
+    if (scene.periodic[a] && scene.gravity[a] != 0)
+      table.fail("pressure",
+                 fmt::format("is \"hydrostatic\", but gravity points along the periodic {}", axis_names[a]),
+                 "start from \"zero\" where a body force drives the flow");
+  }
+  if (weight == 0)
+    table.fail("pressure", "is \"hydrostatic\" without gravity", "set domain.gravity or start from \"zero\"");
+}
+
+}  // namespace
+
+Start read_start(const TableReader& table, const Scene& scene) {
+  Start start;
+  start.file = table.file_path("file", scene.file);
+  if (start.file.empty()) {
+    read_lattice(table, scene, start);
+  } else {
+    for (const std::string_view key : {"lattice", "origin", "lower", "upper", "region", "jitter"})
+      table.only_if(false, key, "the particles come from start.file");
+  }
+  start.seed = static_cast<std::uint64_t>(table.whole("seed", 0).value_or(0));
+  read_velocity(table, scene, start);
+  read_pressure(table, scene, start);
+  return start;
+}
+
+}  // namespace sph

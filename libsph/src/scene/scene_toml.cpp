@@ -1,0 +1,205 @@
+// From TOML to a resolved Scene: top level, kernel, domain, terms, time, and the checks between tables.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+
+#include "scene/scene_resolve.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr double least_h_over_dx = 0.5;
+constexpr double most_h_over_dx = 4;
+constexpr int least_periodic_cells = 3;
+constexpr double most_spacings = 1e7;
+
+/// All tables but the arrays, made first: a misspelt key is reported before anything that is missing.
+struct Tables {
+  TableReader top, kernel, domain, start, terms, time, decomposition, output;
+  explicit Tables(const toml_tree::Node& root)
+      : top(root, "", scene_keys::top),
+        kernel(top.table("kernel", scene_keys::kernel)),
+        domain(top.table("domain", scene_keys::domain)),
+        start(top.table("start", scene_keys::start)),
+        terms(top.table("terms", scene_keys::terms)),
+        time(top.table("time", scene_keys::time)),
+        decomposition(top.table("decomposition", scene_keys::decomposition)),
+        output(top.table("output", scene_keys::output)) {
+    (void)top.tables("group", scene_keys::group);
+    (void)top.tables("monitor", scene_keys::monitor);
+    (void)start.tables("region", scene_keys::region);
+  }
+};
+
+void read_domain(const TableReader& table, Scene& scene) {
+  scene.lower = table.required_vector("lower", dimension::length, scene.dim);
+  scene.upper = table.required_vector("upper", dimension::length, scene.dim);
+  const auto axes = static_cast<std::size_t>(scene.dim);
+  for (std::size_t a = 0; a < axes; ++a)
+    if (!(scene.lower[a] < scene.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the domain is empty");
+  if (const toml_tree::Node* value = table.find("periodic")) {
+    const std::string wanted =
+        fmt::format("it must be an array of {} true or false (dimension = {})", axes, axes);
+    const toml_tree::Array* array = value->array();
+    if (array == nullptr) table.fail("periodic", fmt::format("is {}", type_name(*value)), wanted);
+    if (array->size() != axes) table.fail("periodic", fmt::format("has {} values", array->size()), wanted);
+    for (std::size_t a = 0; a < axes; ++a) {
+      const auto* on = std::get_if<bool>(&(*array)[a].value);
+      if (on == nullptr) table.fail("periodic", fmt::format("holds {}", type_name((*array)[a])), wanted);
+      scene.periodic[a] = *on;
+    }
+  }
+  scene.gravity = table.vector("gravity", dimension::acceleration, scene.dim).value_or(Double3{});
+  scene.surface_pressure =
+      table.number("surface_pressure", dimension::pressure, Bound::not_negative).value_or(0);
+  table.finish();
+}
+
+void read_kernel(const TableReader& table, Scene& scene) {
+  scene.kernel = table.choice("shape", kernel_words()).value_or(KernelShape::quintic);
+  table.not_both("smoothing_length", "h_over_dx");
+  const std::optional<double> h = table.number("smoothing_length", dimension::length, Bound::positive);
+  const std::optional<double> ratio = table.number("h_over_dx", dimension::none, Bound::positive);
+  if (!h && !ratio)
+    table.fail_missing("h_over_dx", "give it (1.0 to 1.2 is usual), or smoothing_length in m");
+  scene.smoothing_length = h ? *h : *ratio * scene.spacing;
+  const double found = h ? *h / scene.spacing : *ratio;
+  constexpr double rounding = 1e-12;  // a limit that is given as h/dx must pass when it comes back as h
+  if (found < least_h_over_dx * (1 - rounding) || found > most_h_over_dx * (1 + rounding))
+    table.fail(h ? "smoothing_length" : "h_over_dx", fmt::format("makes h/dx = {:.6g}", found),
+               fmt::format("it must be {} to {} spacings", least_h_over_dx, most_h_over_dx));
+  table.finish();
+}
+
+void read_terms(const TableReader& table, Scene& scene) {
+  const bool ida = scene.formulation == Formulation::ida;
+  Terms& terms = scene.terms;
+  if (ida) terms.density_diffusion = 0;
+  terms.density_diffusion = table.number("density_diffusion", dimension::none, Bound::not_negative)
+                                .value_or(terms.density_diffusion);
+  terms.artificial_viscosity =
+      table.number("artificial_viscosity", dimension::none, Bound::not_negative).value_or(0);
+  terms.shifting = table.flag("shifting").value_or(false);
+  if (ida && terms.density_diffusion != 0)
+    table.fail("density_diffusion", fmt::format("is {}", terms.density_diffusion),
+               "formulation = \"ida\" has none: remove it");
+  if (ida && terms.shifting) table.fail("shifting", "is on", "formulation = \"ida\" has none: remove it");
+  table.finish();
+}
+
+void read_time(const TableReader& table, Scene& scene) {
+  table.not_both("dt", "cfl");
+  scene.time.dt = table.number("dt", dimension::time, Bound::positive);
+  scene.time.cfl = table.number("cfl", dimension::none, Bound::positive).value_or(scene.time.cfl);
+  scene.time.until = table.number("until", dimension::time, Bound::not_negative);
+  scene.time.steps = table.whole("steps", 0);
+  if (!scene.time.until && !scene.time.steps) table.fail_missing("until", "give the end in s, or steps");
+  table.finish();
+}
+
+/// Cells are counted in integers of fixed width: a domain beyond all reason would overflow them.
+void check_extent(const TableReader& domain, const Scene& scene) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (const double spacings = (scene.upper[a] - scene.lower[a]) / scene.spacing; spacings > most_spacings)
+      domain.fail("upper", fmt::format("the domain is {:.1e} spacings long in {}", spacings, axis_names[a]),
+                  fmt::format("at most {:.0e} are possible: check the units here and of start.spacing",
+                              most_spacings));
+}
+
+/// A particle must not meet two images of another, and the halo on either side must be another cell.
+void check_periods(const Tables& tables, const Scene& scene) {
+  const double cell = scene.support() * (1 + scene.decomposition.skin);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    const double length = scene.upper[a] - scene.lower[a];
+    if (scene.periodic[a] && length < least_periodic_cells * cell)
+      tables.domain.fail("periodic",
+                         fmt::format("the period of {} m in {} is shorter than {} cells of {:.6g} m", length,
+                                     axis_names[a], least_periodic_cells, cell),
+                         "lengthen the domain, or reduce start.spacing or decomposition.skin");
+  }
+}
+
+void check_shifting(const Tables& tables, const Scene& scene) {
+  if (scene.terms.shifting && has_free_surface(scene))
+    tables.terms.fail(
+        "shifting", "is on, but the start has a free surface",
+        "shifting is for confined flow: fill the domain between walls or periods, or turn it off");
+}
+
+void check_file(const TableReader& table, std::string_view key, const std::string& path) {
+  if (path.empty()) return;
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    table.fail(key, fmt::format("\"{}\" is a directory", path), "give a file");
+  if (!std::ifstream(path))
+    table.fail(key, fmt::format("\"{}\" cannot be read", path), "give an existing file");
+}
+
+Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_files) {
+  if (root.table()->empty())
+    toml_tree::fail(fmt::format("{}:1:1", file), "scene", "the file is empty", "describe the scene in TOML");
+  const Tables tables(root);
+  Scene scene;
+  scene.file = file;
+  scene.name = tables.top.text("title").value_or(std::filesystem::path(file).stem().string());
+  scene.dim = static_cast<int>(tables.top.whole("dimension", 2, 3).value_or(2));
+  scene.formulation =
+      tables.top.choice("formulation", formulation_words()).value_or(Formulation::conservative);
+  scene.precision = tables.top.choice("precision", precision_words()).value_or(Precision::double_);
+  read_domain(tables.domain, scene);
+  scene.spacing = tables.start.required_number("spacing", dimension::length, Bound::positive);
+  check_extent(tables.domain, scene);
+  read_kernel(tables.kernel, scene);
+  scene.groups = read_groups(tables.top, scene.dim);
+  scene.start = read_start(tables.start, scene);
+  tables.start.finish();
+  read_terms(tables.terms, scene);
+  read_time(tables.time, scene);
+  scene.decomposition = read_decomposition(tables.decomposition, scene);
+  scene.output = read_output(tables.top, tables.output, scene);
+  check_periods(tables, scene);
+  check_shifting(tables, scene);
+  if (check_files) {
+    check_file(tables.start, "file", scene.start.file);
+    check_file(tables.decomposition, "replay", scene.decomposition.replay);
+  }
+  return scene;
+}
+
+Scene parse_and_resolve(const std::string& text, const std::string& name,
+                        const std::vector<std::string>& overrides, bool check_files) {
+  toml_tree::Node root = toml_tree::parse(text, name);
+  for (const std::string& option : overrides) toml_tree::apply_override(root, option);
+  return resolve(root, name, check_files);
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& name,
+                  const std::vector<std::string>& overrides) {
+  return parse_and_resolve(text, name, overrides, false);
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  const auto unreadable = [&](std::string_view what) {
+    toml_tree::fail(fmt::format("{}:1:1", path), "scene", what, "give the path of a TOML scene");
+  };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) unreadable("there is no such file");
+  if (std::filesystem::is_directory(status)) unreadable("is a directory");
+  std::ifstream in(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) unreadable("cannot be read");
+  return parse_and_resolve(text, path, overrides, true);
+}
+
+}  // namespace sph

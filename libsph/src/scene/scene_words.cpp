@@ -1,0 +1,59 @@
+// Words of the scene's enumerations.
+#include "scene/scene_resolve.hpp"
+
+namespace sph {
+
+const Choices<Formulation>& formulation_words() {
+  static const Choices<Formulation> words{{"conservative", Formulation::conservative},
+                                          {"ida", Formulation::ida}};
+  return words;
+}
+const Choices<Precision>& precision_words() {
+  static const Choices<Precision> words{{"double", Precision::double_}, {"mixed", Precision::mixed}};
+  return words;
+}
+const Choices<KernelShape>& kernel_words() {
+  static const Choices<KernelShape> words{{"quintic", KernelShape::quintic},
+                                          {"wendland_c2", KernelShape::wendland_c2},
+                                          {"wendland_c4", KernelShape::wendland_c4}};
+  return words;
+}
+const Choices<GroupKind>& group_kind_words() {
+  static const Choices<GroupKind> words{
+      {"fluid", GroupKind::fluid}, {"solid", GroupKind::solid}, {"wall", GroupKind::wall}};
+  return words;
+}
+const Choices<EosKind>& eos_words() {
+  static const Choices<EosKind> words{{"linear", EosKind::linear}, {"bubbly", EosKind::bubbly}};
+  return words;
+}
+const Choices<RegionShape>& region_words() {
+  static const Choices<RegionShape> words{
+      {"everywhere", RegionShape::everywhere}, {"box", RegionShape::box}, {"ball", RegionShape::ball}};
+  return words;
+}
+const Choices<LatticeKind>& lattice_words() {
+  static const Choices<LatticeKind> words{{"square", LatticeKind::square},
+                                          {"hexagonal", LatticeKind::hexagonal}};
+  return words;
+}
+const Choices<CutRule>& cut_rule_words() {
+  static const Choices<CutRule> words{{"fixed", CutRule::fixed},
+                                      {"literal", CutRule::literal},
+                                      {"chaos", CutRule::chaos},
+                                      {"replay", CutRule::replay}};
+  return words;
+}
+const Choices<CostSource>& cost_words() {
+  static const Choices<CostSource> words{{"time", CostSource::time}, {"counts", CostSource::counts}};
+  return words;
+}
+const Choices<MonitorKind>& monitor_words() {
+  static const Choices<MonitorKind> words{{"particle", MonitorKind::particle},
+                                          {"group", MonitorKind::group},
+                                          {"energy", MonitorKind::energy},
+                                          {"momentum", MonitorKind::momentum}};
+  return words;
+}
+
+}  // namespace sph

@@ -1,0 +1,114 @@
+#include "start/initial_fields.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "sph/eos.hpp"
+#include "sph/exact_math.hpp"
+
+namespace sph {
+namespace {
+
+/// splitmix64 (Steele et al. 2014) as a counter-based generator: a hash of (seed, id, stream).
+double uniform_minus_one_to_one(std::uint64_t seed, std::uint64_t id, std::uint64_t stream) {
+  std::uint64_t z = seed + 0x9e3779b97f4a7c15u * (id * 4 + stream + 1);
+  for (int round = 0; round < 2; ++round) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+  }
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+}
+
+const Group& first_fluid(const Scene& scene) {
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::fluid) return g;
+  return scene.groups.front();
+}
+
+/// Pressure above the surface pressure. Hydrostatic: of the first fluid at depth d below the surface,
+/// dp/dd = rho g with rho = rho_0 (1 + p/K): p = (K + p_surface) (exp(rho_0 g d / K) - 1).
+double initial_pressure(const Scene& scene, const Double3& x) {
+  switch (scene.start.pressure) {
+    case InitialPressure::hydrostatic: {
+      double g2 = 0, height = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        g2 += scene.gravity[a] * scene.gravity[a];
+        height -= scene.gravity[a] * x[a];
+      }
+      const double g = std::sqrt(g2);
+      if (g == 0) return 0;
+      const double depth = scene.start.surface_height - height / g;
+      const Group& fluid = first_fluid(scene);
+      return (fluid.bulk_modulus + scene.surface_pressure) *
+             (exact_exp(fluid.density * g * depth / fluid.bulk_modulus) - 1);
+    }
+    case InitialPressure::taylor_green: {
+      const double k = 4 * std::numbers::pi / scene.start.flow_length;
+      const double u = scene.start.flow_speed;
+      return -0.25 * first_fluid(scene).density * u * u * (exact_cos(k * x[0]) + exact_cos(k * x[1]));
+    }
+    case InitialPressure::zero:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void displace_by_jitter(const Scene& scene, NewParticle& p) {
+  if (scene.start.jitter == 0) return;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    p.position[a] += scene.start.jitter * scene.spacing * uniform_minus_one_to_one(scene.start.seed, p.id, a);
+}
+
+void set_initial_fields(const Scene& scene, NewParticle& p) {
+  const Group& g = scene.groups[p.group];
+  const Double3& x = p.position;
+  double volume = 1;
+  for (int a = 0; a < scene.dim; ++a) volume *= scene.spacing;
+
+  if (g.kind == GroupKind::wall && scene.formulation == Formulation::conservative) {
+    p.density = g.density;
+    p.velocity = g.wall_velocity;
+  } else {
+    const double pressure = initial_pressure(scene, x) + scene.surface_pressure;
+    if (g.eos == EosKind::bubbly)
+      p.density = bubbly_eos(g, g.gas_content).density(pressure);
+    else
+      p.density = g.density * (1 + pressure / g.bulk_modulus);
+    if (g.kind == GroupKind::wall) {
+      p.velocity = g.wall_velocity;
+    } else if (scene.start.velocity == InitialVelocity::uniform) {
+      p.velocity = scene.start.uniform_velocity;
+    } else if (scene.start.velocity == InitialVelocity::taylor_green) {
+      // u = -U cos(kx) sin(ky), v = U sin(kx) cos(ky), k = 2 pi / L: decays as exp(-2 nu k^2 t)
+      const double k = 2 * std::numbers::pi / scene.start.flow_length, u = scene.start.flow_speed;
+      p.velocity = {-u * exact_cos(k * x[0]) * exact_sin(k * x[1]),
+                    u * exact_sin(k * x[0]) * exact_cos(k * x[1]), 0};
+    }
+  }
+  p.mass = p.density * volume;
+}
+
+void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta, Particles& particles) {
+  const std::size_t i = particles.owned(), d = static_cast<std::size_t>(scene.dim);
+  particles.table().resize(i + 1, 0);
+  particles.data<Field::id>()[i] = p.id;
+  for (std::size_t a = 0; a < d; ++a) {
+    particles.data<Field::position>()[i * d + a] = quanta[a];
+    particles.data<Field::velocity>()[i * d + a] = p.velocity[a];
+  }
+  particles.data<Field::density>()[i] = p.density;
+  particles.data<Field::mass>()[i] = p.mass;
+  particles.data<Field::group>()[i] = p.group;
+  if (auto* m = particles.data<Field::gas_content>()) m[i] = scene.groups[p.group].gas_content;
+  if (auto* s = particles.data<Field::stress>())
+    for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
+  particles.data<Field::pressure>()[i] = 0;
+  if (auto* mean = particles.data<Field::velocity_mean>())
+    for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = p.velocity[a];
+  if (auto* mean = particles.data<Field::pressure_mean>()) mean[i] = 0;
+}
+
+}  // namespace sph

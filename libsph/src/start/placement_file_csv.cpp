@@ -1,0 +1,174 @@
+// Rank r takes the lines that begin in the r-th of equal parts of the file's bytes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <string_view>
+
+#include "output/durable_file.hpp"
+#include "scene/nearest.hpp"
+#include "start/placement_file.hpp"
+
+namespace sph {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array axis_names{"x", "y", "z"};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r\"";
+  const std::size_t first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t begin = 0; begin != std::string_view::npos;) {
+    const std::size_t comma = line.find(',', begin);
+    cells.push_back(trimmed(line.substr(begin, comma - begin)));
+    begin = comma == std::string_view::npos ? comma : comma + 1;
+  }
+  return cells;
+}
+
+[[noreturn]] void fail(std::int64_t line, const std::string& what) {
+  throw RowProblem(line, fmt::format("line {}: {}", line, what));
+}
+
+bool is_comment(std::string_view line) {
+  line = trimmed(line);
+  return line.empty() || line.front() == '#';
+}
+
+/// Where the columns are; -1: absent.
+struct Columns {
+  std::size_t count = 0;
+  int id = -1, group = -1, rho = -1, gas = -1, mass = -1;
+  std::array<int, 3> x{-1, -1, -1}, v{-1, -1, -1};
+};
+
+Columns columns_of(std::string_view header, int dim) {
+  Columns c;
+  std::vector<std::pair<std::string, int*>> known{
+      {"id", &c.id}, {"group", &c.group}, {"rho", &c.rho}, {"m", &c.gas}, {"mass", &c.mass}};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
+    known.emplace_back(axis_names[a], &c.x[a]);
+    known.emplace_back(std::string("v") + axis_names[a], &c.v[a]);
+  }
+  const std::vector<std::string_view> names = cells_of(header);
+  c.count = names.size();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto at =
+        std::find_if(known.begin(), known.end(), [&](const auto& e) { return e.first == names[k]; });
+    if (at == known.end()) {
+      std::vector<std::string> words;
+      for (const auto& [word, place] : known) words.push_back(word);
+      throw RowProblem(0, fmt::format("unknown column \"{}\"; {}", names[k], suggestion(names[k], words)));
+    }
+    if (*at->second >= 0) throw RowProblem(0, fmt::format("column \"{}\" is there twice", names[k]));
+    *at->second = static_cast<int>(k);
+  }
+  for (const auto& [word, place] : known)
+    if (*place < 0 && word != "rho" && word != "m" && word != "mass")
+      throw RowProblem(0, fmt::format("column \"{}\" is missing; the header must name {}", word,
+                                      dim == 2 ? "id,x,y,vx,vy,group and may name rho,m,mass"
+                                               : "id,x,y,z,vx,vy,vz,group and may name rho,m,mass"));
+  return c;
+}
+
+template <class T>
+T number(std::string_view cell, std::int64_t line, std::string_view column, const char* what) {
+  T value{};
+  if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size())
+    fail(line, fmt::format("{} is \"{}\"; it must be {}", column, cell, what));
+  return value;
+}
+
+std::uint32_t group_of(const Scene& scene, std::string_view cell, std::int64_t line) {
+  const int named = scene.group_index(std::string(cell));
+  if (named >= 0) return static_cast<std::uint32_t>(named);
+  if (!cell.empty() && cell.find_first_not_of("0123456789") == std::string_view::npos)
+    return number<std::uint32_t>(cell, line, "group", "a group of the scene");
+  std::vector<std::string> names;
+  for (const Group& g : scene.groups) names.push_back(g.name);
+  fail(line, fmt::format("group \"{}\" is not in the scene; {}", cell, suggestion(cell, names)));
+}
+
+void add_row(const Scene& scene, const Columns& c, std::string_view text, std::int64_t line,
+             StartRows& rows) {
+  const std::vector<std::string_view> cells = cells_of(text);
+  if (cells.size() != c.count) fail(line, fmt::format("has {} values, the header {}", cells.size(), c.count));
+  const auto cell = [&](int column) { return cells[static_cast<std::size_t>(column)]; };
+  const auto real = [&](int column, std::string_view name) {
+    return number<double>(cell(column), line, name, "a number");
+  };
+  rows.number.push_back(line);
+  rows.id.push_back(number<std::uint64_t>(cell(c.id), line, "id", "a whole number from 0"));
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    rows.x.push_back(real(c.x[a], axis_names[a]));
+    rows.v.push_back(real(c.v[a], std::string("v") + axis_names[a]));
+  }
+  rows.group.push_back(group_of(scene, cell(c.group), line));
+  if (c.rho >= 0) rows.rho.push_back(real(c.rho, "rho"));
+  if (c.gas >= 0) rows.gas.push_back(real(c.gas, "m"));
+  if (c.mass >= 0) rows.mass.push_back(real(c.mass, "mass"));
+}
+
+std::int64_t line_breaks(std::ifstream& in, std::uint64_t bytes) {
+  std::int64_t lines = 0;
+  std::vector<char> buffer(std::size_t{1} << 20);
+  while (bytes > 0) {
+    const auto n = std::min<std::uint64_t>(bytes, buffer.size());
+    if (!in.read(buffer.data(), static_cast<std::streamsize>(n))) break;
+    lines += std::count(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(n), '\n');
+    bytes -= n;
+  }
+  return lines;
+}
+
+}  // namespace
+
+StartRows read_csv_rows(const Scene& scene, int rank, int ranks) {
+  const fs::path path = scene.start.file;
+  const std::uint64_t size = fs::file_size(path);
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  std::int64_t header_line = 1;
+  while (std::getline(in, line) && is_comment(line)) ++header_line;
+  if (!in && line.empty()) throw RowProblem(0, "is empty; it must begin with a header of column names");
+  StartRows rows;
+  rows.unit = "line";
+  const Columns columns = columns_of(line, scene.dim);
+  const std::uint64_t body = in.eof() ? size : static_cast<std::uint64_t>(in.tellg());
+
+  const auto share = [&](int r) {
+    return body + (size - body) * static_cast<std::uint64_t>(r) / static_cast<std::uint64_t>(ranks);
+  };
+  const std::uint64_t first = share(rank), last = share(rank + 1);
+  in.clear();
+  in.seekg(static_cast<std::streamoff>(body));
+  // A line belongs to the rank in whose part it begins: one that is cut by `first` is not ours.
+  std::int64_t number = header_line;
+  std::uint64_t at = first;
+  if (first > body) {
+    number += line_breaks(in, first - 1 - body);
+    std::getline(in, line);
+    at = first - 1 + line.size() + 1;
+    ++number;
+  }
+  while (at < last && std::getline(in, line)) {
+    at += line.size() + 1;
+    ++number;
+    if (!is_comment(line)) add_row(scene, columns, line, number, rows);
+  }
+  return rows;
+}
+
+}  // namespace sph
