@@ -10,16 +10,15 @@
 #include <vector>
 
 #include "sph/error.hpp"
+#include "sph/grain_scene.hpp"
 
 namespace sph {
-
-using Double3 = std::array<double, 3>;
 
 enum class Formulation { conservative, ida };
 enum class Precision { double_, mixed };
 enum class KernelShape { quintic, wendland_c2, wendland_c4 };
 
-enum class GroupKind { fluid, solid, wall };
+enum class GroupKind { fluid, solid, wall, grain };
 enum class EosKind { linear, bubbly };
 
 /// One material. Particles name it by its index in Scene::groups.
@@ -39,6 +38,7 @@ struct Group {
   std::optional<double> fragmentation_void_fraction;  ///< psi_f: above it a particle joins fragments_to
   int fragments_to = -1;                              ///< index of the spray group, -1 if none
   Double3 wall_velocity{};  ///< walls: of the material, the particles stay where they are [m/s]
+  GrainMaterial grain;      ///< kind = grain; of the values above it has name, density and wall_velocity
   friend bool operator==(const Group&, const Group&) = default;
 };
 
@@ -68,6 +68,7 @@ struct Start {
   std::uint64_t seed = 0;
   // ... or a file with columns id, x, v, group, rho, m (HDF5 or CSV).
   std::string file;
+  Tile tile;  ///< ... or, grains only, a packing repeated side by side
 
   InitialVelocity velocity = InitialVelocity::rest;
   Double3 uniform_velocity{};  ///< [m/s]
@@ -109,7 +110,7 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-enum class MonitorKind { particle, group, energy, momentum };
+enum class MonitorKind { particle, group, energy, momentum, wall, contacts };
 
 struct Monitor {
   std::string name;
@@ -118,6 +119,7 @@ struct Monitor {
   std::optional<Double3>
       nearest_to;  ///< ... or the one nearest this point at the start, lowest id on ties [m]
   int group = -1;  ///< group: averages over it
+  int wall = -1;   ///< wall: its place, velocity and the force of the grains on it
   friend bool operator==(const Monitor&, const Monitor&) = default;
 };
 
@@ -128,6 +130,7 @@ struct OutputControl {
   double status_interval = 2;             ///< [s] of wall time
   double average_time = 0;                ///< window of the running time averages in snapshots [s]; 0: none
   bool average_space = false;             ///< kernel averages over same-group neighbours in snapshots
+  bool contacts = false;                  ///< grains: snapshots hold the contacts with their forces
   std::int64_t sort_limit = 100'000'000;  ///< rows up to which snapshots are sorted by id
   int checkpoint_files = 0;               ///< 0: one per 512 ranks
   std::vector<Monitor> monitors;
@@ -148,13 +151,18 @@ struct Scene {
   Double3 gravity{};            ///< [m/s^2]
   double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
   std::vector<Group> groups;
+  ContactControl contact;  ///< grains only, as are walls and stages
+  std::vector<Wall> walls;
+  std::vector<Stage> stages;
   Start start;
   Terms terms;
   TimeControl time;
   Decomposition decomposition;
   OutputControl output;
 
-  [[nodiscard]] double support() const;  ///< radius of the kernel [m]
+  [[nodiscard]] bool of_grains() const { return has_kind(GroupKind::grain); }
+  [[nodiscard]] double support()
+      const;  ///< range of interaction [m]: the kernel's radius, or twice the largest grain's
   [[nodiscard]] bool has_kind(GroupKind k) const;
   [[nodiscard]] bool has_bubbly() const;
   [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none

@@ -66,6 +66,8 @@ std::size_t sums_of(const Monitor& monitor, const Particles& p) {
     case MonitorKind::momentum:
       return static_cast<std::size_t>(p.dim());
     case MonitorKind::particle:
+    case MonitorKind::wall:
+    case MonitorKind::contacts:
       break;
   }
   return 0;

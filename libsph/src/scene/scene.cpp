@@ -1,10 +1,16 @@
 #include "sph/scene.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace sph {
 
 double Scene::support() const {
+  if (of_grains()) {
+    double largest = 0;
+    for (const Group& g : groups) largest = std::max(largest, g.grain.largest_radius);
+    return 2 * largest;
+  }
   return kernel == KernelShape::quintic ? 3 * smoothing_length : 2 * smoothing_length;
 }
 

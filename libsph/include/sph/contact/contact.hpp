@@ -1,0 +1,43 @@
+// What a contact law sees of two touching spheres, or of a sphere and a wall, and what it answers. Oriented
+// from i to j; every law is exactly odd under the exchange of i and j (forces, torques and history change
+// sign, bit for bit), so both owners of a pair across ranks compute the same contact.
+#pragma once
+
+namespace sph {
+
+/// Kinematics of eight contacts, one a lane. Values of lanes that do not touch are meaningless, never used.
+template <class V>
+struct Contact {
+  V overlap;     ///< delta = r_i + r_j - |x_j - x_i|, > 0 where they touch [m]
+  V normal[3];   ///< unit vector from i to j
+  V separation;  ///< (v_j - v_i).n: negative while they approach [m/s]
+  V slip[3];     ///< velocity of j's surface relative to i's in the contact plane [m/s]
+  V roll[3];     ///< omega_j - omega_i without its part along n [rad/s]
+  V radius;      ///< r_i r_j / (r_i + r_j); against a wall r_i [m]
+  V mass;        ///< m_i m_j / (m_i + m_j); against a wall m_i [kg]
+  V dt;          ///< [s]
+};
+
+/// Constants of a pair of materials; which of them mean what is said by the laws.
+template <class V>
+struct ContactConstants {
+  V stiffness;         ///< linear: k_n [N/m]; Hertz: E* [Pa]
+  V shear_stiffness;   ///< linear: k_t [N/m]; Hertz: G* [Pa]
+  V damping;           ///< dimensionless, from the restitution; LinearRate: gamma_n [1/s]
+  V shear_damping;     ///< of the normal dashpot, 0 to 1
+  V friction;          ///< mu
+  V rolling_friction;  ///< mu_r
+  V least_force;       ///< of the normal force: 0, or minus infinity where dashpots may pull
+};
+
+/// What a normal law answers.
+template <class V>
+struct NormalForce {
+  V force;            ///< on j along n [N]
+  V elastic;          ///< its part without the dashpot [N]
+  V shear_stiffness;  ///< k_t of the tangential spring now [N/m]
+  V shear_change;     ///< k_t now / k_t a step ago where it fell, else 1
+  V dashpot;          ///< coefficient of the normal dashpot [kg/s]
+};
+
+}  // namespace sph
