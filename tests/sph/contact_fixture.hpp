@@ -48,7 +48,7 @@ struct Load {
 template <class Normal, class Friction = Coulomb, class Rolling = NoRolling>
 struct Pair {
   Body i, j;
-  bool wall = false;  ///< i is a plane through i.x with the normal +y, and does not move by itself
+  bool wall = false;  ///< i is a plane through i.x with the normal +y, and moves as it is told
   ContactConstants<V> k{V::zero(), V::zero(), V::zero(), V::zero(), V::zero(), V::zero(), V::zero()};
   V3 gravity{V::zero(), V::zero(), V::zero()};
   V dt = 1e-3;
@@ -107,11 +107,12 @@ struct Pair {
   void step() {
     const Load on_j = load();
     for (int a = 0; a < 3; ++a) {
-      j.v[a] += dt * (on_j.force[a] * j.inverse_mass + where_positive(j.inverse_mass, gravity[a]));
-      i.v[a] += dt * (where_positive(i.inverse_mass, gravity[a]) - on_j.force[a] * i.inverse_mass);
+      j.v[a] += dt * (on_j.force[a] * j.inverse_mass + gravity[a]);
       j.w[a] += dt * j.inverse_inertia() * (on_j.rolling[a] - j.radius * on_j.twist[a]);
-      if (!wall)
-        i.w[a] += dt * i.inverse_inertia() * (V::zero() - i.radius * on_j.twist[a] - on_j.rolling[a]);
+      if (!wall) {
+        i.v[a] += dt * (gravity[a] - on_j.force[a] * i.inverse_mass);
+        i.w[a] -= dt * i.inverse_inertia() * (on_j.rolling[a] + i.radius * on_j.twist[a]);
+      }
       j.x[a] += dt * j.v[a];
       i.x[a] += dt * i.v[a];
     }
