@@ -26,6 +26,14 @@ struct ContactFusion {
 [[nodiscard]] ContactFusion contact_fusion(const Scene& scene);
 [[nodiscard]] FieldSet grain_fields(const Scene& scene);
 
+/// Time steps of a scene of grains [s].
+struct GrainTimeSteps {
+  double recommended = 0;  ///< the default
+  double advised = 0;      ///< above it `check` warns: 0.2 Rayleigh times, or 0.17 sqrt(m/k)
+  double limit = 0;        ///< above it a single contact is unstable: refused
+};
+[[nodiscard]] GrainTimeSteps grain_time_steps(const Scene& scene);
+
 class Grains {
  public:
   Grains(const Scene& scene, const PositionScale& scale);
@@ -68,6 +76,7 @@ class Grains {
   [[nodiscard]] double wall_force_newton(std::int64_t quanta) const {
     return static_cast<double>(quanta) * force_quantum_;
   }
+  [[nodiscard]] std::int64_t touching_pairs() const;  ///< listed on this rank, walls not counted
   struct Counters {
     std::int64_t created = 0, ended = 0, carried = 0;
   };

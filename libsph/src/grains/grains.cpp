@@ -1,19 +1,17 @@
 #include "sph/grains.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "physics/fixed_point.hpp"
 #include "sph/contact/restitution.hpp"
+#include "sph/contact/time_step.hpp"
+#include "sph/grain_mass.hpp"
 
 namespace sph {
 namespace {
-
-double grain_mass(double density, double radius) {
-  return density * (4.0 / 3.0 * std::numbers::pi) * radius * radius * radius;
-}
 
 double in_series(double a, double b) { return a > 0 && b > 0 ? 2 * a * b / (a + b) : 0.0; }
 
@@ -58,15 +56,58 @@ std::array<double, 8> constants_of(const Scene& scene, std::size_t a, std::size_
           0.0};
 }
 
+/// Of all pairs, of two grains of that radius at the largest overlap allowed: dF/d(delta) [N/m].
+double stiffest_contact(const Scene& scene, double radius) {
+  double stiffest = 0;
+  for (std::size_t a = 0; a < scene.groups.size(); ++a)
+    for (std::size_t b = a; b < scene.groups.size(); ++b) {
+      const double k = constants_of(scene, a, b)[0];
+      const double patch = std::sqrt(radius * scene.contact.largest_overlap * radius);
+      stiffest = std::max(stiffest, scene.contact.law == ContactLaw::hertz ? 2 * k * patch : k);
+    }
+  return stiffest;
+}
+
 double next_power_of_two(double x) { return std::ldexp(1.0, std::ilogb(x) + 1); }
 
 }  // namespace
+
+// Linear: 25 steps in the shortest contact. Hertz: 0.15 of the least Rayleigh time. The limit is that of one
+// contact of the two lightest grains at the largest overlap.
+GrainTimeSteps grain_time_steps(const Scene& scene) {
+  double mass = std::numeric_limits<double>::infinity(), rayleigh = mass, radius = mass, damping = 0;
+  for (const Group& g : scene.groups) {
+    if (g.grain.least_radius <= 0 || g.grain.fixed) continue;
+    mass = std::min(mass, grain_mass(g.density, g.grain.least_radius));
+    radius = std::min(radius, g.grain.least_radius);
+    if (scene.contact.law == ContactLaw::hertz)
+      rayleigh = std::min(rayleigh, rayleigh_time(g.grain.least_radius, g.density, g.grain.young_modulus,
+                                                  g.grain.poisson_ratio));
+  }
+  const double stiffness = stiffest_contact(scene, radius);
+  for (std::size_t a = 0; a < scene.groups.size(); ++a)
+    damping = std::max(damping, constants_of(scene, a, a)[2]);
+  double zeta = 0.5 * damping;  // 2 zeta, 2 sqrt(5/6) zeta or gamma_n
+  if (scene.contact.normal_damping) zeta *= std::sqrt(0.5 * mass / stiffness);
+  GrainTimeSteps steps;
+  steps.limit = linear_stable_step(stiffness, 0.5 * mass, zeta);
+  if (scene.contact.law == ContactLaw::hertz) {
+    steps.recommended = 0.15 * rayleigh;
+    steps.advised = 0.2 * rayleigh;
+  } else {
+    steps.recommended = linear_contact_time(stiffness, 0.5 * mass) / 25;
+    steps.advised = packing_step(stiffness, mass);
+  }
+  steps.recommended = std::min(steps.recommended, 0.5 * steps.limit);
+  return steps;
+}
 
 Grains::Grains(const Scene& scene, const PositionScale& scale)
     : scene_(&scene), scale_(scale), fusion_(contact_fusion(scene)), lists_(fusion_.history) {
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
   find_constants();
   find_quanta();
+  dt_ = scene.time.dt.value_or(grain_time_steps(scene).recommended);
 }
 
 void Grains::find_constants() {
@@ -81,23 +122,12 @@ void Grains::find_constants() {
 // A force term stays below 2^50 quanta up to four times the elastic force at the largest overlap allowed: the
 // rest is for dashpots. 4096 terms then fit a 64-bit sum.
 void Grains::find_quanta() {
-  double force = 0, radius = 0, least_mass = std::numeric_limits<double>::infinity(), stiffest = 0;
-  const std::size_t n = scene_->groups.size();
-  for (const Group& g : scene_->groups) {
-    radius = std::max(radius, g.grain.largest_radius);
-    if (g.grain.least_radius > 0 && !g.grain.fixed)
-      least_mass = std::min(least_mass, grain_mass(g.density, g.grain.least_radius));
-  }
+  double radius = 0;
+  for (const Group& g : scene_->groups) radius = std::max(radius, g.grain.largest_radius);
   const double overlap = scene_->contact.largest_overlap * radius;
-  for (std::size_t pair = 0; pair < n * n; ++pair) {
-    const double k = constants_[pair * 8];
-    const double tangent = scene_->contact.law == ContactLaw::hertz ? 2 * k * std::sqrt(radius * overlap) : k;
-    stiffest = std::max(stiffest, tangent);
-    force = std::max(force, tangent * overlap);
-  }
+  const double force = stiffest_contact(*scene_, radius) * overlap;
   force_quantum_ = std::ldexp(next_power_of_two(4 * force), -50);
   torque_quantum_ = std::ldexp(next_power_of_two(8 * force * radius), -50);
-  dt_ = scene_->time.dt.value_or(0.1 * std::sqrt(least_mass / stiffest));
 }
 
 FieldSet Grains::reads() const {
@@ -246,6 +276,12 @@ double Grains::longest_way(const Particles& particles, const GlobalState& global
     way2 = std::max(way2, w2);
   }
   return 1.0001 * std::sqrt(way2) * scale_.quantum;
+}
+
+std::int64_t Grains::touching_pairs() const {
+  std::int64_t n = 0;
+  for (std::uint8_t bits : lists_.pairs().touching) n += std::popcount(bits);
+  return n;
 }
 
 double Grains::fastest_wall(const GlobalState& global) const {
