@@ -92,7 +92,7 @@ class Grains {
   PositionScale scale_;
   ContactFusion fusion_;
   ContactLists lists_;
-  AlignedVector<double> constants_;
+  decomp::LargeVector<double> constants_;
   std::vector<bool> fixed_;
   double force_quantum_ = 1, torque_quantum_ = 1, dt_ = 0;
   ContactSums sums_;

@@ -82,7 +82,7 @@ class Simulation {
   decomp::Timers timers_;
   Counters counters_;
   std::vector<bool> is_wall_group_;
-  std::vector<std::byte> rows_;
+  decomp::LargeVector<std::byte> rows_;
   void changed(FieldSet fields) { fresh_ = fresh_.without(fields); }
 
   StepMaxima maxima_;        ///< of this rank and step
