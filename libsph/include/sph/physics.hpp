@@ -71,6 +71,7 @@ class Physics {
   }
 
  private:
+  void set_sph_constants();
   void build_conservative();
   void build_ida();
   void update_movers(Particles&, std::size_t first, std::size_t last, double dt) const;
