@@ -137,7 +137,7 @@ Provenance RunFiles::provenance(const Simulation& s) const {
   return {to_toml(s.scene()), s.fingerprint(), group_names(s.scene())};
 }
 
-void RunFiles::add_series_row(const Simulation& s) {
+void RunFiles::add_series_row(Simulation& s) {
   const std::vector<double> values = monitors_.values(s);
   if (s.comm().rank() != 0 || failed()) return;
   failure_ = attempt([&] { series_->add(s.global().step, s.global().time, values); });
