@@ -72,7 +72,15 @@ class Grains {
   [[nodiscard]] double fastest_wall(const GlobalState& global) const;
   [[nodiscard]] double time_step() const { return dt_; }
 
+  /// Walls as they are now.
+  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const;
+  /// Of two groups, in the order of ContactConstants.
+  [[nodiscard]] std::span<const double, 8> pair_constants(std::size_t a, std::size_t b) const {
+    return std::span<const double, 8>(constants_.data() + 8 * (a * scene_->groups.size() + b), 8);
+  }
+
   [[nodiscard]] double force_quantum() const { return force_quantum_; }
+  [[nodiscard]] double torque_quantum() const { return torque_quantum_; }
   [[nodiscard]] double wall_force_newton(std::int64_t quanta) const {
     return static_cast<double>(quanta) * force_quantum_;
   }
@@ -83,7 +91,6 @@ class Grains {
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
-  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const;
   [[nodiscard]] const Stage* stage_at(double time) const;
   void find_constants();
   void find_quanta();

@@ -146,6 +146,12 @@ void Simulation::refresh_halo(FieldSet fields) {
   refresh_end();
 }
 
+void Simulation::refresh_contacts() {
+  if (stale_) rebuild();
+  stale_ = false;
+  refresh_halo(grains_->reads());
+}
+
 // The one reduction of a step. What it brings acts in the next step.
 std::int64_t Simulation::finish_step(std::int64_t request) {
   const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
