@@ -83,7 +83,8 @@ class Grains {
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
-  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const;
+  /// Where the walls are now, and whether they were there at `time`.
+  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global, double time) const;
   [[nodiscard]] const Stage* stage_at(double time) const;
   void find_constants();
   void find_quanta();
