@@ -49,8 +49,9 @@ void refuse_foreign_keys(const SharedTables& tables, bool grains);
 [[nodiscard]] int read_wall_name(const TableReader& table, std::string_view key,
                                  const std::vector<Wall>& walls);
 
-/// start.tile.
+/// start.tile, and start.velocity of grains.
 [[nodiscard]] Tile read_tile(const TableReader& start, const Scene& scene);
+void read_grain_velocity(const TableReader& table, Start& start);
 
 /// [start], once dimension, domain, groups and spacing of `scene` are known.
 [[nodiscard]] Start read_start(const TableReader& table, const Scene& scene);

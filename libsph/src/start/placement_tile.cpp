@@ -93,11 +93,11 @@ void check_differ(const StartRows& rows, const std::vector<std::size_t>& by_id,
 }
 
 void check_count(const Scene& scene, std::size_t grains) {
-  constexpr double most_ids = 9e18;
+  constexpr double most_grains = 1e12;
   double all = static_cast<double>(grains);
   for (const std::int64_t n : scene.start.tile.repeat) all *= static_cast<double>(n);
   if (grains == 0) throw RowProblem(0, "holds no grains");
-  if (all > most_ids) throw RowProblem(0, fmt::format("so many copies would make {:.1e} grains", all));
+  if (all > most_grains) throw RowProblem(0, fmt::format("so many copies would make {:.1e} grains", all));
 }
 
 }  // namespace
