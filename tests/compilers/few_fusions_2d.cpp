@@ -1,5 +1,5 @@
 // What the scenes of this folder need of src/fusions_2d_*.cpp: compiled in a fraction of the time.
-#include "fusion_list.hpp"
+#include "pairs/fusion_list.hpp"
 
 namespace sph {
 namespace {

@@ -1,5 +1,5 @@
 // What the scenes of this folder need of src/fusions_3d_*.cpp.
-#include "fusion_list.hpp"
+#include "pairs/fusion_list.hpp"
 
 namespace sph {
 namespace {

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path corpus = fs::path(PEPERITE_TEST_DIR) / "bad_scenes";
-constexpr std::size_t least_files = 90;
+constexpr std::size_t least_files = 300;
 
 std::vector<fs::path> corpus_files() {
   std::vector<fs::path> files;

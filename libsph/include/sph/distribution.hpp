@@ -39,20 +39,20 @@ class Distribution {
   /// the first rebuild; scatter() must follow.
   void cut_by_counts(Particles& particles);
 
-  /// Sends every row to its owner wherever it is: set-up and resume.
-  void scatter(Particles& particles);
+  /// Sends every row, with its contacts, to its owner wherever it is: set-up and resume.
+  void scatter(Particles& particles, decomp::Payload* contacts = nullptr);
 
   /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
   /// plans the halo. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
-  /// since the last call.
+  /// since the last call. `contacts`, if there are any, go with their rows.
   void rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group,
-               double moved);
+               double moved, decomp::Payload* contacts = nullptr);
 
  private:
   void move_cuts(double cost);
   void wrap_positions(Particles& particles) const;
   [[nodiscard]] std::vector<decomp::Rank> owners(const Particles& particles) const;
-  void sort_rows(Particles& particles, const std::vector<bool>& is_wall_group);
+  void sort_rows(Particles& particles, const std::vector<bool>& is_wall_group, decomp::Payload* contacts);
   [[nodiscard]] std::vector<std::uint32_t> cells_along_curve() const;
 
   const decomp::Comm& comm_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <type_traits>
+#include <vector>
 
 #include "decomp/table.hpp"
 #include "sph/fields.hpp"
@@ -59,6 +60,14 @@ class Particles {
   return out;
 }
 
+/// A wall that grains touch, as it is now. The scene says where it started.
+struct WallState {
+  std::array<std::int64_t, 3> offset{};  ///< way since the start [quanta of position]
+  std::array<double, 3> velocity{};      ///< [m/s]
+  std::array<std::int64_t, 3> force{};   ///< of the grains on it in the last step [quanta of force]
+  friend bool operator==(const WallState&, const WallState&) = default;
+};
+
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {
   std::int64_t step = 0;
@@ -66,6 +75,7 @@ struct GlobalState {
   double dt = 0;                ///< of the next step [s]
   double max_speed = 0;         ///< of all particles after the last step [m/s]
   double max_acceleration = 0;  ///< [m/s^2]
+  std::vector<WallState> walls;
   friend bool operator==(const GlobalState&, const GlobalState&) = default;
 };
 

@@ -222,4 +222,93 @@ template <int Stride, class T>
   for (; k < Stride; k += 4) simd_detail::load4(base + k, Stride, index, out + k);
 }
 
+/// Rows index[0 .. lanes) of a table of vectors of three, transposed. Reads 8 bytes beyond the last row.
+[[gnu::always_inline]] inline void load_vectors(const double* base, const std::uint32_t* index,
+                                                Simd<double> (&out)[4]) {
+  simd_detail::load4(base, 3, index, out);
+}
+
+[[gnu::always_inline]] inline Simd<double> load_scalars(const double* base, const std::uint32_t* index) {
+  Simd<double> out;
+  for (int l = 0; l < Simd<double>::lanes; ++l) out.v[l] = base[index[l]];
+  return out;
+}
+
+/// Bit l is set where lane l is above zero.
+[[gnu::always_inline]] inline unsigned positive_lanes(Simd<double> a) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_pd_mask(std::bit_cast<__m512d>(a.v), _mm512_setzero_pd(), _CMP_GT_OQ);
+#else
+  unsigned bits = 0;
+  for (int l = 0; l < Simd<double>::lanes; ++l) bits |= (a.v[l] > 0 ? 1u : 0u) << l;
+  return bits;
+#endif
+}
+
+using Int64x8 = SimdTraits<double>::Int;
+
+/// Nearest integers, ties to even, of |a| < 2^51: as round_to_quanta() for scalars.
+[[gnu::always_inline]] inline Int64x8 to_integers(Simd<double> a) {
+  constexpr double magic = 6755399441055744.0;  // 1.5 * 2^52
+  return std::bit_cast<Int64x8>((a + Simd<double>(magic)).v) - std::bit_cast<std::int64_t>(magic);
+}
+
+/// Adds lane l of value[0 .. Stride) to row index[l] of a table of Stride integers a row (4 or 8, aligned to
+/// its size), lane by lane, so that an index may repeat.
+template <int Stride>
+[[gnu::always_inline]] inline void add_to_rows(std::uint64_t* base, const std::uint32_t* index,
+                                               const Int64x8 (&value)[Stride]) {
+  static_assert(Stride == 4 || Stride == 8);
+#if defined(__AVX512F__)
+  const auto low = [&](int a, int b) {
+    return _mm512_unpacklo_epi64(std::bit_cast<__m512i>(value[a]), std::bit_cast<__m512i>(value[b]));
+  };
+  const auto high = [&](int a, int b) {
+    return _mm512_unpackhi_epi64(std::bit_cast<__m512i>(value[a]), std::bit_cast<__m512i>(value[b]));
+  };
+  const __m512i even01 = low(0, 1), odd01 = high(0, 1), even23 = low(2, 3), odd23 = high(2, 3);
+  // Blocks of 128 bits: 0x88 takes the first and third of either operand, 0xdd the second and fourth.
+  const __m512i a = _mm512_shuffle_i64x2(even01, even23, 0x88),
+                c = _mm512_shuffle_i64x2(even01, even23, 0xdd);
+  const __m512i b = _mm512_shuffle_i64x2(odd01, odd23, 0x88), d = _mm512_shuffle_i64x2(odd01, odd23, 0xdd);
+  if constexpr (Stride == 8) {
+    const __m512i even45 = low(4, 5), odd45 = high(4, 5), even67 = low(6, 7), odd67 = high(6, 7);
+    const __m512i e = _mm512_shuffle_i64x2(even45, even67, 0x88),
+                  g = _mm512_shuffle_i64x2(even45, even67, 0xdd);
+    const __m512i f = _mm512_shuffle_i64x2(odd45, odd67, 0x88), h = _mm512_shuffle_i64x2(odd45, odd67, 0xdd);
+    const auto add = [&](int lane, __m512i row) {
+      std::uint64_t* at = base + std::size_t{index[lane]} * 8;
+      _mm512_store_si512(at, _mm512_add_epi64(_mm512_load_si512(at), row));
+    };
+    add(0, _mm512_shuffle_i64x2(a, e, 0x88));
+    add(1, _mm512_shuffle_i64x2(b, f, 0x88));
+    add(2, _mm512_shuffle_i64x2(c, g, 0x88));
+    add(3, _mm512_shuffle_i64x2(d, h, 0x88));
+    add(4, _mm512_shuffle_i64x2(a, e, 0xdd));
+    add(5, _mm512_shuffle_i64x2(b, f, 0xdd));
+    add(6, _mm512_shuffle_i64x2(c, g, 0xdd));
+    add(7, _mm512_shuffle_i64x2(d, h, 0xdd));
+  } else {
+    const auto add = [&](int lane, __m256i row) {
+      __m256i* at = reinterpret_cast<__m256i*>(base + std::size_t{index[lane]} * 4);
+      _mm256_store_si256(at, _mm256_add_epi64(_mm256_load_si256(at), row));
+    };
+    const auto both = [&](int lane, __m512i rows) {  // blocks: x y of lanes 0 and 4, then z w of both
+      const __m512i sorted = _mm512_shuffle_i64x2(rows, rows, 0xd8);
+      add(lane, _mm512_castsi512_si256(sorted));
+      add(lane + 4, _mm512_extracti64x4_epi64(sorted, 1));
+    };
+    both(0, a);
+    both(1, b);
+    both(2, c);
+    both(3, d);
+  }
+#else
+  for (int l = 0; l < Simd<double>::lanes; ++l)
+    for (int k = 0; k < Stride; ++k)
+      base[std::size_t{index[l]} * Stride + static_cast<std::size_t>(k)] +=
+          static_cast<std::uint64_t>(value[k][l]);
+#endif
+}
+
 }  // namespace sph

@@ -11,6 +11,7 @@
 #include "sph/checkpoint.hpp"
 #include "sph/distribution.hpp"
 #include "sph/fingerprint.hpp"
+#include "sph/grains.hpp"
 #include "sph/physics.hpp"
 #include "sph/scene.hpp"
 
@@ -39,6 +40,12 @@ class Simulation {
   [[nodiscard]] const Physics& physics() const { return physics_; }
   [[nodiscard]] const Distribution& distribution() const { return distribution_; }
   [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
+  [[nodiscard]] const Grains* grains() const { return grains_ ? &*grains_ : nullptr; }
+  [[nodiscard]] bool has_history() const { return grains_ && grains_->lists().history() > 0; }
+  /// Histories of this rank's contacts, one entry per contact of a row: what travels and is checkpointed.
+  [[nodiscard]] decomp::Payload contacts() const {
+    return grains_ ? grains_->lists().pack(particles_) : decomp::Payload{};
+  }
   [[nodiscard]] decomp::Timers& timers() { return timers_; }
   [[nodiscard]] std::string fingerprint() const;
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
@@ -50,18 +57,24 @@ class Simulation {
 
  private:
   void begin();  ///< common end of both constructors
+  void step_in_passes();
+  void step_in_a_sweep();
   void rebuild();
+  void rebuild_contacts(const decomp::Payload& contacts);
   enum class Side { interior, boundary };
   void run(const Pass& pass, const PassContext& context, Side side);
   void refresh_begin(FieldSet wanted);
   void refresh_end();
-  std::int64_t finish_step(const StepMaxima& maxima, std::int64_t request);
+  std::int64_t finish_step(std::int64_t request);
+  void find_stale(double next);
+  void guard_sweep(const std::array<double, 6>& all) const;
   [[noreturn]] void stop_at_bad_particle() const;
 
   const decomp::Comm& comm_;
   Scene scene_;
   PositionScale scale_;
   Physics physics_;
+  std::optional<Grains> grains_;
   Distribution distribution_;
   Particles particles_;
   NeighbourLists lists_;
@@ -69,9 +82,11 @@ class Simulation {
   decomp::Timers timers_;
   Counters counters_;
   std::vector<bool> is_wall_group_;
-  std::vector<std::byte> rows_;
+  decomp::LargeVector<std::byte> rows_;
   void changed(FieldSet fields) { fresh_ = fresh_.without(fields); }
 
+  StepMaxima maxima_;        ///< of this rank and step
+  decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
   bool refreshing_ = false;
   FieldSet fresh_;  ///< fields whose halo copies are up to date
   bool stale_ = true;

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* format = "peperite checkpoint 1";
+constexpr const char* format = "peperite checkpoint 2";
 
 /// The bits are what counts; the value is for readers with eyes.
 Json exact(double x) { return {{"bits", to_hex(std::bit_cast<std::uint64_t>(x))}, {"value", x}}; }
@@ -53,6 +53,20 @@ Part part_of(const Json& json) {
   return part;
 }
 
+Json json_of(const WallState& wall) {
+  Json velocity = Json::array();
+  for (double v : wall.velocity) velocity.push_back(exact(v));
+  return {{"offset", wall.offset}, {"velocity", velocity}, {"force", wall.force}};
+}
+
+WallState wall_of(const Json& json) {
+  WallState wall;
+  wall.offset = json.at("offset").get<std::array<std::int64_t, 3>>();
+  wall.force = json.at("force").get<std::array<std::int64_t, 3>>();
+  for (std::size_t a = 0; a < 3; ++a) wall.velocity[a] = exact(json.at("velocity").at(a));
+  return wall;
+}
+
 Field field_named(const std::string& name) {
   for (const FieldInfo& i : field_table)
     if (i.name == name) return i.field;
@@ -74,6 +88,8 @@ std::string to_text(const Manifest& m) {
   const GlobalState& g = m.record.global;
   Json fields = Json::array();
   for (Field f : m.fields) fields.push_back(info(f).name);
+  Json walls = Json::array();
+  for (const WallState& wall : g.walls) walls.push_back(json_of(wall));
   Json parts = Json::array();
   for (const Part& part : m.parts) parts.push_back(json_of(part));
   const Json json{{"format", format},
@@ -82,6 +98,7 @@ std::string to_text(const Manifest& m) {
                   {"dt", exact(g.dt)},
                   {"max_speed", exact(g.max_speed)},
                   {"max_acceleration", exact(g.max_acceleration)},
+                  {"walls", walls},
                   {"quantum", exact(m.record.scale.quantum)},
                   {"origin", m.record.scale.origin},
                   {"dim", m.dim},
@@ -108,8 +125,13 @@ Manifest manifest_from_text(const std::string& text) {
     throw std::runtime_error("is of the format '" + json.at("format").get<std::string>() +
                              "', this program reads '" + format + "'");
   Manifest m;
-  m.record.global = {json.at("step").get<std::int64_t>(), exact(json.at("time")), exact(json.at("dt")),
-                     exact(json.at("max_speed")), exact(json.at("max_acceleration"))};
+  m.record.global = {json.at("step").get<std::int64_t>(),
+                     exact(json.at("time")),
+                     exact(json.at("dt")),
+                     exact(json.at("max_speed")),
+                     exact(json.at("max_acceleration")),
+                     {}};
+  for (const Json& wall : json.at("walls")) m.record.global.walls.push_back(wall_of(wall));
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();
   m.record.scene_toml = json.at("scene").get<std::string>();

@@ -78,6 +78,15 @@ class Record {
   std::vector<std::byte> bytes_;
 };
 
+/// A contact counts from both of its sides, which must agree.
+void add_contacts(const Particles& particles, const ContactEntries& contacts, Sum128& sum) {
+  const decomp::Payload& p = *contacts.payload;
+  const std::uint64_t* id = particles.data<Field::id>();
+  for (std::size_t row = 0; row < p.rows(); ++row)
+    for (std::uint64_t at = p.offset[row]; at < p.offset[row + 1]; at += contacts.width)
+      sum.add(XXH3_128bits_withSeed(p.bytes.data() + at, contacts.width, ~id[row]));
+}
+
 XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
   const std::array<std::uint64_t, 6> record{std::bit_cast<std::uint64_t>(global.step),
                                             std::bit_cast<std::uint64_t>(global.time),
@@ -85,13 +94,21 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
                                             std::bit_cast<std::uint64_t>(global.max_speed),
                                             std::bit_cast<std::uint64_t>(global.max_acceleration),
                                             std::bit_cast<std::uint64_t>(scale.quantum)};
-  return XXH3_128bits(record.data(), sizeof record);
+  if (global.walls.empty()) return XXH3_128bits(record.data(), sizeof record);
+  std::vector<std::uint64_t> words(record.begin(), record.end());
+  for (const WallState& wall : global.walls)
+    for (std::size_t a = 0; a < 3; ++a) {
+      words.push_back(std::bit_cast<std::uint64_t>(wall.offset[a]));
+      words.push_back(std::bit_cast<std::uint64_t>(wall.velocity[a]));
+      words.push_back(std::bit_cast<std::uint64_t>(wall.force[a]));
+    }
+  return XXH3_128bits(words.data(), words.size() * sizeof words[0]);
 }
 
 }  // namespace
 
 std::string fingerprint(const decomp::Comm& comm, const Particles& particles, const GlobalState& global,
-                        const PositionScale& scale, const Wrap& wrap) {
+                        const PositionScale& scale, const Wrap& wrap, const ContactEntries& contacts) {
   Sum128 sum;
   Record record(particles);
   const std::uint64_t* id = particles.data<Field::id>();
@@ -99,6 +116,7 @@ std::string fingerprint(const decomp::Comm& comm, const Particles& particles, co
     const std::span<const std::byte> bytes = record.of(row, wrap);
     sum.add(XXH3_128bits_withSeed(bytes.data(), bytes.size(), id[row]));
   }
+  if (contacts.payload != nullptr) add_contacts(particles, contacts, sum);
   sum.all_reduce(comm);
   sum.add(hash_of(global, scale));
   return fmt::format("{:016x}{:016x}", sum.high, sum.low);

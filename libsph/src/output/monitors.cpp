@@ -24,6 +24,7 @@ double compression(double s) {
 }
 
 double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t row) {
+  if (scene.of_grains()) return 0;
   const Particles& p = of.particles();
   const auto d = static_cast<std::size_t>(p.dim());
   const Group& g = scene.groups[of.group(row)];

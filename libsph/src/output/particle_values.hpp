@@ -1,5 +1,5 @@
 // The output quantities of one particle in SI, in the order of the columns of series.csv: x.., v.., rho, p,
-// and psi where the scene has it.
+// and psi where the scene has it; of a grain x.., v.. and its spin w.. if it has one.
 #pragma once
 
 #include <array>
@@ -37,6 +37,9 @@ class ParticleValues {
     std::size_t k = 0;
     for (std::size_t a = 0; a < d_; ++a) to[k++] = position(row, a);
     for (std::size_t a = 0; a < d_; ++a) to[k++] = velocity(row, a);
+    if (const double* spin = particles_.data<Field::spin>())
+      for (std::size_t a = 0; a < d_; ++a) to[k++] = spin[row * d_ + a];
+    if (particles_.has(Field::radius)) return;
     to[k++] = particles_.data<Field::density>()[row];
     to[k++] = particles_.data<Field::pressure>()[row];
     if (const double* psi = particles_.data<Field::void_fraction>()) to[k++] = psi[row];
@@ -46,14 +49,15 @@ class ParticleValues {
     constexpr std::array axes{"x", "y", "z"};
     for (int a = 0; a < p.dim(); ++a) out.emplace_back(axes[static_cast<std::size_t>(a)]);
     for (int a = 0; a < p.dim(); ++a) out.push_back(std::string("v") + axes[static_cast<std::size_t>(a)]);
+    if (p.has(Field::spin))
+      for (int a = 0; a < p.dim(); ++a) out.push_back(std::string("w") + axes[static_cast<std::size_t>(a)]);
+    if (p.has(Field::radius)) return out;
     out.emplace_back("rho");
     out.emplace_back("p");
     if (p.has(Field::void_fraction)) out.emplace_back("psi");
     return out;
   }
-  [[nodiscard]] static std::size_t count(const Particles& p) {
-    return static_cast<std::size_t>(2 * p.dim()) + (p.has(Field::void_fraction) ? 3 : 2);
-  }
+  [[nodiscard]] static std::size_t count(const Particles& p) { return names(p).size(); }
 
  private:
   const Particles& particles_;

@@ -77,8 +77,12 @@ class SnapshotFile : public StateFile {
     s.path = path;
     s.dim = static_cast<int>(file.integer("dim"));
     s.rows = static_cast<std::uint64_t>(file.integer("particles"));
-    s.global = {file.integer("step"), file.real("time"), file.real("dt"), file.real("max_speed"),
-                file.real("max_acceleration")};
+    s.global = {file.integer("step"),
+                file.real("time"),
+                file.real("dt"),
+                file.real("max_speed"),
+                file.real("max_acceleration"),
+                {}};
     s.scale.quantum = file.real("quantum");
     for (const FieldInfo& i : field_table) {
       if (!file.has(set_of(i.field))) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sph/grains.hpp"
 #include "sph/kernels.hpp"
 
 namespace sph {
@@ -61,6 +62,19 @@ std::int64_t PositionScale::quanta(double metres) const {
 }
 
 Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene), scale_(scale) {
+  if (scene.of_grains()) {
+    fields_ = grain_fields(scene);  // no passes: Grains has the rest
+    return;
+  }
+  set_sph_constants();
+  if (scene.formulation == Formulation::ida)
+    build_ida();
+  else
+    build_conservative();
+}
+
+void Physics::set_sph_constants() {
+  const Scene& scene = *scene_;
   const KernelNumbers kernel = numbers(scene);
   const double h = scene.smoothing_length;
   const double volume = power(scene.spacing, scene.dim);
@@ -70,11 +84,11 @@ Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene
   diffusion_factor_ = 2 * scene.terms.density_diffusion * h * (volume * slope / h);
 
   // Float rows: 2^29 units across the support, so that its square and the skin stay within 31 bits.
-  const int bits = std::ilogb(scene.support() / scale.quantum) + 1 - 29;
+  const int bits = std::ilogb(scene.support() / scale_.quantum) + 1 - 29;
   row_scale_.position_shift = std::max(bits, 0);
   const double unit = scene.precision == Precision::mixed
-                          ? std::ldexp(scale.quantum, row_scale_.position_shift)
-                          : scale.quantum;
+                          ? std::ldexp(scale_.quantum, row_scale_.position_shift)
+                          : scale_.quantum;
   row_scale_.position_unit = unit / h;
   row_scale_.inverse_volume = 1 / volume;
   row_scale_.inverse_h = 1 / h;
@@ -106,10 +120,6 @@ Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     fields_ |= FieldSet{Field::stress};
   if (scene.output.average_time > 0) fields_ |= output_averages;
-  if (scene.formulation == Formulation::ida)
-    build_ida();
-  else
-    build_conservative();
 }
 
 void Physics::add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls) {
@@ -182,7 +192,7 @@ FieldSet Physics::integrated() const {
 }
 
 PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
-                             std::vector<std::byte>& rows) const {
+                             decomp::LargeVector<std::byte>& rows) const {
   return {&particles,       &lists,        &groups_,          row_scale_, constants_,
           gradient_factor_, force_factor_, diffusion_factor_, &rows};
 }

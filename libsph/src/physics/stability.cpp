@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sph/grains.hpp"
 #include "sph/physics.hpp"
 
 namespace sph {
@@ -12,6 +13,15 @@ double courant_number_of(const Scene& scene) {
 }
 
 void check_time_step(const Scene& scene) {
+  if (scene.of_grains()) {
+    const GrainTimeSteps steps = grain_time_steps(scene);
+    if (scene.time.dt && *scene.time.dt > steps.limit)
+      throw InputError(
+          fmt::format("{}: time.dt: {:.6g} s is above the limit of a stable contact, {:.6g} s; set it "
+                      "to {:.6g} s or less",
+                      scene.file, *scene.time.dt, steps.limit, steps.advised));
+    return;
+  }
   const double courant = courant_number_of(scene);
   if (courant <= courant_limit) return;
   const double ratio = courant_limit / courant;

@@ -9,6 +9,7 @@
 #include "physics/stability.hpp"
 #include "run/cost.hpp"
 #include "run/run_start.hpp"
+#include "sph/grains.hpp"
 #include "sph/placement.hpp"
 
 namespace sph {
@@ -59,6 +60,22 @@ std::string particles_text(const Scene& scene, const std::vector<std::int64_t>& 
 
 std::string memory_text(const Scene& scene, const Physics& physics, std::int64_t particles) {
   const int dim = scene.dim;
+  if (scene.of_grains()) {
+    // A settled bed lists about 3.4 pairs a grain, once each; a row has 32 or 64 bytes of sums and a
+    // reference.
+    const ContactFusion fusion = contact_fusion(scene);
+    const int sums = fusion.spins ? 64 : 32;
+    const double pairs = 3.4 * (8 + 8 * fusion.history);
+    return fmt::format(
+        "bytes per particle: {} ({} state): {}; sums {}, contacts about {:.0f}\nbytes per halo particle: {}: "
+        "{}\n"
+        "memory: about {:.3g} MB for all particles, contacts included\n",
+        bytes_of(physics.fields(), dim), bytes_of(state_of(physics.fields()), dim),
+        listed(physics.fields(), dim), sums, pairs, bytes_of(halo_fields(physics), dim),
+        listed(halo_fields(physics), dim),
+        (static_cast<double>(bytes_of(physics.fields(), dim) + static_cast<std::size_t>(sums) + 24) + pairs) *
+            static_cast<double>(particles) * 1e-6);
+  }
   const double list = neighbours_within(scene, scene.support() * (1 + scene.decomposition.skin));
   const double all = static_cast<double>(bytes_of(physics.fields(), dim)) + 4 * list;
   constexpr double megabyte = 1e6;
@@ -82,16 +99,29 @@ std::string passes_text(const Scene& scene, const Physics& physics) {
   return out;
 }
 
-std::string time_text(const Scene& scene, double dt, double courant) {
+std::string courant_text(const Scene& scene, double dt, double courant) {
   std::string out =
       fmt::format("time step: {:.6g} s at the start, c dt/h = {:.3g} (recommended {}, limit {})\n", dt,
                   courant, courant_recommended, courant_limit);
   if (courant > courant_recommended * (1 + 1e-9))
     out += fmt::format("warning: c dt/h above {}: reduce {}\n", courant_recommended,
                        scene.time.dt ? "time.dt" : "time.cfl");
+  return out;
+}
+
+std::string contact_step_text(const Scene& scene, double dt) {
+  const GrainTimeSteps steps = grain_time_steps(scene);
+  std::string out =
+      fmt::format("time step: {:.6g} s (default {:.6g}, advised at most {:.6g}, limit {:.6g})\n", dt,
+                  steps.recommended, steps.advised, steps.limit);
+  if (dt > steps.advised) out += "warning: time.dt is above what dense packings bear: reduce it\n";
+  return out;
+}
+
+std::string steps_text(const Scene& scene, double dt) {
   double steps = scene.time.until ? std::ceil(*scene.time.until / dt) : HUGE_VAL;
   if (scene.time.steps) steps = std::min(steps, static_cast<double>(*scene.time.steps));
-  return out + fmt::format("steps: about {:.4g}\n", steps);
+  return fmt::format("steps: about {:.4g}\n", steps);
 }
 
 std::string ranks_text(const Scene& scene, const decomp::CellGrid& grid, std::int64_t particles) {
@@ -120,12 +150,13 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
     std::int64_t all = 0;
     for (std::int64_t n : count) all += n;
     if (all == 0) throw InputError("start: no particle lies in any region");
-    const double dt = physics.time_step({});
+    const bool grains = scene.of_grains();
+    const double dt = grains ? Grains(scene, scale).time_step() : physics.time_step({});
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}", scene.file, scene.name, particles_text(scene, count, all),
+      fmt::print("{}: {}\n{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, count, all),
                  memory_text(scene, physics, all), passes_text(scene, physics),
-                 time_text(scene, dt, physics.courant_number(dt)),
-                 ranks_text(scene, distribution.grid(), all));
+                 grains ? contact_step_text(scene, dt) : courant_text(scene, dt, physics.courant_number(dt)),
+                 steps_text(scene, dt), ranks_text(scene, distribution.grid(), all));
     return static_cast<int>(exit_done);
   });
 }

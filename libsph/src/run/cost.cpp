@@ -3,8 +3,9 @@
 namespace sph {
 namespace {
 
-/// Directed pairs of this rank that lie within the support.
+/// Directed pairs of this rank that lie within the support; of grains those that touch.
 std::int64_t pairs_within_support(const Simulation& s) {
+  if (s.grains() != nullptr) return s.grains()->touching_pairs();
   const auto d = static_cast<std::size_t>(s.scene().dim);
   const auto lanes = static_cast<std::size_t>(s.lists().lanes());
   const double support = s.scene().support() / s.scale().quantum;
@@ -36,6 +37,7 @@ std::size_t bytes_of(FieldSet fields, int dim) {
 }
 
 FieldSet halo_fields(const Physics& physics) {
+  if (physics.fields().has(Field::radius)) return physics.fields();  // grains: a partner's everything
   FieldSet fields{Field::id, Field::position};
   for (const Pass& pass : physics.passes()) fields |= pass.reads;
   return fields & physics.fields();
@@ -63,14 +65,17 @@ Performance performance_of(Simulation& s) {
   const int dim = s.scene().dim;
   std::size_t sent = 0;
   for (FieldSet fields : refreshes_of(s.physics())) sent += bytes_of(fields, dim);
+  if (s.grains() != nullptr) sent = bytes_of(s.grains()->reads(), dim);
 
+  const auto listed =
+      static_cast<std::int64_t>(s.grains() != nullptr ? s.grains()->lists().listed() : s.lists().pairs());
   Performance p;
   p.scene = s.scene().name;
   p.fingerprint = s.fingerprint();
   p.ranks = comm.size();
   p.particles = s.particle_count();
   p.end = s.global();
-  std::array<std::int64_t, 5> sums{static_cast<std::int64_t>(s.lists().pairs()), pairs_within_support(s),
+  std::array<std::int64_t, 5> sums{listed, pairs_within_support(s),
                                    static_cast<std::int64_t>(halo.rows_received() + halo.rows_copied()),
                                    static_cast<std::int64_t>(halo.rows_sent()), s.distribution().migrated()};
   comm.sum(std::span<std::int64_t>(sums));

@@ -146,13 +146,13 @@ std::vector<decomp::Rank> Distribution::owners(const Particles& particles) const
   return owner;
 }
 
-void Distribution::scatter(Particles& particles) {
+void Distribution::scatter(Particles& particles, decomp::Payload* contacts) {
   wrap_positions(particles);
-  decomp::redistribute(comm_, owners(particles), particles.table(), nullptr);
+  decomp::redistribute(comm_, owners(particles), particles.table(), contacts);
 }
 
 void Distribution::rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group,
-                           double moved) {
+                           double moved, decomp::Payload* contacts) {
   wrap_positions(particles);
   if (comm_.size() > 1) {
     const decomp::JaggedPartition before = partition_;
@@ -161,9 +161,9 @@ void Distribution::rebuild(Particles& particles, double cost_seconds, const std:
     const std::int64_t strayed = scale_.quanta(moved) + 1;
     const decomp::MigrationPeers peers = decomp::migration_peers(before, partition_, comm_.rank(), strayed);
     migrated_ += static_cast<std::int64_t>(
-        decomp::migrate(comm_, owners(particles), peers, particles.table(), nullptr));
+        decomp::migrate(comm_, owners(particles), peers, particles.table(), contacts));
   }
-  sort_rows(particles, is_wall_group);
+  sort_rows(particles, is_wall_group, contacts);
   plan_ = decomp::HaloPlan(comm_, partition_, reach_, particles.dim(), particles.column(Field::position),
                            particles.table());
 }
@@ -171,7 +171,8 @@ void Distribution::rebuild(Particles& particles, double cost_seconds, const std:
 // Counting sort by (class, cell along the curve), then by id within a cell. The boundary is a layer one reach
 // deep inside the faces shared with anyone, this rank's own periodic images included: particles deeper in
 // have no partner in the halo.
-void Distribution::sort_rows(Particles& particles, const std::vector<bool>& is_wall_group) {
+void Distribution::sort_rows(Particles& particles, const std::vector<bool>& is_wall_group,
+                             decomp::Payload* contacts) {
   const std::size_t d = static_cast<std::size_t>(particles.dim()), n = particles.owned();
   const std::int64_t* x = particles.data<Field::position>();
   const auto* group = particles.data<Field::group>();
@@ -205,6 +206,7 @@ void Distribution::sort_rows(Particles& particles, const std::vector<bool>& is_w
     order[k] = static_cast<std::uint32_t>(i);
   }
   particles.table().reorder(order);
+  if (contacts != nullptr) contacts->reorder(order);
 }
 
 }  // namespace sph

@@ -167,8 +167,9 @@ void RunFiles::write_checkpoint(const Simulation& s) {
   on_root(s.comm(), "series.csv", [&] { sync_to_disk(dir_ / "series.csv"); });
   const RunRecord record{s.global(), s.scale(), to_toml(s.scene()),
                          to_json({monitors_.ids(), series_bytes_, snapshots_})};
-  sph::write_checkpoint(s.comm(), dir_, s.particles(), nullptr, record, s.wrap(), provenance(s),
-                        s.scene().output.checkpoint_files);
+  const decomp::Payload contacts = s.contacts();
+  sph::write_checkpoint(s.comm(), dir_, s.particles(), s.has_history() ? &contacts : nullptr, record,
+                        s.wrap(), provenance(s), s.scene().output.checkpoint_files);
 }
 
 fs::path RunFiles::keep_crashed_state(const Simulation& s, bool together) const {

@@ -28,6 +28,12 @@ double imbalance_of(const decomp::Comm& comm, double seconds_here) {
 const char* name_of(Formulation f) { return f == Formulation::ida ? "ida" : "conservative"; }
 const char* name_of(Precision p) { return p == Precision::mixed ? "mixed" : "double"; }
 
+std::string method_of(const Scene& scene) {
+  if (scene.of_grains())
+    return fmt::format("grains, {} contacts", scene.contact.law == ContactLaw::hertz ? "Hertz" : "linear");
+  return fmt::format("{}, {} pairs", name_of(scene.formulation), name_of(scene.precision));
+}
+
 void print(const decomp::Comm& comm, const std::string& text) {
   if (comm.rank() != 0) return;
   std::fwrite(text.data(), 1, text.size(), stdout);
@@ -55,12 +61,12 @@ void Screen::banner() const {
   if (scene.time.until) end += fmt::format(" to t = {} s", *scene.time.until);
   if (scene.time.steps) end += fmt::format(" to step {}", *scene.time.steps);
   const std::string text = fmt::format(
-      "peperite {} ({}), {} {}, {}, HDF5 {}\n{}: {}\n{}D, {}, {} pairs, {} particles, {} ranks\n"
-      "from step {}, t = {} s{}, dt = {:.4g} s, c dt/h = {:.3g}\n",
+      "peperite {} ({}), {} {}, {}, HDF5 {}\n{}: {}\n{}D, {}, {} particles, {} ranks\n"
+      "from step {}, t = {} s{}, dt = {:.4g} s{}\n",
       build.version, build.git, build.compiler, build.build_type, build.mpi, build.hdf5, scene.file,
-      scene.name, scene.dim, name_of(scene.formulation), name_of(scene.precision),
-      simulation_.particle_count(), simulation_.comm().size(), g.step, g.time, end, g.dt,
-      simulation_.physics().courant_number(g.dt));
+      scene.name, scene.dim, method_of(scene), simulation_.particle_count(), simulation_.comm().size(),
+      g.step, g.time, end, g.dt,
+      scene.of_grains() ? "" : fmt::format(", c dt/h = {:.3g}", simulation_.physics().courant_number(g.dt)));
   print(simulation_.comm(), text);
 }
 
@@ -101,7 +107,7 @@ void Screen::final_report(const std::filesystem::path& dir) {
   Performance p = performance_of(simulation_);
   p.wall_seconds = seconds(Clock::now() - begin_);
   p.steps = simulation_.global().step - first_.step;
-  p.formulation = name_of(simulation_.scene().formulation);
+  p.formulation = simulation_.scene().of_grains() ? "grains" : name_of(simulation_.scene().formulation);
   p.precision = name_of(simulation_.scene().precision);
   p.imbalance = imbalance_of(simulation_.comm(), computation());
   all_or_none(simulation_.comm(), "report", [&] {

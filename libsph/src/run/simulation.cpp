@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "sph/placement.hpp"
 
@@ -10,6 +11,15 @@ namespace sph {
 // ---- the step -------------------------------------------------------------------------------------------
 
 std::int64_t Simulation::step(std::int64_t request) {
+  if (grains_)
+    step_in_a_sweep();
+  else
+    step_in_passes();
+  return finish_step(request);
+}
+
+// SPH: positions advance, passes with their updates, kick.
+void Simulation::step_in_passes() {
   {
     const auto timing = timers_.time(decomp::Region::update);
     physics_.advance(particles_, distribution_.ranges(), global_.dt);
@@ -31,31 +41,65 @@ std::int64_t Simulation::step(std::int64_t request) {
     }
   }
 
-  StepMaxima maxima;
-  {
-    const auto timing = timers_.time(decomp::Region::update);
-    maxima = physics_.integrate(particles_, distribution_.ranges(), global_);
-    changed(physics_.integrated());
-  }
-  return finish_step(maxima, request);
+  const auto timing = timers_.time(decomp::Region::update);
+  maxima_ = physics_.integrate(particles_, distribution_.ranges(), global_);
+  changed(physics_.integrated());
+}
+
+// Grains: contacts and walls of a block of rows, then at once the kick and drift of its grains.
+void Simulation::step_in_a_sweep() {
+  grains_->set_stage(global_);
+  if (stale_) rebuild();
+  grains_->begin_step(particles_, global_);
+  const auto sweep = [&](std::span<const ContactBlock> blocks) {
+    const auto timing = timers_.time(decomp::Region::contacts);
+    grains_->sweep(particles_, blocks, distribution_.ranges(), global_.dt);
+  };
+  refresh_begin(grains_->reads());
+  sweep(grains_->lists().interior());
+  refresh_end();
+  sweep(grains_->lists().boundary());
+  changed(grains_->reads());
+  maxima_ = {std::sqrt(grains_->swept().speed2), std::sqrt(grains_->swept().acceleration2)};
 }
 
 // Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plan -> neighbour lists.
 void Simulation::rebuild() {
+  decomp::Payload contacts = std::exchange(arrived_, {});
+  if (grains_ && contacts.rows() == 0) contacts = this->contacts();
   {
     const auto timing = timers_.time(decomp::Region::migrate);
-    distribution_.rebuild(particles_, timers_.take_cost(), is_wall_group_, moved_);
+    distribution_.rebuild(particles_, timers_.take_cost(), is_wall_group_, moved_,
+                          grains_ ? &contacts : nullptr);
     if (decomp::census(comm_, particles_.table(), particles_.column(Field::id)) != census_)
       throw GuardError("step " + std::to_string(global_.step) +
                        ": a particle was lost or duplicated in migration; reduce time.dt");
   }
   fresh_ = {};
-  refresh_begin({Field::id, Field::position});
+  refresh_begin(grains_ ? Grains::constants() : FieldSet{Field::id, Field::position});
   refresh_end();
-  lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
-               distribution_.ranges(), timers_);
+  if (grains_)
+    rebuild_contacts(contacts);
+  else
+    lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
+                 distribution_.ranges(), timers_);
   moved_ = 0;
   ++counters_.rebuilds;
+}
+
+// No contact may be lost or doubled on its way: count and keys are those of the entries that set out.
+void Simulation::rebuild_contacts(const decomp::Payload& contacts) {
+  const auto timing = timers_.time(decomp::Region::lists);
+  grains_->rebuild(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
+                   distribution_.skin(), distribution_.ranges(), global_, contacts);
+  const ContactCensus sent = ContactLists::census(particles_, contacts, grains_->lists().history());
+  const ContactCensus found = grains_->lists().census(particles_);
+  std::array<std::uint64_t, 4> all{sent.count, sent.keys, found.count, found.keys};
+  comm_.sum(std::span<std::uint64_t>(all));
+  if (all[0] != all[2] || all[1] != all[3])
+    throw GuardError("step " + std::to_string(global_.step) + ": of " + std::to_string(all[0]) +
+                     " contacts " + std::to_string(all[2]) +
+                     " were found again after the lists were rebuilt; reduce time.dt");
 }
 
 void Simulation::run(const Pass& pass, const PassContext& context, Side side) {
@@ -103,32 +147,69 @@ void Simulation::refresh_halo(FieldSet fields) {
 }
 
 // The one reduction of a step. What it brings acts in the next step.
-std::int64_t Simulation::finish_step(const StepMaxima& maxima, std::int64_t request) {
-  const bool finite = std::isfinite(maxima.speed) && std::isfinite(maxima.acceleration);
-  std::array<double, 4> all{maxima.speed, maxima.acceleration, finite ? 0.0 : 1.0,
+std::int64_t Simulation::finish_step(std::int64_t request) {
+  const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
+  std::array<double, 6> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
                             static_cast<double>(request)};
+  std::vector<std::int64_t> wall_force;
+  if (grains_) {
+    all[4] = grains_->swept().force;
+    all[5] = grains_->swept().overlap;
+    wall_force = grains_->wall_force();
+  }
   {
     const auto timing = timers_.time(decomp::Region::reduce);
-    if (!finite) all[0] = all[1] = 0;
-    comm_.max(all);
+    if (wall_force.empty())
+      comm_.max(all);
+    else
+      comm_.max_and_sum(all, wall_force);
   }
   if (all[2] > 0) stop_at_bad_particle();
-  moved_ += physics_.longest_shift(global_);
+  if (grains_) {
+    guard_sweep(all);
+    grains_->move_walls(global_, wall_force);
+    moved_ += 1.0001 * std::max(all[0], grains_->fastest_wall(global_)) * global_.dt;
+  } else {
+    moved_ += physics_.longest_shift(global_);
+  }
   ++global_.step;
   global_.time += global_.dt;
   global_.max_speed = all[0];
   global_.max_acceleration = all[1];
-  global_.dt = physics_.time_step({all[0], all[1]});
-  const int every = scene_.decomposition.rebuild_every;
-  // The list must still hold at the end of the next step. moved_ bounds every particle's path since the
-  // rebuild by the largest speed of each step: no positions to remember, and never late.
-  const double next = physics_.longest_advance(global_) + physics_.longest_shift(global_);
+  if (!grains_) global_.dt = physics_.time_step({all[0], all[1]});
+  find_stale(grains_ ? 0.0 : physics_.longest_advance(global_) + physics_.longest_shift(global_));
+  return static_cast<std::int64_t>(all[3]);
+}
+
+// Lists must hold at the end of the next step, in which particles move by `next` before they meet. moved_
+// bounds every particle's path since the rebuild by the largest speed of each step: no positions to remember,
+// and never late. Grains are looked at again when the bound runs out: one that flies through the sparse part
+// of a scene must not cost rebuilds of the rest.
+void Simulation::find_stale(double next) {
   if (next > 0.5 * scene_.support())
     throw GuardError("step " + std::to_string(global_.step) + ": the fastest particle would move " +
                      std::to_string(next) +
                      " m in one step, more than half the kernel's radius; reduce time.dt or time.cfl");
+  const int every = scene_.decomposition.rebuild_every;
   stale_ = moved_ + next > 0.5 * distribution_.skin() || (every > 0 && global_.step % every == 0);
-  return static_cast<std::int64_t>(all[3]);
+  if (!grains_ || !stale_ || (every > 0 && global_.step % every == 0)) return;
+  const auto timing = timers_.time(decomp::Region::reduce);
+  std::array<double, 1> way{grains_->longest_way(particles_, global_)};
+  comm_.max(way);
+  moved_ = way[0];
+  // Another step of the fastest grain must fit, or this look was for nothing.
+  stale_ = moved_ + 2 * global_.max_speed * global_.dt > 0.5 * distribution_.skin();
+}
+
+// all[4], all[5]: largest force [quanta], largest overlap beyond the limit [m].
+void Simulation::guard_sweep(const std::array<double, 6>& all) const {
+  if (all[4] > 0x1p50)
+    throw GuardError("step " + std::to_string(global_.step) + ": a contact force of " +
+                     std::to_string(all[4] * grains_->force_quantum()) +
+                     " N is beyond the range of the sums; reduce time.dt or raise the stiffness");
+  if (all[5] > 0)
+    throw GuardError("step " + std::to_string(global_.step) + ": an overlap is " + std::to_string(all[5]) +
+                     " m deeper than contact.largest_overlap allows; raise the stiffness or reduce time.dt");
 }
 
 // ---- set-up ---------------------------------------------------------------------------------------------
@@ -142,6 +223,13 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
       particles_(scene_.dim, physics_.fields()),
       lists_(lanes_of(scene_.precision)) {
   place_particles(scene_, scale_, distribution_, particles_);
+  if (scene_.of_grains()) {
+    grains_.emplace(scene_, scale_);
+    global_.dt = grains_->time_step();
+    global_.walls = grains_->first_walls();
+    begin();
+    return;
+  }
   std::array<double, 1> fastest{physics_.largest_speed(particles_)};
   comm_.max(fastest);
   global_.max_speed = fastest[0];
@@ -157,22 +245,24 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
       distribution_(comm_, scene_, scale_),
       particles_(scene_.dim, physics_.fields()),
       lists_(lanes_of(scene_.precision)) {
-  read_checkpoint(comm_, checkpoint, particles_, nullptr);
+  if (scene_.of_grains()) grains_.emplace(scene_, scale_);
+  read_checkpoint(comm_, checkpoint, particles_, has_history() ? &arrived_ : nullptr);
   global_ = checkpoint.record.global;
   begin();
 }
 
 void Simulation::begin() {
-  for (const Group& g : scene_.groups) is_wall_group_.push_back(g.kind == GroupKind::wall);
+  for (const Group& g : scene_.groups) is_wall_group_.push_back(g.kind == GroupKind::wall || g.grain.fixed);
   census_ = decomp::census(comm_, particles_.table(), particles_.column(Field::id));
   count_ = census_.count;
   if (count_ == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
   distribution_.cut_by_counts(particles_);
-  distribution_.scatter(particles_);
-  physics_.derive(particles_, 0, particles_.owned());
+  if (grains_ && arrived_.rows() == 0) arrived_.offset.assign(particles_.owned() + 1, 0);
+  distribution_.scatter(particles_, grains_ ? &arrived_ : nullptr);
+  if (!grains_) physics_.derive(particles_, 0, particles_.owned());
   // Sorts the rows: advance() needs to know which of them move.
   rebuild();
-  stale_ = true;  // the first advance may leave the skin
+  stale_ = !grains_;  // the first advance may leave the skin
 }
 
 Wrap Simulation::wrap() const {
@@ -185,7 +275,10 @@ Wrap Simulation::wrap() const {
 }
 
 std::string Simulation::fingerprint() const {
-  return sph::fingerprint(comm_, particles_, global_, scale_, wrap());
+  if (!has_history()) return sph::fingerprint(comm_, particles_, global_, scale_, wrap());
+  const decomp::Payload entries = contacts();
+  return sph::fingerprint(comm_, particles_, global_, scale_, wrap(),
+                          {&entries, grains_->lists().entry_bytes()});
 }
 
 void Simulation::stop_at_bad_particle() const {

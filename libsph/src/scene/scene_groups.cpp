@@ -1,6 +1,7 @@
 // [[group]]: materials, with what each kind needs and what it must not have.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -11,21 +12,6 @@
 
 namespace sph {
 namespace {
-
-std::string read_name(const TableReader& table) {
-  const std::string name = table.required_text("name");
-  const auto allowed = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
-  };
-  bool good = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
-  for (char c : name) good = good && allowed(c);
-  if (!good)
-    table.fail("name", fmt::format("is \"{}\"", name),
-               "a name is a letter followed by letters, digits, _ or -");
-  if (name == "none")
-    table.fail("name", "is \"none\"", "that word means an empty region; choose another name");
-  return name;
-}
 
 /// Elastic constants: K from the sound speed, mu from Poisson's ratio, as the paper's readers know them.
 void read_stiffness(const TableReader& table, Group& group, const Group* like) {
@@ -86,6 +72,9 @@ Group read_material(const TableReader& table, const std::string& name, GroupKind
   Group group;
   group.name = name;
   group.kind = kind;
+  for (const std::string_view key : {"diameter", "young_modulus", "normal_stiffness", "tangential_stiffness",
+                                     "restitution", "friction", "rolling_friction", "fixed"})
+    table.only_if(false, key, "only groups with kind = \"grain\" have it");
   group.eos = table.choice("eos", eos_words()).value_or(EosKind::linear);
   if (kind != GroupKind::fluid && group.eos == EosKind::bubbly)
     table.fail("eos", "is \"bubbly\"", "only groups with kind = \"fluid\" hold gas");
@@ -147,17 +136,14 @@ struct Header {
 
 std::vector<Header> read_headers(const std::vector<TableReader>& tables) {
   std::vector<Header> out;
+  std::vector<std::string> names;
   bool movers = false;
   for (const TableReader& t : tables) {
-    const std::string name = read_name(t);
-    for (const Header& other : out)
-      if (other.name == name)
-        t.fail("name", fmt::format("\"{}\" is taken by an earlier group", name),
-               "give each group its own name");
+    names.push_back(read_name(t, "group", names));
     const std::optional<GroupKind> kind = t.choice("kind", group_kind_words());
-    if (!kind) t.fail_missing("kind", "give \"fluid\", \"solid\" or \"wall\"");
+    if (!kind) t.fail_missing("kind", "give \"fluid\", \"solid\" or \"wall\", or \"grain\" for all groups");
     movers = movers || *kind != GroupKind::wall;
-    out.push_back({name, *kind});
+    out.push_back({names.back(), *kind});
   }
   if (!movers)
     tables.front().fail("kind", "every group is a wall", "at least one group must be a fluid or a solid");
@@ -190,15 +176,38 @@ std::vector<Group> read_groups(const TableReader& top, int dim) {
   return groups;
 }
 
-int read_group_name(const TableReader& table, std::string_view key, const std::vector<Group>& groups) {
-  const std::optional<std::string> name = table.text(key);
-  if (!name) return -1;
+std::string read_name(const TableReader& table, std::string_view what,
+                      const std::vector<std::string>& earlier) {
+  const std::string name = table.required_text("name");
+  const auto allowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  };
+  bool good = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
+  for (char c : name) good = good && allowed(c);
+  if (!good)
+    table.fail("name", fmt::format("is \"{}\"", name),
+               "a name is a letter followed by letters, digits, _ or -");
+  if (name == "none")
+    table.fail("name", "is \"none\"", "that word means an empty region; choose another name");
+  if (std::find(earlier.begin(), earlier.end(), name) != earlier.end())
+    table.fail("name", fmt::format("\"{}\" is taken by an earlier {}", name, what),
+               fmt::format("give each {} its own name", what));
+  return name;
+}
+
+int group_of_name(const TableReader& table, std::string_view key, const std::string& name,
+                  const std::vector<Group>& groups) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    if (groups[k].name == *name) return static_cast<int>(k);
+    if (groups[k].name == name) return static_cast<int>(k);
     names.push_back(groups[k].name);
   }
-  table.fail(key, fmt::format("names the unknown group \"{}\"", *name), suggestion(*name, names));
+  table.fail(key, fmt::format("names the unknown group \"{}\"", name), suggestion(name, names));
+}
+
+int read_group_name(const TableReader& table, std::string_view key, const std::vector<Group>& groups) {
+  const std::optional<std::string> name = table.text(key);
+  return name ? group_of_name(table, key, *name, groups) : -1;
 }
 
 }  // namespace sph

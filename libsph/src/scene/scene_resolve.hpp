@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/toml_reader.hpp"
@@ -12,9 +13,45 @@ namespace sph {
 /// [[group]]: materials; walls without material values take those of the first fluid.
 [[nodiscard]] std::vector<Group> read_groups(const TableReader& top, int dim);
 
+/// The index of the group called `name`, which stands in the value of `key`.
+[[nodiscard]] int group_of_name(const TableReader& table, std::string_view key, const std::string& name,
+                                const std::vector<Group>& groups);
 /// The index of the group that `key` names, -1 if the key is absent.
 [[nodiscard]] int read_group_name(const TableReader& table, std::string_view key,
                                   const std::vector<Group>& groups);
+
+/// The `name` of an element: a letter followed by letters, digits, _ or -; none of those before it has it.
+/// `what` it is ("group") for the message.
+[[nodiscard]] std::string read_name(const TableReader& table, std::string_view what,
+                                    const std::vector<std::string>& earlier);
+
+/// True if any group has kind = "grain": all of them must then.
+[[nodiscard]] bool describes_grains(const TableReader& top);
+
+/// The tables in which scenes of grains and scenes of SPH differ.
+struct SharedTables {
+  const TableReader &top, &domain, &start, &time, &output;
+};
+/// Refuses what has a meaning in the other sort of scene only.
+void refuse_foreign_keys(const SharedTables& tables, bool grains);
+
+/// [contact] but for its pairs, which name groups; the materials of grains depend on the law.
+[[nodiscard]] ContactControl read_contact_law(const TableReader& table);
+[[nodiscard]] std::vector<Group> read_grain_groups(const TableReader& top, const ContactControl& contact);
+/// [[contact.pair]], once groups and contact law of `scene` are known. Ends the table.
+[[nodiscard]] std::vector<ContactPair> read_contact_pairs(const TableReader& table, const Scene& scene);
+
+/// [[wall]] and [[stage]], once domain and groups are known; stages name walls of `scene`.
+[[nodiscard]] std::vector<Wall> read_walls(const TableReader& top, const Scene& scene);
+[[nodiscard]] std::vector<Stage> read_stages(const TableReader& top, const Scene& scene);
+
+/// The index of the wall that `key` names.
+[[nodiscard]] int read_wall_name(const TableReader& table, std::string_view key,
+                                 const std::vector<Wall>& walls);
+
+/// start.tile, and start.velocity of grains.
+[[nodiscard]] Tile read_tile(const TableReader& start, const Scene& scene);
+void read_grain_velocity(const TableReader& table, Start& start);
 
 /// [start], once dimension, domain, groups and spacing of `scene` are known.
 [[nodiscard]] Start read_start(const TableReader& table, const Scene& scene);
@@ -36,6 +73,7 @@ namespace sph {
 [[nodiscard]] const Choices<CutRule>& cut_rule_words();
 [[nodiscard]] const Choices<CostSource>& cost_words();
 [[nodiscard]] const Choices<MonitorKind>& monitor_words();
+[[nodiscard]] const Choices<ContactLaw>& contact_law_words();
 
 /// True if the start leaves a surface where matter meets nothing: an empty lattice point inside, or movers at
 /// an edge that is neither periodic nor walled. Large lattices are sampled.

@@ -68,7 +68,14 @@ std::string read_monitor_name(const TableReader& table, MonitorKind kind,
 
 Monitor read_monitor(const TableReader& table, const Scene& scene, const std::vector<Monitor>& earlier) {
   const std::optional<MonitorKind> kind = table.choice("kind", monitor_words());
-  if (!kind) table.fail_missing("kind", "give \"particle\", \"group\", \"energy\" or \"momentum\"");
+  const bool grains = scene.of_grains();
+  if (!kind)
+    table.fail_missing("kind",
+                       fmt::format("give \"particle\", \"group\", \"energy\"{}",
+                                   grains ? ", \"momentum\", \"wall\" or \"contacts\"" : " or \"momentum\""));
+  if (!grains && (*kind == MonitorKind::wall || *kind == MonitorKind::contacts))
+    table.fail("kind", "is of grains, and the scene has none",
+               "give \"particle\", \"group\", \"energy\" or \"momentum\"");
   Monitor monitor;
   monitor.kind = *kind;
   monitor.name = read_monitor_name(table, *kind, earlier);
@@ -91,6 +98,8 @@ Monitor read_monitor(const TableReader& table, const Scene& scene, const std::ve
     (void)table.required_text("group");
     monitor.group = read_group_name(table, "group", scene.groups);
   }
+  table.only_if(*kind == MonitorKind::wall, "wall", "only kind = \"wall\" has it");
+  if (*kind == MonitorKind::wall) monitor.wall = read_wall_name(table, "wall", scene.walls);
   table.finish();
   return monitor;
 }
@@ -99,12 +108,15 @@ Monitor read_monitor(const TableReader& table, const Scene& scene, const std::ve
 
 Decomposition read_decomposition(const TableReader& table, const Scene& scene) {
   constexpr double largest_skin = 2;
+  constexpr double skin_of_grains = 0.06;  // they stay where they are: short lists count for more
   Decomposition d;
   d.cut_axes = read_cut_axes(table, scene);
+  if (scene.of_grains()) d.skin = skin_of_grains;
   d.skin = table.number("skin", dimension::none, Bound::not_negative).value_or(d.skin);
   if (d.skin > largest_skin)
     table.fail("skin", fmt::format("is {}", d.skin),
-               fmt::format("it is a fraction of the kernel's radius, at most {}", largest_skin));
+               fmt::format("it is a fraction of the {}, at most {}",
+                           scene.of_grains() ? "largest diameter" : "kernel's radius", largest_skin));
   d.rebuild_every =
       static_cast<int>(table.whole("rebuild_every", 0, std::numeric_limits<int>::max()).value_or(0));
   d.overlap = table.flag("overlap").value_or(d.overlap);
@@ -133,6 +145,7 @@ OutputControl read_output(const TableReader& top, const TableReader& table, cons
   out.status_interval = interval("status_interval", out.status_interval);
   out.average_time = interval("average_time", out.average_time);
   out.average_space = table.flag("average_space").value_or(out.average_space);
+  out.contacts = table.flag("contacts").value_or(out.contacts);
   out.sort_limit = table.whole("sort_limit", 0).value_or(out.sort_limit);
   out.checkpoint_files = static_cast<int>(table.whole("checkpoint_files", 0, most_files).value_or(0));
   table.finish();

@@ -16,8 +16,16 @@ constexpr double most_lattice_points = 1e12;
 
 int read_painted_group(const TableReader& table, const Scene& scene) {
   const std::string name = table.required_text("group");
-  return name == "none" ? -1 : read_group_name(table, "group", scene.groups);
+  if (name == "none") return -1;
+  const int group = read_group_name(table, "group", scene.groups);
+  if (const Group& g = scene.groups[static_cast<std::size_t>(group)];
+      g.kind == GroupKind::grain && !(g.grain.largest_radius > 0))
+    table.fail("group", fmt::format("names \"{}\", a material without diameter", name),
+               "give that [[group]] the diameter of its grains");
+  return group;
 }
+
+bool can_move(const Group& group) { return group.kind != GroupKind::wall && !group.grain.fixed; }
 
 Region read_region(const TableReader& table, const Scene& scene, const Start& start) {
   Region region;
@@ -81,14 +89,19 @@ void check_seam(const TableReader& table, const Scene& scene, const Start& start
     if (!scene.periodic[a] || !filled) continue;
     const double cells = (scene.upper[a] - scene.lower[a]) / scene.spacing;
     if (std::fabs(cells - std::nearbyint(cells)) > 1e-6 * cells)
-      table.fail("spacing",
-                 fmt::format("divides the periodic length in {} into {:.6g} cells", axis_names[a], cells),
-                 "choose one that gives a whole number");
+      table.fail(
+          "spacing",
+          fmt::format("{}divides the periodic length in {} into {:.6g} cells",
+                      table.has("spacing") ? "" : fmt::format("is {:.6g} m by default and ", scene.spacing),
+                      axis_names[a], cells),
+          "choose one that gives a whole number");
   }
 }
 
 void read_lattice(const TableReader& table, const Scene& scene, Start& start) {
   start.lattice = table.choice("lattice", lattice_words()).value_or(LatticeKind::square);
+  if (start.lattice == LatticeKind::hexagonal && scene.dim != 2)
+    table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\"");
   start.lower = table.vector("lower", dimension::length, scene.dim).value_or(scene.lower);
   start.upper = table.vector("upper", dimension::length, scene.dim).value_or(scene.upper);
   start.lattice_origin = table.vector("origin", dimension::length, scene.dim).value_or(start.lower);
@@ -103,9 +116,13 @@ void read_lattice(const TableReader& table, const Scene& scene, Start& start) {
   for (const TableReader& r : regions) {
     start.regions.push_back(read_region(r, scene, start));
     const int group = start.regions.back().group;
-    matter = matter || (group >= 0 && scene.groups[static_cast<std::size_t>(group)].kind != GroupKind::wall);
+    matter = matter || (group >= 0 && can_move(scene.groups[static_cast<std::size_t>(group)]));
   }
-  if (!matter) table.fail("region", "no region paints a fluid or a solid", "paint at least one");
+  if (!matter)
+    table.fail(
+        "region",
+        scene.of_grains() ? "no region paints grains that can move" : "no region paints a fluid or a solid",
+        "paint at least one");
 }
 
 void read_velocity(const TableReader& table, const Scene& scene, Start& start) {
@@ -160,17 +177,27 @@ void read_pressure(const TableReader& table, const Scene& scene, Start& start) {
 }  // namespace
 
 Start read_start(const TableReader& table, const Scene& scene) {
+  const bool grains = scene.of_grains();
   Start start;
   start.file = table.file_path("file", scene.file);
-  if (start.file.empty()) {
-    read_lattice(table, scene, start);
-  } else {
+  start.tile = read_tile(table, scene);
+  table.not_both("file", "tile");
+  const bool from_file = table.has("file") || table.has("tile");
+  if (from_file) {
     for (const std::string_view key : {"lattice", "origin", "lower", "upper", "region", "jitter"})
-      table.only_if(false, key, "the particles come from start.file");
+      table.only_if(false, key,
+                    fmt::format("the particles come from start.{}", table.has("file") ? "file" : "tile"));
+    if (grains) table.only_if(false, "velocity", "the velocities come from the file");
+  } else {
+    read_lattice(table, scene, start);
   }
   start.seed = static_cast<std::uint64_t>(table.whole("seed", 0).value_or(0));
-  read_velocity(table, scene, start);
-  read_pressure(table, scene, start);
+  if (grains) {
+    read_grain_velocity(table, start);
+  } else {
+    read_velocity(table, scene, start);
+    read_pressure(table, scene, start);
+  }
   return start;
 }
 

@@ -19,10 +19,11 @@ constexpr double least_h_over_dx = 0.5;
 constexpr double most_h_over_dx = 4;
 constexpr int least_periodic_cells = 3;
 constexpr double most_spacings = 1e7;
+constexpr double diameters_apart = 1.1;  ///< default spacing of grains: they start without touching
 
 /// All tables but the arrays, made first: a misspelt key is reported before anything that is missing.
 struct Tables {
-  TableReader top, kernel, domain, start, terms, time, decomposition, output;
+  TableReader top, kernel, domain, start, terms, time, decomposition, output, contact;
   explicit Tables(const toml_tree::Node& root)
       : top(root, "", scene_keys::top),
         kernel(top.table("kernel", scene_keys::kernel)),
@@ -31,10 +32,16 @@ struct Tables {
         terms(top.table("terms", scene_keys::terms)),
         time(top.table("time", scene_keys::time)),
         decomposition(top.table("decomposition", scene_keys::decomposition)),
-        output(top.table("output", scene_keys::output)) {
+        output(top.table("output", scene_keys::output)),
+        contact(top.table("contact", scene_keys::contact)) {
     (void)top.tables("group", scene_keys::group);
     (void)top.tables("monitor", scene_keys::monitor);
     (void)start.tables("region", scene_keys::region);
+    (void)start.table("tile", scene_keys::tile);
+    (void)contact.tables("pair", scene_keys::contact_pair);
+    (void)top.tables("wall", scene_keys::wall);
+    for (const TableReader& stage : top.tables("stage", scene_keys::stage))
+      (void)stage.tables("wall", scene_keys::stage_wall);
   }
 };
 
@@ -123,7 +130,8 @@ void check_periods(const Tables& tables, const Scene& scene) {
       tables.domain.fail("periodic",
                          fmt::format("the period of {} m in {} is shorter than {} cells of {:.6g} m", length,
                                      axis_names[a], least_periodic_cells, cell),
-                         "lengthen the domain, or reduce start.spacing or decomposition.skin");
+                         fmt::format("lengthen the domain, or reduce {} or decomposition.skin",
+                                     scene.of_grains() ? "the grains" : "start.spacing"));
   }
 }
 
@@ -143,14 +151,12 @@ void check_file(const TableReader& table, std::string_view key, const std::strin
     table.fail(key, fmt::format("\"{}\" cannot be read", path), "give an existing file");
 }
 
-Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_files) {
-  if (root.table()->empty())
-    toml_tree::fail(fmt::format("{}:1:1", file), "scene", "the file is empty", "describe the scene in TOML");
-  const Tables tables(root);
-  Scene scene;
-  scene.file = file;
-  scene.name = tables.top.text("title").value_or(std::filesystem::path(file).stem().string());
-  scene.dim = static_cast<int>(tables.top.whole("dimension", 2, 3).value_or(2));
+void read_dimension(const TableReader& top, Scene& scene, bool grains) {
+  scene.dim = static_cast<int>(top.whole("dimension", 2, 3).value_or(grains ? 3 : 2));
+  if (grains && scene.dim != 3) top.fail("dimension", "is 2", "grains are spheres: leave it out or give 3");
+}
+
+void read_fluids_and_solids(const Tables& tables, Scene& scene) {
   scene.formulation =
       tables.top.choice("formulation", formulation_words()).value_or(Formulation::conservative);
   scene.precision = tables.top.choice("precision", precision_words()).value_or(Precision::double_);
@@ -159,9 +165,37 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   check_extent(tables.domain, scene);
   read_kernel(tables.kernel, scene);
   scene.groups = read_groups(tables.top, scene.dim);
+}
+
+void read_grains(const Tables& tables, Scene& scene) {
+  read_domain(tables.domain, scene);
+  scene.contact = read_contact_law(tables.contact);
+  scene.groups = read_grain_groups(tables.top, scene.contact);
+  scene.contact.pairs = read_contact_pairs(tables.contact, scene);
+  scene.spacing = tables.start.number("spacing", dimension::length, Bound::positive)
+                      .value_or(diameters_apart * scene.support());
+  check_extent(tables.domain, scene);
+  scene.walls = read_walls(tables.top, scene);
+  scene.stages = read_stages(tables.top, scene);
+}
+
+Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_files) {
+  if (root.table()->empty())
+    toml_tree::fail(fmt::format("{}:1:1", file), "scene", "the file is empty", "describe the scene in TOML");
+  const Tables tables(root);
+  const bool grains = describes_grains(tables.top);
+  refuse_foreign_keys({tables.top, tables.domain, tables.start, tables.time, tables.output}, grains);
+  Scene scene;
+  scene.file = file;
+  scene.name = tables.top.text("title").value_or(std::filesystem::path(file).stem().string());
+  read_dimension(tables.top, scene, grains);
+  if (grains)
+    read_grains(tables, scene);
+  else
+    read_fluids_and_solids(tables, scene);
   scene.start = read_start(tables.start, scene);
   tables.start.finish();
-  read_terms(tables.terms, scene);
+  if (!grains) read_terms(tables.terms, scene);
   read_time(tables.time, scene);
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
@@ -169,6 +203,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   check_shifting(tables, scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);
+    check_file(tables.start.table("tile", scene_keys::tile), "file", scene.start.tile.file);
     check_file(tables.decomposition, "replay", scene.decomposition.replay);
   }
   return scene;

@@ -19,8 +19,10 @@ const Choices<KernelShape>& kernel_words() {
   return words;
 }
 const Choices<GroupKind>& group_kind_words() {
-  static const Choices<GroupKind> words{
-      {"fluid", GroupKind::fluid}, {"solid", GroupKind::solid}, {"wall", GroupKind::wall}};
+  static const Choices<GroupKind> words{{"fluid", GroupKind::fluid},
+                                        {"solid", GroupKind::solid},
+                                        {"wall", GroupKind::wall},
+                                        {"grain", GroupKind::grain}};
   return words;
 }
 const Choices<EosKind>& eos_words() {
@@ -49,10 +51,14 @@ const Choices<CostSource>& cost_words() {
   return words;
 }
 const Choices<MonitorKind>& monitor_words() {
-  static const Choices<MonitorKind> words{{"particle", MonitorKind::particle},
-                                          {"group", MonitorKind::group},
-                                          {"energy", MonitorKind::energy},
-                                          {"momentum", MonitorKind::momentum}};
+  static const Choices<MonitorKind> words{
+      {"particle", MonitorKind::particle}, {"group", MonitorKind::group},
+      {"energy", MonitorKind::energy},     {"momentum", MonitorKind::momentum},
+      {"wall", MonitorKind::wall},         {"contacts", MonitorKind::contacts}};
+  return words;
+}
+const Choices<ContactLaw>& contact_law_words() {
+  static const Choices<ContactLaw> words{{"linear", ContactLaw::linear}, {"hertz", ContactLaw::hertz}};
   return words;
 }
 

@@ -20,7 +20,6 @@ struct Unit {
 };
 
 constexpr Dimension mass{1, 0, 0};
-constexpr Dimension force{1, 1, -2};
 constexpr Dimension energy{1, 2, -2};
 
 constexpr std::array units{
@@ -37,12 +36,14 @@ constexpr std::array units{
     Unit{"min", dimension::time, 0, 60},
     Unit{"h", dimension::time, 0, 3600},
     Unit{"d", dimension::time, 0, 86400},
-    Unit{"Hz", Dimension{0, 0, -1}},
+    Unit{"Hz", dimension::rate},
     Unit{"kg", mass},
     Unit{"g", mass, -3},
     Unit{"t", mass, 3},
-    Unit{"N", force},
-    Unit{"kN", force, 3},
+    Unit{"N", dimension::force},
+    Unit{"mN", dimension::force, -3},
+    Unit{"kN", dimension::force, 3},
+    Unit{"MN", dimension::force, 6},
     Unit{"Pa", dimension::pressure},
     Unit{"hPa", dimension::pressure, 2},
     Unit{"kPa", dimension::pressure, 3},
@@ -74,9 +75,11 @@ constexpr std::array named{
     NamedDimension{dimension::viscosity, "a viscosity", "Pa s"},
     NamedDimension{dimension::specific_energy, "an energy per mass", "m2/s2"},
     NamedDimension{mass, "a mass", "kg"},
-    NamedDimension{force, "a force", "N"},
+    NamedDimension{dimension::force, "a force", "N"},
+    NamedDimension{dimension::stiffness, "a stiffness", "N/m"},
+    NamedDimension{dimension::speed_per_force, "a speed per force", "m/s/N"},
     NamedDimension{energy, "an energy", "J"},
-    NamedDimension{Dimension{0, 0, -1}, "a rate", "1/s"},
+    NamedDimension{dimension::rate, "a rate", "1/s"},
     NamedDimension{Dimension{0, 2, -1}, "a diffusivity", "m2/s"},
 };
 

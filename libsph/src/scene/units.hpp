@@ -26,6 +26,10 @@ inline constexpr Dimension density{1, -3, 0};
 inline constexpr Dimension pressure{1, -1, -2};
 inline constexpr Dimension viscosity{1, -1, -1};
 inline constexpr Dimension specific_energy{0, 2, -2};
+inline constexpr Dimension force{1, 1, -2};
+inline constexpr Dimension stiffness{1, 0, -2};
+inline constexpr Dimension rate{0, 0, -1};
+inline constexpr Dimension speed_per_force{-1, 0, 1};
 }  // namespace dimension
 
 /// Either a value in SI with its dimension, or what is wrong with the text.

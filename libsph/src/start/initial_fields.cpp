@@ -1,13 +1,17 @@
 #include "start/initial_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "sph/eos.hpp"
 #include "sph/exact_math.hpp"
+#include "sph/grain_mass.hpp"
 
 namespace sph {
 namespace {
+
+constexpr std::uint64_t radius_stream = 3;  // 0 to 2: jitter in x, y, z
 
 /// splitmix64 (Steele et al. 2014) as a counter-based generator: a hash of (seed, id, stream).
 double uniform_minus_one_to_one(std::uint64_t seed, std::uint64_t id, std::uint64_t stream) {
@@ -62,8 +66,22 @@ void displace_by_jitter(const Scene& scene, NewParticle& p) {
     p.position[a] += scene.start.jitter * scene.spacing * uniform_minus_one_to_one(scene.start.seed, p.id, a);
 }
 
+double random_radius(const Scene& scene, const NewParticle& p) {
+  const GrainMaterial& grain = scene.groups[p.group].grain;
+  const double u = 0.5 * (uniform_minus_one_to_one(scene.start.seed, p.id, radius_stream) + 1);
+  return std::min(grain.least_radius + (grain.largest_radius - grain.least_radius) * u, grain.largest_radius);
+}
+
 void set_initial_fields(const Scene& scene, NewParticle& p) {
   const Group& g = scene.groups[p.group];
+  if (g.kind == GroupKind::grain) {
+    p.mass = grain_mass(g.density, p.radius);
+    if (g.grain.fixed)
+      p.velocity = g.wall_velocity;
+    else if (scene.start.velocity == InitialVelocity::uniform)
+      p.velocity = scene.start.uniform_velocity;
+    return;
+  }
   const Double3& x = p.position;
   double volume = 1;
   for (int a = 0; a < scene.dim; ++a) volume *= scene.spacing;
@@ -99,13 +117,16 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
     particles.data<Field::position>()[i * d + a] = quanta[a];
     particles.data<Field::velocity>()[i * d + a] = p.velocity[a];
   }
-  particles.data<Field::density>()[i] = p.density;
+  if (auto* density = particles.data<Field::density>()) density[i] = p.density;
   particles.data<Field::mass>()[i] = p.mass;
   particles.data<Field::group>()[i] = p.group;
   if (auto* m = particles.data<Field::gas_content>()) m[i] = scene.groups[p.group].gas_content;
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
-  particles.data<Field::pressure>()[i] = 0;
+  if (auto* radius = particles.data<Field::radius>()) radius[i] = p.radius;
+  if (auto* spin = particles.data<Field::spin>())
+    for (std::size_t a = 0; a < d; ++a) spin[i * d + a] = p.spin[a];
+  if (auto* pressure = particles.data<Field::pressure>()) pressure[i] = 0;
   if (auto* mean = particles.data<Field::velocity_mean>())
     for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = p.velocity[a];
   if (auto* mean = particles.data<Field::pressure_mean>()) mean[i] = 0;

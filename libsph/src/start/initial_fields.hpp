@@ -1,4 +1,5 @@
-// Initial velocity, pressure and hence density and mass of a particle, from the scene and its position.
+// Initial velocity, pressure and hence density and mass of a particle, from the scene and its position; of a
+// grain its radius and hence its mass.
 #pragma once
 
 #include "decomp/types.hpp"
@@ -12,17 +13,23 @@ struct NewParticle {
   Double3 position;  ///< [m]
   Double3 velocity;
   std::uint32_t group;
-  double density;
+  double density;  ///< 0 of grains
   double mass;
+  double radius = 0;  ///< of grains [m]
+  Double3 spin{};     ///< of grains [rad/s]
 };
 
 /// Uniform in +-jitter spacings on every axis, from a counter-based generator on (seed, id, axis).
 void displace_by_jitter(const Scene& scene, NewParticle& p);
 
-/// Density from the initial pressure through the group's equation of state, mass = density spacing^D.
+/// Uniform between the least and the largest of the grain's group, a function of seed and id alone [m].
+[[nodiscard]] double random_radius(const Scene& scene, const NewParticle& p);
+
+/// Density from the initial pressure through the group's equation of state, mass = density spacing^D. Of a
+/// grain, whose radius must be known: its mass and velocity.
 void set_initial_fields(const Scene& scene, NewParticle& p);
 
-/// Adds one owned row with the given coordinates [quanta].
+/// Adds one owned row with the given coordinates [quanta]: those fields that `particles` have.
 void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta, Particles& particles);
 
 }  // namespace sph

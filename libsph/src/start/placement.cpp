@@ -7,6 +7,7 @@
 
 #include "start/initial_fields.hpp"
 #include "start/placement_file.hpp"
+#include "start/placement_tile.hpp"
 
 namespace sph {
 namespace {
@@ -89,6 +90,10 @@ void place_particles(const Scene& scene, const PositionScale& scale, Distributio
     place_particles_from_file(scene, scale, distribution, particles);
     return;
   }
+  if (!scene.start.tile.file.empty()) {
+    place_tiles(scene, scale, distribution, particles);
+    return;
+  }
   const Lattice lattice(scene);
   const std::size_t d = static_cast<std::size_t>(scene.dim);
   const decomp::CellGrid& grid = distribution.grid();
@@ -120,11 +125,13 @@ void place_particles(const Scene& scene, const PositionScale& scale, Distributio
         const int group = painted_group(scene, x);
         if (group < 0) continue;
         NewParticle p{lattice.id(k), x, {}, static_cast<std::uint32_t>(group), 0, 0};
-        if (scene.groups[p.group].kind != GroupKind::wall) displace_by_jitter(scene, p);
+        const Group& g = scene.groups[p.group];
+        if (g.kind != GroupKind::wall && !g.grain.fixed) displace_by_jitter(scene, p);
         decomp::Int3 q{};
         for (std::size_t a = 0; a < d; ++a) q[a] = scale.quanta(p.position[a]);
         q = grid.wrap(q);
         if (!own.contains(grid.cell_of(q))) continue;
+        if (g.kind == GroupKind::grain) p.radius = random_radius(scene, p);
         set_initial_fields(scene, p);
         append(scene, p, q, particles);
       }

@@ -2,7 +2,9 @@
 // limit mu F_n (Cundall & Strack 1979). The history is the spring's force t [N]: it grows by -k_t slip dt;
 // where k_t falls with the overlap it falls in proportion, so that unloading makes no energy (Thornton et
 // al. 2013); it is turned into the present contact plane by projection, which loses only the square of the
-// angle of one step. A contact that slides keeps the spring at the limit.
+// angle of one step. Where a contact slides, spring and dashpot shrink by one factor: the force is at the
+// limit and the spring only ever loses (a spring at the limit plus the dashpot's force would reverse, and
+// hold more energy than the impact had, where the dashpot alone exceeds the limit).
 #pragma once
 
 #include "sph/contact/contact.hpp"
@@ -29,11 +31,11 @@ struct Coulomb {
       force[a] = spring[a] - dashpot * c.slip[a];
       size2 += force[a] * force[a];
     }
-    const V limit = k.friction * max(normal.force, V(0.0));
+    const V limit = k.friction * max(V(0.0), normal.force);
     const V scale = min(V(1.0), limit / max(sqrt(size2), V(1e-300)));
     for (int a = 0; a < 3; ++a) {
       force[a] = force[a] * scale;
-      spring[a] = force[a] + dashpot * c.slip[a];
+      spring[a] = spring[a] * scale;
     }
   }
 };

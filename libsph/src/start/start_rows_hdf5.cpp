@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "output/hdf5_file.hpp"
-#include "start/placement_file.hpp"
+#include "start/start_rows.hpp"
 
 namespace sph {
 namespace {
@@ -51,8 +51,8 @@ class Source {
 
 }  // namespace
 
-StartRows read_hdf5_rows(const Scene& scene, int rank, int ranks) {
-  const Source source(scene.start.file, rank, ranks);
+StartRows read_hdf5_rows(const Scene& scene, const std::string& file, int rank, int ranks) {
+  const Source source(file, rank, ranks);
   const int dim = scene.dim;
   StartRows out;
   for (std::uint64_t k = 0; k < source.rows(); ++k)
@@ -65,6 +65,11 @@ StartRows read_hdf5_rows(const Scene& scene, int rank, int ranks) {
     out.quantum = source.file().real("quantum");
   out.v = source.read<double>({"v", "velocity", "particles/velocity"}, Element::f64, dim, true);
   out.group = source.read<std::uint32_t>({"group", "particles/group"}, Element::u32, 1, true);
+  if (scene.of_grains()) {
+    out.radius = source.read<double>({"radius", "particles/radius"}, Element::f64, 1, true);
+    out.spin = source.read<double>({"spin", "particles/spin"}, Element::f64, dim, false);
+    return out;
+  }
   out.rho = source.read<double>({"rho", "density", "particles/density"}, Element::f64, 1, false);
   out.gas = source.read<double>({"m", "gas_content", "particles/gas_content"}, Element::f64, 1, false);
   out.mass = source.read<double>({"mass", "particles/mass"}, Element::f64, 1, false);

@@ -10,7 +10,7 @@
 
 #include "output/durable_file.hpp"
 #include "scene/nearest.hpp"
-#include "start/placement_file.hpp"
+#include "start/start_rows.hpp"
 
 namespace sph {
 namespace {
@@ -48,36 +48,63 @@ bool is_comment(std::string_view line) {
 /// Where the columns are; -1: absent.
 struct Columns {
   std::size_t count = 0;
-  int id = -1, group = -1, rho = -1, gas = -1, mass = -1;
-  std::array<int, 3> x{-1, -1, -1}, v{-1, -1, -1};
+  int id = -1, group = -1, rho = -1, gas = -1, mass = -1, radius = -1;
+  std::array<int, 3> x{-1, -1, -1}, v{-1, -1, -1}, spin{-1, -1, -1};
 };
 
-Columns columns_of(std::string_view header, int dim) {
-  Columns c;
-  std::vector<std::pair<std::string, int*>> known{
-      {"id", &c.id}, {"group", &c.group}, {"rho", &c.rho}, {"m", &c.gas}, {"mass", &c.mass}};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
-    known.emplace_back(axis_names[a], &c.x[a]);
-    known.emplace_back(std::string("v") + axis_names[a], &c.v[a]);
+struct KnownColumn {
+  std::string name;
+  int* place;
+  bool required;
+};
+
+std::vector<KnownColumn> known_columns(const Scene& scene, Columns& c) {
+  std::vector<KnownColumn> known{{"id", &c.id, true}};
+  const auto vector = [&](const std::string& prefix, std::array<int, 3>& places, bool required) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+      known.push_back({prefix + axis_names[a], &places[a], required});
+  };
+  vector("", c.x, true);
+  vector("v", c.v, true);
+  known.push_back({"group", &c.group, true});
+  if (scene.of_grains()) {
+    known.push_back({"radius", &c.radius, true});
+    vector("w", c.spin, false);
+  } else {
+    known.insert(known.end(), {{"rho", &c.rho, false}, {"m", &c.gas, false}, {"mass", &c.mass, false}});
   }
+  return known;
+}
+
+std::string names_of(const std::vector<KnownColumn>& known, bool required) {
+  std::string out;
+  for (const KnownColumn& k : known)
+    if (k.required == required) out += (out.empty() ? "" : ",") + k.name;
+  return out;
+}
+
+Columns columns_of(std::string_view header, const Scene& scene) {
+  Columns c;
+  const std::vector<KnownColumn> known = known_columns(scene, c);
   const std::vector<std::string_view> names = cells_of(header);
   c.count = names.size();
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto at =
-        std::find_if(known.begin(), known.end(), [&](const auto& e) { return e.first == names[k]; });
+        std::find_if(known.begin(), known.end(), [&](const KnownColumn& e) { return e.name == names[k]; });
     if (at == known.end()) {
       std::vector<std::string> words;
-      for (const auto& [word, place] : known) words.push_back(word);
+      for (const KnownColumn& e : known) words.push_back(e.name);
       throw RowProblem(0, fmt::format("unknown column \"{}\"; {}", names[k], suggestion(names[k], words)));
     }
-    if (*at->second >= 0) throw RowProblem(0, fmt::format("column \"{}\" is there twice", names[k]));
-    *at->second = static_cast<int>(k);
+    if (*at->place >= 0) throw RowProblem(0, fmt::format("column \"{}\" is there twice", names[k]));
+    *at->place = static_cast<int>(k);
   }
-  for (const auto& [word, place] : known)
-    if (*place < 0 && word != "rho" && word != "m" && word != "mass")
-      throw RowProblem(0, fmt::format("column \"{}\" is missing; the header must name {}", word,
-                                      dim == 2 ? "id,x,y,vx,vy,group and may name rho,m,mass"
-                                               : "id,x,y,z,vx,vy,vz,group and may name rho,m,mass"));
+  for (const KnownColumn& e : known)
+    if (*e.place < 0 && e.required)
+      throw RowProblem(0, fmt::format("column \"{}\" is missing; the header must name {} and may name {}",
+                                      e.name, names_of(known, true), names_of(known, false)));
+  if (std::min({c.spin[0], c.spin[1], c.spin[2]}) < 0 && std::max({c.spin[0], c.spin[1], c.spin[2]}) >= 0)
+    throw RowProblem(0, "names some of the columns wx,wy,wz; it must name all or none");
   return c;
 }
 
@@ -101,8 +128,8 @@ std::uint32_t group_of(const Scene& scene, std::string_view cell, std::int64_t l
   fail(line, fmt::format("group \"{}\" is not in the scene; {}", cell, suggestion(cell, names)));
 }
 
-void add_row(const Scene& scene, const Columns& c, std::string_view text, std::int64_t line,
-             StartRows& rows) {
+void read_row(const Scene& scene, const Columns& c, std::string_view text, std::int64_t line,
+              StartRows& rows) {
   const std::vector<std::string_view> cells = cells_of(text);
   if (cells.size() != c.count) fail(line, fmt::format("has {} values, the header {}", cells.size(), c.count));
   const auto cell = [&](int column) { return cells[static_cast<std::size_t>(column)]; };
@@ -114,10 +141,12 @@ void add_row(const Scene& scene, const Columns& c, std::string_view text, std::i
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     rows.x.push_back(real(c.x[a], axis_names[a]));
     rows.v.push_back(real(c.v[a], std::string("v") + axis_names[a]));
+    if (c.spin[a] >= 0) rows.spin.push_back(real(c.spin[a], std::string("w") + axis_names[a]));
   }
   rows.group.push_back(group_of(scene, cell(c.group), line));
   if (c.rho >= 0) rows.rho.push_back(real(c.rho, "rho"));
   if (c.gas >= 0) rows.gas.push_back(real(c.gas, "m"));
+  if (c.radius >= 0) rows.radius.push_back(real(c.radius, "radius"));
   if (c.mass >= 0) rows.mass.push_back(real(c.mass, "mass"));
 }
 
@@ -135,8 +164,8 @@ std::int64_t line_breaks(std::ifstream& in, std::uint64_t bytes) {
 
 }  // namespace
 
-StartRows read_csv_rows(const Scene& scene, int rank, int ranks) {
-  const fs::path path = scene.start.file;
+StartRows read_csv_rows(const Scene& scene, const std::string& file, int rank, int ranks) {
+  const fs::path path = file;
   const std::uint64_t size = fs::file_size(path);
   std::ifstream in(path, std::ios::binary);
   std::string line;
@@ -145,7 +174,7 @@ StartRows read_csv_rows(const Scene& scene, int rank, int ranks) {
   if (!in && line.empty()) throw RowProblem(0, "is empty; it must begin with a header of column names");
   StartRows rows;
   rows.unit = "line";
-  const Columns columns = columns_of(line, scene.dim);
+  const Columns columns = columns_of(line, scene);
   const std::uint64_t body = in.eof() ? size : static_cast<std::uint64_t>(in.tellg());
 
   const auto share = [&](int r) {
@@ -166,7 +195,7 @@ StartRows read_csv_rows(const Scene& scene, int rank, int ranks) {
   while (at < last && std::getline(in, line)) {
     at += line.size() + 1;
     ++number;
-    if (!is_comment(line)) add_row(scene, columns, line, number, rows);
+    if (!is_comment(line)) read_row(scene, columns, line, number, rows);
   }
   return rows;
 }

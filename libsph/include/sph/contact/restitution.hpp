@@ -1,0 +1,22 @@
+// The damping of a normal law (contact/normal.hpp) that gives a wanted restitution e of a head-on impact.
+// A linear contact is m* x'' = -k x - 2 zeta sqrt(k m*) x'. The Hertz contact with its dashpot is the same
+// oscillator in y = x^(5/4) and the time of dtau = x^(1/4) dt, with zeta = A / sqrt(5) for the reduced
+// x'' = -x^(3/2) - A x^(1/4) x', A = sqrt(3/2) damping (Antypov & Elliott 2011), and y'' = 0 where the force
+// is 0: one zeta(e) serves both laws, damping = 2 zeta or 2 sqrt(5/6) zeta, and e never depends on speed.
+// Set-up code whose bits feed the state: exact_math and sqrt alone, a fixed number of bisections.
+#pragma once
+
+#include "sph/grain_scene.hpp"
+
+namespace sph {
+
+/// Share of critical damping, 0 for e = 1; throws InputError unless 0 < e <= 1.
+///   pull (the contact ends at x = 0):  e = exp(-pi zeta / sqrt(1 - zeta^2)), always below 1
+///   else (it ends where the force is 0, Schwager & Poeschel 2007; their three cases are one function):
+///     zeta = cos t:   e = exp(-2 t / tan t)        zeta = cosh u:   e = exp(-2 u / tanh u),  e < exp(-2)
+[[nodiscard]] double damping_ratio(bool pull, double restitution);
+
+/// ContactConstants::damping.
+[[nodiscard]] double damping_of(ContactLaw law, bool pull, double restitution);
+
+}  // namespace sph

@@ -1,0 +1,104 @@
+// Contact lists of one rank: every pair of grains, or grain and wall, that may touch before the next rebuild,
+// each pair once. Pairs sit in groups of eight, one SIMD lane each, ordered by blocks of 64 rows: a pair of
+// two owned rows belongs to the block of the smaller one, a pair with a halo row to that of the owned one.
+// When a block's pairs and those of all earlier blocks are done, the sums of its rows are complete.
+//
+// The history of a contact lives in the list, beside its pair, oriented as the pair is. At a rebuild it
+// travels with the grains: every owned grain carries an entry for each contact it has, keyed by the partner's
+// id (or the wall's key), with forces and torques as they act on the carrier. It exists exactly while the
+// pair touches.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "decomp/comm.hpp"
+#include "decomp/grid.hpp"
+#include "decomp/memory.hpp"
+#include "decomp/table.hpp"
+#include "sph/neighbour_lists.hpp"
+#include "sph/particles.hpp"
+
+namespace sph {
+
+/// Partner keys of walls lie above all ids of particles.
+inline constexpr std::uint64_t wall_key = std::uint64_t{1} << 63;
+
+/// Groups of eight pairs (i, j); j is a row, or the index of a wall. Unused lanes hold i = j (rows), or a
+/// wall that does not exist.
+struct ContactGroups {
+  static constexpr std::size_t lanes = 8;
+  decomp::LargeVector<std::uint32_t> i, j;  ///< [groups * lanes]
+  std::vector<std::uint8_t> touching;       ///< [groups] bit l: lane l touched in the last step
+  decomp::LargeVector<double> history;      ///< [groups][components][lanes]
+  [[nodiscard]] std::size_t groups() const { return touching.size(); }
+};
+
+/// Consecutive rows of one class and the groups of pairs that belong to them.
+struct ContactBlock {
+  static constexpr std::size_t rows = 64;
+  std::uint32_t first, last;
+  std::size_t pairs, pairs_end, walls, walls_end;  ///< groups
+};
+
+/// A wall as the search and the pass see it.
+struct PlaneNow {
+  std::array<std::int64_t, 3> point;  ///< [quanta]
+  std::array<double, 3> normal, velocity;
+  std::uint32_t group;
+  bool present;
+};
+
+/// What must not change while contacts move between ranks, summed over all: each contact counts once.
+struct ContactCensus {
+  std::uint64_t count = 0, keys = 0;
+  friend bool operator==(const ContactCensus&, const ContactCensus&) = default;
+};
+
+class ContactLists {
+ public:
+  /// `history`: doubles a contact carries.
+  explicit ContactLists(int history) : history_(static_cast<std::size_t>(history)) {}
+
+  /// Finds all pairs closer than r_i + r_j + skin, and grains closer than r_i + skin to a wall. Rows of
+  /// `fixed` groups do not touch each other or walls.
+  void build(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
+             std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
+             const std::vector<bool>& fixed, std::span<const PlaneNow> planes);
+
+  /// Histories of the contacts of owned rows, as entries { partner key, history as it acts on the row }.
+  [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
+  /// Puts the entries back after build(); the rows of `payload` are the owned rows.
+  void unpack(const Particles& particles, const decomp::Payload& payload);
+  [[nodiscard]] ContactCensus census(const Particles& particles) const;  ///< of this rank
+  /// The same from entries: what was packed on all ranks must be found in all lists.
+  [[nodiscard]] static ContactCensus census(const Particles& particles, const decomp::Payload& payload,
+                                            int history);
+
+  [[nodiscard]] int history() const { return static_cast<int>(history_); }
+  [[nodiscard]] std::size_t entry_bytes() const { return 8 * (1 + history_); }
+  /// Blocks without halo partners come first.
+  [[nodiscard]] std::span<const ContactBlock> interior() const {
+    return std::span(blocks_).first(interior_blocks_);
+  }
+  [[nodiscard]] std::span<const ContactBlock> boundary() const {
+    return std::span(blocks_).subspan(interior_blocks_);
+  }
+  [[nodiscard]] ContactGroups& pairs() { return pairs_; }
+  [[nodiscard]] ContactGroups& walls() { return walls_; }
+  [[nodiscard]] const ContactGroups& pairs() const { return pairs_; }
+  [[nodiscard]] const ContactGroups& walls() const { return walls_; }
+  [[nodiscard]] std::size_t listed() const { return listed_; }  ///< pairs of grains, padding not counted
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  std::size_t history_;
+  std::vector<ContactBlock> blocks_;
+  std::size_t interior_blocks_ = 0;
+  ContactGroups pairs_, walls_;
+  std::size_t listed_ = 0;
+};
+
+}  // namespace sph

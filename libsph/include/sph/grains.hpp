@@ -1,0 +1,107 @@
+// The physics of a scene of grains: its fields, the constants of its contacts, walls and stages, and the
+// sweep that computes contacts and moves the grains. What SPH does in passes and updates is one sweep here.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sph/contact_lists.hpp"
+#include "sph/contact_pass.hpp"
+#include "sph/particles.hpp"
+#include "sph/scene.hpp"
+
+namespace sph {
+
+/// A compiled sweep over blocks of contacts: the laws fused.
+using ContactSweepFunction = void (*)(const ContactContext&, std::span<const ContactBlock>, const RowRanges&,
+                                      ContactSweep&);
+struct ContactFusion {
+  ContactSweepFunction sweep;
+  int history;  ///< doubles a contact carries
+  bool spins;
+};
+
+/// The fusion that a scene needs: normal law, friction, rolling resistance, one material or several.
+[[nodiscard]] ContactFusion contact_fusion(const Scene& scene);
+[[nodiscard]] FieldSet grain_fields(const Scene& scene);
+
+/// Time steps of a scene of grains [s].
+struct GrainTimeSteps {
+  double recommended = 0;  ///< the default
+  double advised = 0;      ///< above it `check` warns: 0.2 Rayleigh times, or 0.17 sqrt(m/k)
+  double limit = 0;        ///< above it a single contact is unstable: refused
+};
+[[nodiscard]] GrainTimeSteps grain_time_steps(const Scene& scene);
+
+class Grains {
+ public:
+  Grains(const Scene& scene, const PositionScale& scale);
+
+  /// Fields of the halo a sweep reads that change with every step.
+  [[nodiscard]] FieldSet reads() const;
+  /// Those that change only when rows move.
+  [[nodiscard]] static FieldSet constants() {
+    return {Field::id, Field::position, Field::radius, Field::mass, Field::group};
+  }
+
+  [[nodiscard]] ContactLists& lists() { return lists_; }
+  [[nodiscard]] const ContactLists& lists() const { return lists_; }
+
+  /// Walls as the scene describes them, before the first step.
+  [[nodiscard]] std::vector<WallState> first_walls() const;
+  /// Takes the changes of the stages that begin at or before the present time; call before each step.
+  void set_stage(GlobalState& global) const;
+
+  /// New lists after rows have moved; the histories in `payload` go back to their pairs.
+  void rebuild(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
+               std::int64_t reach, double skin, const RowRanges& ranges, const GlobalState& global,
+               const decomp::Payload& payload);
+
+  /// Contacts of the blocks, then kick and drift of their grains. begin_step() clears what a step sums.
+  void begin_step(const Particles& particles, const GlobalState& global);
+  void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
+  [[nodiscard]] const ContactSweep& swept() const { return sweep_; }
+  [[nodiscard]] std::vector<std::int64_t>& wall_force() { return wall_force_; }  ///< of this rank [quanta]
+
+  /// After the reduction: walls drift with the velocity they had, servos answer to the force of this step.
+  void move_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const;
+
+  /// Largest way of this rank's grains, or of a wall, since the last rebuild [m].
+  [[nodiscard]] double longest_way(const Particles& particles, const GlobalState& global) const;
+  [[nodiscard]] double fastest_wall(const GlobalState& global) const;
+  [[nodiscard]] double time_step() const { return dt_; }
+
+  [[nodiscard]] double force_quantum() const { return force_quantum_; }
+  [[nodiscard]] double wall_force_newton(std::int64_t quanta) const {
+    return static_cast<double>(quanta) * force_quantum_;
+  }
+  [[nodiscard]] std::int64_t touching_pairs() const;  ///< listed on this rank, walls not counted
+  struct Counters {
+    std::int64_t created = 0, ended = 0, carried = 0;
+  };
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+ private:
+  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const;
+  [[nodiscard]] const Stage* stage_at(double time) const;
+  void find_constants();
+  void find_quanta();
+
+  const Scene* scene_;
+  PositionScale scale_;
+  ContactFusion fusion_;
+  ContactLists lists_;
+  decomp::LargeVector<double> constants_;
+  std::vector<bool> fixed_;
+  double force_quantum_ = 1, torque_quantum_ = 1, dt_ = 0;
+  ContactSums sums_;
+  std::vector<PlaneNow> planes_;
+  std::vector<std::int64_t> wall_force_;
+  std::vector<std::int64_t> reference_;  ///< positions at the last rebuild [quanta]
+  std::vector<std::array<std::int64_t, 3>> wall_reference_;
+  ContactSweep sweep_;
+  Counters counters_;
+};
+
+}  // namespace sph

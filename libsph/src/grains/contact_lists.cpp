@@ -1,0 +1,267 @@
+#include "sph/contact_lists.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "pairs/cell_bins.hpp"
+#include "sph/simd.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::size_t lanes = ContactGroups::lanes;
+constexpr std::size_t chunk = Simd<float>::lanes;
+
+/// Rows by bin with what the filter needs of them, in the order of the bins.
+struct Candidates {
+  const CellBins& bins;
+  std::vector<float> reach;            ///< r + skin / 2 + slack, in units of the bins
+  std::vector<std::uint32_t> partner;  ///< row
+
+  Candidates(const Particles& p, const CellBins& b, double skin, double unit) : bins(b) {
+    const std::size_t rows = p.rows();
+    reach.assign(rows + CellBins::padding, 0.0f);
+    partner.assign(rows + CellBins::padding, 0u);
+    const double* radius = p.data<Field::radius>();
+    // The bins' limit is 1 and the rounding of positions to float: half of that for each partner.
+    const float slack = 0.5f * (std::sqrt(bins.limit()) - 1.0f);
+    for (std::size_t k = 0; k < rows; ++k) {
+      partner[k] = bins.rows()[k];
+      reach[k] = static_cast<float>((radius[partner[k]] + 0.5 * skin) / unit) + slack;
+    }
+  }
+
+  /// Appends to `out` those of the 16 rows from bin `first` on, rows above `own` only, that lie within reach
+  /// of the row at bin `place`; writes up to 16 beyond the end. Returns how many were appended.
+  std::size_t append(std::size_t first, std::size_t last, std::size_t place, std::uint32_t own,
+                     std::uint32_t* out) const {
+    Simd<float> d2 = Simd<float>::zero(), limit;
+    for (int a = 0; a < 3; ++a) {
+      Simd<float> x;
+      std::memcpy(&x.v, bins.x(a) + first, sizeof x.v);
+      x -= Simd<float>(bins.x(a)[place]);
+      d2 += x * x;
+    }
+    std::memcpy(&limit.v, reach.data() + first, sizeof limit.v);
+    limit += Simd<float>(reach[place]);
+    limit = limit * limit;
+    const unsigned inside = last - first >= chunk ? 0xffffu : (1u << (last - first)) - 1;
+#if defined(__AVX512F__)
+    const __m512i row = _mm512_loadu_si512(partner.data() + first);
+    __mmask16 mask =
+        _mm512_cmp_ps_mask(std::bit_cast<__m512>(d2.v), std::bit_cast<__m512>(limit.v), _CMP_LT_OQ);
+    mask = static_cast<__mmask16>(mask & inside);
+    mask = _mm512_mask_cmpgt_epu32_mask(mask, row, _mm512_set1_epi32(static_cast<int>(own)));
+    _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(mask, row));
+    return static_cast<std::size_t>(std::popcount(static_cast<unsigned>(mask)));
+#else
+    std::size_t n = 0;
+    for (std::size_t l = 0; l < chunk; ++l) {
+      out[n] = partner[first + l];
+      n += (inside >> l & 1u) != 0 && d2[static_cast<int>(l)] < limit[static_cast<int>(l)] &&
+           partner[first + l] > own;
+    }
+    return n;
+#endif
+  }
+};
+
+void add_pair(ContactGroups& g, std::uint32_t i, std::uint32_t j) {
+  g.i.push_back(i);
+  g.j.push_back(j);
+}
+
+void pad(ContactGroups& g, std::uint32_t i, std::uint32_t j) {
+  while (g.i.size() % lanes != 0) add_pair(g, i, j);
+}
+
+constexpr std::uint32_t no_wall = ~std::uint32_t{0};
+
+double distance(const PlaneNow& plane, const std::int64_t* x, double quantum) {
+  double d = 0;
+  for (std::size_t a = 0; a < 3; ++a) d += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
+  return d * quantum;
+}
+
+void reset(ContactGroups& g) {
+  g.i.clear();
+  g.j.clear();
+}
+
+void allocate(ContactGroups& g, std::size_t history) {
+  g.touching.assign(g.i.size() / lanes, 0);
+  g.history.assign(g.touching.size() * history * lanes, 0.0);
+}
+
+/// splitmix64's finaliser: makes keys whose sum tells contacts apart.
+std::uint64_t mix(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+void count(ContactCensus& census, std::uint64_t low, std::uint64_t high) {
+  ++census.count;
+  census.keys += mix(mix(low) + high);
+}
+
+}  // namespace
+
+void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const decomp::Box& own_cells,
+                         std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
+                         const std::vector<bool>& fixed, std::span<const PlaneNow> planes) {
+  const CellBins bins(p, grid, own_cells, reach);
+  const Candidates candidates(p, bins, skin, static_cast<double>(reach) * quantum);
+  const auto* group = p.data<Field::group>();
+  const auto* x = p.data<Field::position>();
+  const double* radius = p.data<Field::radius>();
+  blocks_.clear();
+  reset(pairs_);
+  reset(walls_);
+  listed_ = 0;
+  std::vector<std::uint32_t> found(chunk);
+  for (const RowRange& range : ranges) {
+    if (&range == &ranges[static_cast<std::size_t>(RowClass::boundary_movers)])
+      interior_blocks_ = blocks_.size();
+    for (std::size_t first = range.first; first < range.last; first += ContactBlock::rows) {
+      ContactBlock block{static_cast<std::uint32_t>(first),
+                         static_cast<std::uint32_t>(std::min(first + ContactBlock::rows, range.last)),
+                         pairs_.i.size() / lanes,
+                         0,
+                         walls_.i.size() / lanes,
+                         0};
+      for (std::uint32_t row = block.first; row < block.last; ++row) {
+        const bool is_fixed = fixed[group[row]];
+        CellBins::Run runs[9];
+        const int n_runs = bins.runs(bins.cell(row), runs);
+        std::size_t n = 0;
+        for (int r = 0; r < n_runs; ++r) {
+          if (found.size() < n + (runs[r].last - runs[r].first) + chunk)
+            found.resize(2 * (n + (runs[r].last - runs[r].first) + chunk));
+          for (std::size_t k = runs[r].first; k < runs[r].last; k += chunk)
+            n += candidates.append(k, runs[r].last, bins.place(row), row, found.data() + n);
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+          if (is_fixed && fixed[group[found[k]]]) continue;
+          add_pair(pairs_, row, found[k]);
+          ++listed_;
+        }
+        for (std::uint32_t w = 0; w < planes.size() && !is_fixed; ++w)
+          if (planes[w].present && distance(planes[w], x + row * 3, quantum) < radius[row] + skin)
+            add_pair(walls_, row, w);
+      }
+      pad(pairs_, block.first, block.first);
+      pad(walls_, block.first, no_wall);
+      block.pairs_end = pairs_.i.size() / lanes;
+      block.walls_end = walls_.i.size() / lanes;
+      blocks_.push_back(block);
+    }
+  }
+  allocate(pairs_, history_);
+  allocate(walls_, history_);
+}
+
+decomp::Payload ContactLists::pack(const Particles& p) const {
+  decomp::Payload payload;
+  const std::size_t owned = p.owned();
+  payload.offset.assign(owned + 1, 0);
+  if (history_ == 0) return payload;
+  const auto each = [this](auto&& visit) {
+    for (const ContactGroups* g : {&pairs_, &walls_})
+      for (std::size_t k = 0; k < g->groups(); ++k)
+        for (unsigned bits = g->touching[k]; bits != 0; bits &= bits - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          visit(*g, k, lane, g->i[k * lanes + lane], g->j[k * lanes + lane]);
+        }
+  };
+  each([&](const ContactGroups& g, std::size_t, std::size_t, std::uint32_t i, std::uint32_t j) {
+    payload.offset[i + 1] += entry_bytes();
+    if (&g == &pairs_ && j < owned) payload.offset[j + 1] += entry_bytes();
+  });
+  for (std::size_t r = 0; r < owned; ++r) payload.offset[r + 1] += payload.offset[r];
+  payload.bytes.resize(payload.offset.back());
+  std::vector<std::uint64_t> at(payload.offset.begin(), payload.offset.end() - 1);
+  const std::uint64_t* id = p.data<Field::id>();
+  const auto put = [&](std::uint32_t row, std::uint64_t key, const double* history, double sign) {
+    std::byte* out = payload.bytes.data() + at[row];
+    at[row] += entry_bytes();
+    std::memcpy(out, &key, sizeof key);
+    for (std::size_t c = 0; c < history_; ++c) {
+      // + 0: a zero keeps no sign, since which of the two it got depended on the orientation of the pair.
+      const double value = sign * history[c * lanes] + 0.0;
+      std::memcpy(out + 8 * (1 + c), &value, sizeof value);
+    }
+  };
+  each([&](const ContactGroups& g, std::size_t k, std::size_t lane, std::uint32_t i, std::uint32_t j) {
+    const double* history = g.history.data() + k * history_ * lanes + lane;
+    put(i, &g == &walls_ ? wall_key | j : id[j], history, -1);
+    if (&g == &pairs_ && j < owned) put(j, id[i], history, 1);
+  });
+  return payload;
+}
+
+void ContactLists::unpack(const Particles& p, const decomp::Payload& payload) {
+  const std::uint64_t* id = p.data<Field::id>();
+  for (ContactGroups* g : {&pairs_, &walls_})
+    for (std::size_t k = 0; k < g->i.size(); ++k) {
+      const std::uint32_t i = g->i[k], j = g->j[k];
+      if (g == &walls_ ? j == no_wall : i == j) continue;
+      const std::uint64_t wanted = g == &walls_ ? wall_key | j : id[j];
+      for (std::uint64_t at = payload.offset[i]; at < payload.offset[i + 1]; at += entry_bytes()) {
+        std::uint64_t key;
+        std::memcpy(&key, payload.bytes.data() + at, sizeof key);
+        if (key != wanted) continue;
+        g->touching[k / lanes] = static_cast<std::uint8_t>(g->touching[k / lanes] | 1u << (k % lanes));
+        double* history = g->history.data() + k / lanes * history_ * lanes + k % lanes;
+        for (std::size_t c = 0; c < history_; ++c) {
+          double value;
+          std::memcpy(&value, payload.bytes.data() + at + 8 * (1 + c), sizeof value);
+          history[c * lanes] = -value;
+        }
+        break;
+      }
+    }
+}
+
+ContactCensus ContactLists::census(const Particles& p) const {
+  ContactCensus census;
+  if (history_ == 0) return census;
+  const std::uint64_t* id = p.data<Field::id>();
+  for (const ContactGroups* g : {&pairs_, &walls_})
+    for (std::size_t k = 0; k < g->groups(); ++k)
+      for (unsigned bits = g->touching[k]; bits != 0; bits &= bits - 1) {
+        const std::size_t at = k * lanes + static_cast<std::size_t>(std::countr_zero(bits));
+        const std::uint32_t i = g->i[at], j = g->j[at];
+        if (g == &walls_)
+          count(census, id[i], wall_key | j);
+        else if (id[i] < id[j])
+          count(census, id[i], id[j]);
+        else if (j < p.owned())
+          count(census, id[j], id[i]);
+      }
+  return census;
+}
+
+ContactCensus ContactLists::census(const Particles& p, const decomp::Payload& payload, int history) {
+  ContactCensus census;
+  const std::uint64_t* id = p.data<Field::id>();
+  for (std::size_t row = 0; row < payload.rows(); ++row)
+    for (std::uint64_t at = payload.offset[row]; at < payload.offset[row + 1];
+         at += 8 * (1 + static_cast<std::size_t>(history))) {
+      std::uint64_t key;
+      std::memcpy(&key, payload.bytes.data() + at, sizeof key);
+      if (id[row] < key) count(census, id[row], key);
+    }
+  return census;
+}
+
+std::size_t ContactLists::bytes() const {
+  std::size_t sum = blocks_.capacity() * sizeof(ContactBlock);
+  for (const ContactGroups* g : {&pairs_, &walls_})
+    sum += (g->i.capacity() + g->j.capacity()) * 4 + g->touching.capacity() + g->history.capacity() * 8;
+  return sum;
+}
+
+}  // namespace sph

@@ -1,0 +1,86 @@
+// [[stage]] and [[stage.wall]]: from a time on, some walls behave otherwise.
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <optional>
+
+#include "scene/scene_resolve.hpp"
+
+namespace sph {
+namespace {
+
+/// What has become of the walls up to the stage that is being read.
+struct Course {
+  std::vector<bool> removed, driven_by_force;
+};
+
+WallChange read_change(const TableReader& table, const std::vector<Wall>& walls, Course& course) {
+  WallChange change;
+  change.wall = read_wall_name(table, "name", walls);
+  const auto k = static_cast<std::size_t>(change.wall);
+  if (course.removed[k])
+    table.fail("name", fmt::format("names \"{}\", which an earlier stage removed", walls[k].name),
+               "a wall does not come back");
+  table.not_both("velocity", "force");
+  table.not_both("velocity", "remove");
+  table.not_both("force", "remove");
+  change.velocity = table.vector("velocity", dimension::speed, 3);
+  change.force = table.number("force", dimension::force, Bound::positive);
+  if (change.force && walls[k].servo_gain == 0)
+    table.fail("force", fmt::format("is given, but the wall \"{}\" is no servo", walls[k].name),
+               "give that [[wall]] servo_gain and largest_speed");
+  change.remove = table.flag("remove").value_or(false);
+  if (table.has("remove") && !change.remove) table.fail("remove", "is false", "leave it out; the wall stays");
+  if (!change.velocity && !change.force && !change.remove)
+    table.fail_missing("velocity", "give it, force, or remove = true");
+  course.driven_by_force[k] = course.driven_by_force[k] || change.force.has_value();
+  table.finish();
+  return change;
+}
+
+Stage read_stage(const TableReader& table, const Scene& scene, Course& course) {
+  Stage stage;
+  stage.begin = table.required_number("begin", dimension::time, Bound::not_negative);
+  for (const TableReader& t : table.tables("wall", scene_keys::stage_wall)) {
+    const WallChange change = read_change(t, scene.walls, course);
+    for (const WallChange& other : stage.walls)
+      if (other.wall == change.wall)
+        t.fail("name", "names a wall that this stage has changed already", "change each wall once a stage");
+    stage.walls.push_back(change);
+  }
+  for (const WallChange& change : stage.walls)
+    if (change.remove) course.removed[static_cast<std::size_t>(change.wall)] = true;
+  if (stage.walls.empty()) table.fail_missing("wall", "say in [[stage.wall]] what changes");
+  return stage;
+}
+
+/// A servo that nothing ever sets a force for.
+void check_servos(const TableReader& top, const Scene& scene, const Course& course) {
+  for (const TableReader& table : top.tables("wall", scene_keys::wall))
+    for (std::size_t k = 0; k < scene.walls.size(); ++k)
+      if (scene.walls[k].name == table.text("name") && scene.walls[k].servo_gain > 0 &&
+          !scene.walls[k].force && !course.driven_by_force[k])
+        table.fail("servo_gain", "is given, but no force", "give force here or in a [[stage.wall]]");
+}
+
+}  // namespace
+
+std::vector<Stage> read_stages(const TableReader& top, const Scene& scene) {
+  std::vector<Stage> stages;
+  std::vector<std::string> names;
+  Course course{std::vector<bool>(scene.walls.size()), std::vector<bool>(scene.walls.size())};
+  for (const TableReader& table : top.tables("stage", scene_keys::stage)) {
+    names.push_back(read_name(table, "stage", names));
+    Stage stage = read_stage(table, scene, course);
+    stage.name = names.back();
+    if (!stages.empty() && !(stages.back().begin < stage.begin))
+      table.fail("begin", fmt::format("is {}, not after the stage before it", stage.begin),
+                 "write stages in the order of their times");
+    table.finish();
+    stages.push_back(std::move(stage));
+  }
+  check_servos(top, scene, course);
+  return stages;
+}
+
+}  // namespace sph

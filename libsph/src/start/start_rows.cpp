@@ -1,0 +1,125 @@
+#include "start/start_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+namespace sph {
+namespace {
+
+bool is_hdf5(const std::string& path) {
+  std::array<char, 4> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  return std::memcmp(start.data(), "\x89HDF", start.size()) == 0;
+}
+
+void check_finite(const StartRows& rows, std::size_t k, const char* column, const std::vector<double>& values,
+                  std::size_t components) {
+  if (values.empty()) return;
+  for (std::size_t c = 0; c < components; ++c)
+    if (!std::isfinite(values[k * components + c]))
+      fail_row(rows, k, fmt::format("{} is not finite", column));
+}
+
+/// Lists and cells are made for the radii that the scene names.
+void check_radius(const StartRows& rows, std::size_t k, const Group& group) {
+  if (rows.radius.empty()) return;
+  const double r = rows.radius[k];
+  if (!(r > 0)) fail_row(rows, k, fmt::format("radius is {}; it must be positive", r));
+  const GrainMaterial& g = group.grain;
+  if (!(g.largest_radius > 0))
+    fail_row(rows, k, fmt::format("group \"{}\" has no diameter in the scene: it is for walls", group.name));
+  if (r < g.least_radius || r > g.largest_radius)
+    fail_row(rows, k,
+             fmt::format("radius is {} m; half the diameter of group \"{}\" is {}", r, group.name,
+                         g.least_radius == g.largest_radius
+                             ? fmt::format("{} m", g.largest_radius)
+                             : fmt::format("{} to {} m", g.least_radius, g.largest_radius)));
+}
+
+}  // namespace
+
+StartRows read_rows(const Scene& scene, const std::string& file, int rank, int ranks) {
+  return is_hdf5(file) ? read_hdf5_rows(scene, file, rank, ranks) : read_csv_rows(scene, file, rank, ranks);
+}
+
+void fail_row(const StartRows& rows, std::size_t k, const std::string& what) {
+  throw RowProblem(rows.number[k], fmt::format("{} {}: {}", rows.unit, rows.number[k], what));
+}
+
+void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
+  const auto d = static_cast<std::size_t>(scene.dim);
+  check_finite(rows, k, "x", rows.x, d);
+  check_finite(rows, k, "v", rows.v, d);
+  check_finite(rows, k, "rho", rows.rho, 1);
+  check_finite(rows, k, "m", rows.gas, 1);
+  check_finite(rows, k, "mass", rows.mass, 1);
+  check_finite(rows, k, "stress", rows.stress, d * (d + 1) / 2);
+  check_finite(rows, k, "radius", rows.radius, 1);
+  check_finite(rows, k, "spin", rows.spin, d);
+  if (rows.group[k] >= scene.groups.size())
+    fail_row(rows, k,
+             fmt::format("group {} is not in the scene, which has {}", rows.group[k], scene.groups.size()));
+  if (!rows.rho.empty() && !(rows.rho[k] > 0))
+    fail_row(rows, k, fmt::format("rho is {}; it must be positive", rows.rho[k]));
+  if (!rows.mass.empty() && !(rows.mass[k] > 0))
+    fail_row(rows, k, fmt::format("mass is {}; it must be positive", rows.mass[k]));
+  if (!rows.gas.empty() && !(rows.gas[k] >= 0 && rows.gas[k] < 1))
+    fail_row(rows, k, fmt::format("m is {}; it must be at least 0 and below 1", rows.gas[k]));
+  check_radius(rows, k, scene.groups[rows.group[k]]);
+  // Far outside, the coordinate in quanta would overflow.
+  constexpr double periods = 2;
+  for (std::size_t a = 0; a < d; ++a) {
+    const double x =
+        rows.quanta.empty() ? rows.x[k * d + a] : static_cast<double>(rows.quanta[k * d + a]) * rows.quantum;
+    const double margin = periods * (scene.upper[a] - scene.lower[a]);
+    if (!(x >= scene.lower[a] - margin && x <= scene.upper[a] + margin))
+      fail_row(rows, k, fmt::format("particle {} lies outside the domain", rows.id[k]));
+  }
+}
+
+decomp::Int3 quanta_of(const StartRows& rows, std::size_t k, const PositionScale& scale, int dim) {
+  const auto d = static_cast<std::size_t>(dim);
+  decomp::Int3 out{};
+  for (std::size_t a = 0; a < d; ++a) {
+    if (rows.quanta.empty())
+      out[a] = scale.quanta(rows.x[k * d + a]);
+    else if (rows.quantum == scale.quantum)
+      out[a] = rows.quanta[k * d + a];
+    else
+      out[a] = scale.quanta(static_cast<double>(rows.quanta[k * d + a]) * rows.quantum);
+  }
+  return out;
+}
+
+void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decomp::Int3& quanta,
+             const Scene& scene, const PositionScale& scale, Particles& particles) {
+  const auto d = static_cast<std::size_t>(scene.dim), n = d * (d + 1) / 2;
+  NewParticle p{id, {}, {}, rows.group[k], 0, 0};
+  for (std::size_t a = 0; a < d; ++a) p.position[a] = scale.metres(quanta[a]);
+  if (!rows.radius.empty()) p.radius = rows.radius[k];
+  set_initial_fields(scene, p);
+  const bool fixed = scene.groups[p.group].grain.fixed;
+  for (std::size_t a = 0; a < d && !fixed; ++a) {
+    p.velocity[a] = rows.v[k * d + a];
+    if (!rows.spin.empty()) p.spin[a] = rows.spin[k * d + a];
+  }
+  if (!rows.rho.empty()) {
+    double volume = 1;
+    for (std::size_t a = 0; a < d; ++a) volume *= scene.spacing;
+    p.density = rows.rho[k];
+    p.mass = p.density * volume;  // as on a lattice, to the bit
+  }
+  if (!rows.mass.empty()) p.mass = rows.mass[k];
+  append(scene, p, quanta, particles);
+  const std::size_t i = particles.owned() - 1;
+  if (auto* m = particles.data<Field::gas_content>(); m != nullptr && !rows.gas.empty()) m[i] = rows.gas[k];
+  if (auto* s = particles.data<Field::stress>(); s != nullptr && !rows.stress.empty())
+    std::copy_n(rows.stress.data() + k * n, n, s + i * n);
+}
+
+}  // namespace sph
