@@ -19,7 +19,7 @@
 namespace sph {
 
 /// Force and torque sums of every row, halo copies included: 4 integers a row, or 8 where grains spin.
-using ContactSums = AlignedVector<std::uint64_t>;
+using ContactSums = decomp::LargeVector<std::uint64_t>;
 
 /// Everything a compiled contact pass needs besides its laws.
 struct ContactContext {

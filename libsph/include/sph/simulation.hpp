@@ -30,6 +30,9 @@ class Simulation {
 
   /// Brings the halo copies of these fields up to date, for output that looks at neighbours.
   void refresh_halo(FieldSet fields);
+  /// The same for contacts: all that are there now are in the lists, and halo copies are where their owners
+  /// are. Rebuilds early what the next step would rebuild first.
+  void refresh_contacts();
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const decomp::Comm& comm() const { return comm_; }
@@ -82,7 +85,7 @@ class Simulation {
   decomp::Timers timers_;
   Counters counters_;
   std::vector<bool> is_wall_group_;
-  std::vector<std::byte> rows_;
+  decomp::LargeVector<std::byte> rows_;
   void changed(FieldSet fields) { fresh_ = fresh_.without(fields); }
 
   StepMaxima maxima_;        ///< of this rank and step

@@ -1,5 +1,6 @@
 // Snapshots: one parallel HDF5 file per output time plus one XDMF index (particles.xdmf) that ParaView opens.
-// Layout, readable with six lines of h5py:  /particles/<field> (rows x components, attribute "unit"),
+// Layout, readable with six lines of h5py:  /particles/<field> (rows x components, attribute "unit"), where
+// the scene asks for it also /contacts/id, partner, point, force, overlap (one row per contact of grains),
 // attributes of the root: step, time, dt, quantum, fingerprint, scene (TOML), git, compiler, flags.
 // Positions are written twice: `position` in metres (f64) and `position_quanta` (i64, exact bits).
 #pragma once
@@ -27,13 +28,21 @@ struct ExtraColumn {
   std::vector<double> values;
 };
 
+/// Contacts of grains, each on one rank only: `force` [N] acts on `id`, at `point` [m]; the partner has the
+/// higher id, or is a wall (wall_key | index). Values of a contact: 1, 1, 3, 3, 1.
+struct ContactColumns {
+  std::vector<std::uint64_t> id, partner;
+  std::vector<double> point, force, overlap;
+};
+
 /// Writes the state collectively to `path` (through a temporary name, renamed when complete) with rows
 /// sorted by id if there are at most sort_limit, else in owner order. Throws OutputError on every rank if
-/// any rank cannot write. Positions are written wrapped into the domain.
+/// any rank cannot write. Positions are written wrapped into the domain. Contacts, if any are given, are
+/// sorted by (id, partner) under the same limit.
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
                     const Provenance& provenance, const std::vector<ExtraColumn>& extra,
-                    std::int64_t sort_limit);
+                    std::int64_t sort_limit, const ContactColumns* contacts = nullptr);
 
 /// Rewrites the XDMF index for the snapshots of a run, atomically (rank 0 only): one entry per file name,
 /// time and row count. `fields` as in the files.

@@ -65,14 +65,12 @@ class Smoother {
 
 }  // namespace
 
-std::vector<ExtraColumn> extra_columns(const Scene& scene) {
-  if (!scene.output.average_space) return {};
+std::vector<ExtraColumn> average_columns(const Scene& scene) {
   return {{"velocity_smooth", "m/s", scene.dim, {}}, {"pressure_smooth", "Pa", 1, {}}};
 }
 
 std::vector<ExtraColumn> averages(Simulation& s) {
-  std::vector<ExtraColumn> columns = extra_columns(s.scene());
-  if (columns.empty()) return columns;
+  std::vector<ExtraColumn> columns = average_columns(s.scene());
   s.refresh_halo(
       {Field::position, Field::velocity, Field::density, Field::mass, Field::group, Field::pressure});
   const std::size_t n = s.particles().owned(), lanes = static_cast<std::size_t>(s.lists().lanes());

@@ -12,7 +12,7 @@
 namespace sph {
 
 /// The columns without values.
-[[nodiscard]] std::vector<ExtraColumn> extra_columns(const Scene& scene);
+[[nodiscard]] std::vector<ExtraColumn> average_columns(const Scene& scene);
 /// Collective: refreshes halo copies.
 [[nodiscard]] std::vector<ExtraColumn> averages(Simulation& simulation);
 

@@ -3,30 +3,16 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <numeric>
 
-#include "output/state_file.hpp"
+#include "output/compare_contacts.hpp"
 #include "sph/error.hpp"
 #include "sph/snapshot.hpp"
 
 namespace sph {
 namespace {
-
-std::string shown(double x) {
-  if (std::isnan(x)) return fmt::format("nan ({:016x})", std::bit_cast<std::uint64_t>(x));
-  return fmt::format("{:a} ({})", x, x);
-}
-
-template <class T>
-std::string unequal(const std::string& name, T a, T b) {
-  if constexpr (std::is_same_v<T, double>)
-    return name + ": " + shown(a) + " != " + shown(b);
-  else
-    return fmt::format("{}: {} != {}", name, a, b);
-}
 
 /// Rows of a file in the order of their ids.
 struct Ids {
@@ -68,7 +54,11 @@ std::string first_component(const FieldInfo& i, int count, const std::byte* a, c
     T x, y;
     std::memcpy(&x, a, sizeof(T));
     std::memcpy(&y, b, sizeof(T));
-    return unequal(std::string(i.name) + (count > 1 ? fmt::format("[{}]", c) : ""), x, y);
+    const std::string name = std::string(i.name) + (count > 1 ? fmt::format("[{}]", c) : "");
+    if constexpr (std::is_same_v<T, std::uint32_t>)
+      return unequal(name, std::uint64_t{x}, std::uint64_t{y});
+    else
+      return unequal(name, x, y);
   }
   return {};
 }
@@ -96,26 +86,18 @@ void compare_field(const StateFile& a, const StateFile& b, const Ids& ids_a, con
   for (std::size_t k = 0; k < lowest.index; ++k) {
     const std::byte* at_a = values_a.data() + ids_a.row[k] * w;
     const std::byte* at_b = values_b.data() + ids_b.row[k] * w;
-    if (std::memcmp(at_a, at_b, w) != 0) lowest = {k, first_component(info(f), a.summary().dim, at_a, at_b)};
+    if (std::memcmp(at_a, at_b, w) != 0)
+      lowest = {k, fmt::format("particle {}: {}", ids_a.id[k],
+                               first_component(info(f), a.summary().dim, at_a, at_b))};
   }
 }
 
-void compare_history(const StateFile& a, const StateFile& b, const Ids& ids_a, const Ids& ids_b,
-                     Lowest& lowest) {
-  const std::optional<decomp::Payload> all_a = a.history();
-  const std::optional<decomp::Payload> all_b = b.history();
-  if (!all_a || !all_b) return;
-  const auto of = [](const decomp::Payload& p, std::uint64_t row) {
-    return std::span(p.bytes).subspan(p.offset[row], p.offset[row + 1] - p.offset[row]);
-  };
-  for (std::size_t k = 0; k < lowest.index; ++k) {
-    const std::span<const std::byte> mine = of(*all_a, ids_a.row[k]);
-    const std::span<const std::byte> other = of(*all_b, ids_b.row[k]);
-    const auto [x, y] = std::mismatch(mine.begin(), mine.end(), other.begin(), other.end());
-    if (x == mine.end() && y == other.end()) continue;
-    lowest = {k, fmt::format("contact history: {} bytes, {} bytes, different from byte {} on", mine.size(),
-                             other.size(), x - mine.begin())};
-  }
+void compare_contacts(const StateFile& a, const StateFile& b, const Ids& ids_a, const Ids& ids_b,
+                      Lowest& lowest) {
+  const ContactComparison contacts(a, b);
+  for (std::size_t k = 0; k < lowest.index; ++k)
+    if (std::string text = contacts.difference(ids_a.id[k], ids_a.row[k], ids_b.row[k]); !text.empty())
+      lowest = {k, text};
 }
 
 /// A field that only one of two files has counts unless the other is a snapshot, which need not have it.
@@ -138,6 +120,8 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
   if (differ(g.max_speed, h.max_speed)) return unequal("max_speed", g.max_speed, h.max_speed);
   if (differ(g.max_acceleration, h.max_acceleration))
     return unequal("max_acceleration", g.max_acceleration, h.max_acceleration);
+  if (a.kind == b.kind)  // a snapshot does not have the walls
+    if (std::string text = wall_difference(g.walls, h.walls); !text.empty()) return text;
   if (a.fingerprint != b.fingerprint)
     return fmt::format("fingerprint: {} != {}, yet all state in the files agrees", a.fingerprint,
                        b.fingerprint);
@@ -152,7 +136,7 @@ std::string first_difference(const std::filesystem::path& path_a, const std::fil
   const StateSummary& x = a->summary();
   const StateSummary& y = b->summary();
   // What makes all particles incomparable comes first, the particles, then what follows from them.
-  if (x.dim != y.dim) return unequal("dim", x.dim, y.dim);
+  if (x.dim != y.dim) return unequal("dim", std::int64_t{x.dim}, std::int64_t{y.dim});
   if (x.scale.quantum != y.scale.quantum) return unequal("quantum", x.scale.quantum, y.scale.quantum);
   if (x.global.step != y.global.step) return unequal("step", x.global.step, y.global.step);
   for (const std::string& text : {missing_field(x, y), missing_field(y, x)})
@@ -165,9 +149,8 @@ std::string first_difference(const std::filesystem::path& path_a, const std::fil
   for (Field f : x.fields)
     if (std::find(y.fields.begin(), y.fields.end(), f) != y.fields.end())
       compare_field(*a, *b, ids_a, ids_b, f, lowest);
-  compare_history(*a, *b, ids_a, ids_b, lowest);
-  if (lowest.index < ids_a.id.size())
-    return fmt::format("particle {}: {}", ids_a.id[lowest.index], lowest.text);
+  compare_contacts(*a, *b, ids_a, ids_b, lowest);
+  if (lowest.index < ids_a.id.size()) return lowest.text;
   return global_difference(x, y);
 }
 
@@ -186,6 +169,7 @@ std::string describe(const std::filesystem::path& path) {
   fmt::format_to(to, "{} particles in {} dimensions, positions in quanta of {:a} m\n", s.rows, s.dim,
                  s.scale.quantum);
   fmt::format_to(to, "state: {}{}\n", fields, s.history ? ", contact history" : "");
+  if (s.contacts) fmt::format_to(to, "contacts {}\n", *s.contacts);
   if (!others.empty()) fmt::format_to(to, "derived: {}\n", others.substr(2));
   fmt::format_to(to, "fingerprint {}\n", s.fingerprint);
   fmt::format_to(to, "peperite {} ({}), {}, {}\n", s.version, s.git, s.compiler, s.flags);

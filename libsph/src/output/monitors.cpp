@@ -1,61 +1,21 @@
 #include "sph/monitors.hpp"
 
+#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <span>
 
+#include "output/energies.hpp"
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
-#include "sph/exact_math.hpp"
+#include "sph/contact_records.hpp"
 
 namespace sph {
 namespace {
 
-/// rho_0/K times the energy of compression per mass: ln(1+s) - s/(1+s), s = rho/rho_0 - 1. The closed form
-/// cancels for small s, where its series sum (-1)^k (k-1)/k s^k is good to rounding.
-double compression(double s) {
-  constexpr double small = 0.03125;
-  constexpr int last_power = 12;
-  if (!(std::fabs(s) < small)) return exact_log(1 + s) - s / (1 + s);
-  double sum = 0;
-  for (int k = last_power; k >= 2; --k) sum = (k % 2 == 0 ? 1.0 : -1.0) * (k - 1) / k + s * sum;
-  return s * s * sum;
-}
-
-double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t row) {
-  if (scene.of_grains()) return 0;
-  const Particles& p = of.particles();
-  const auto d = static_cast<std::size_t>(p.dim());
-  const Group& g = scene.groups[of.group(row)];
-  const double m = of.mass(row), rho = p.data<Field::density>()[row];
-  double energy = 0;
-  if (g.eos == EosKind::linear)
-    energy += m * (g.bulk_modulus / g.density) * compression((rho - g.density) / g.density);
-  if (g.kind != GroupKind::solid || scene.formulation != Formulation::conservative) return energy;
-  const std::size_t n = d * (d + 1) / 2;
-  const double* s = p.data<Field::stress>() + row * n;
-  double product = d == 2 ? (s[0] + s[1]) * (s[0] + s[1]) : 0.0;  // of the zz component in plane strain
-  for (std::size_t k = 0; k < n; ++k) product += (k < d ? 1.0 : 2.0) * (s[k] * s[k]);
-  return energy + m / rho * product / (4 * g.shear_modulus);
-}
-
-double kinetic_energy(const ParticleValues& of, std::size_t row) {
-  double v2 = 0;
-  for (int a = 0; a < of.particles().dim(); ++a) {
-    const double v = of.velocity(row, static_cast<std::size_t>(a));
-    v2 += v * v;
-  }
-  return 0.5 * of.mass(row) * v2;
-}
-
-double potential_energy(const Scene& scene, const ParticleValues& of, std::size_t row) {
-  double work = 0;
-  for (int axis = 0; axis < scene.dim; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    work += scene.gravity[a] * of.position(row, a);
-  }
-  return -of.mass(row) * work;
+std::vector<std::string> energy_names(const Particles& p) {
+  if (p.has(Field::radius)) return {"kinetic", "rotational", "potential", "elastic"};
+  return {"kinetic", "potential", "elastic"};
 }
 
 std::size_t sums_of(const Monitor& monitor, const Particles& p) {
@@ -63,12 +23,13 @@ std::size_t sums_of(const Monitor& monitor, const Particles& p) {
     case MonitorKind::group:
       return 2 + ParticleValues::count(p);  // number, mass, moments
     case MonitorKind::energy:
-      return 3;
+      return energy_names(p).size();
     case MonitorKind::momentum:
       return static_cast<std::size_t>(p.dim());
+    case MonitorKind::contacts:
+      return 3;  // contacts of grains, with what is held, number of grains
     case MonitorKind::particle:
     case MonitorKind::wall:
-    case MonitorKind::contacts:
       break;
   }
   return 0;
@@ -86,14 +47,41 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
     for (std::size_t k = 0; k + 2 < sums.size(); ++k) sums[k + 2].add(m * value[k]);
     return;
   }
-  if (scene.groups[of.group(row)].kind == GroupKind::wall) return;
-  if (monitor.kind == MonitorKind::energy) {
-    sums[0].add(kinetic_energy(of, row));
-    sums[1].add(potential_energy(scene, of, row));
-    sums[2].add(elastic_energy(scene, of, row));
+  if (is_held(scene.groups[of.group(row)])) return;
+  if (monitor.kind == MonitorKind::contacts) {
+    sums[2].add(1);
+  } else if (monitor.kind == MonitorKind::energy) {
+    std::size_t k = 0;
+    sums[k++].add(kinetic_energy(of, row));
+    if (scene.of_grains()) sums[k++].add(rotational_energy(of, row));
+    sums[k++].add(potential_energy(scene, of, row));
+    if (!scene.of_grains()) sums[k].add(elastic_energy(scene, of, row));
   } else {
     for (std::size_t a = 0; a < sums.size(); ++a) sums[a].add(m * of.velocity(row, a));
   }
+}
+
+void add_contact(const Monitor& monitor, const ContactRecord& contact, std::span<decomp::ExactSum> sums) {
+  if (monitor.kind == MonitorKind::energy) sums.back().add(contact.energy);
+  if (monitor.kind == MonitorKind::contacts) sums[contact.with_wall() || contact.fixed ? 1 : 0].add(1);
+}
+
+bool looks_at_contacts(const Scene& scene, const Monitor& monitor) {
+  return scene.of_grains() && (monitor.kind == MonitorKind::contacts || monitor.kind == MonitorKind::energy);
+}
+
+/// Place, velocity and force: the same on all ranks without a message.
+std::array<double, 9> values_of_wall(const Simulation& s, int wall) {
+  const auto w = static_cast<std::size_t>(wall);
+  const PlaneNow plane = s.grains()->planes(s.global())[w];
+  const WallState& state = s.global().walls[w];
+  std::array<double, 9> out{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    out[a] = s.scale().metres(plane.point[a]);
+    out[3 + a] = state.velocity[a];
+    out[6 + a] = s.grains()->wall_force_newton(state.force[a]);
+  }
+  return out;
 }
 
 /// The values of the chosen particles, one after the other. Bits travel unchanged: all but the owner have
@@ -144,7 +132,9 @@ void Monitors::make_names(const Simulation& s) {
   for (const Monitor& m : s.scene().output.monitors) {
     std::vector<std::string> quantities = ParticleValues::names(s.particles());
     if (m.kind == MonitorKind::group) quantities.insert(quantities.begin(), "n");
-    if (m.kind == MonitorKind::energy) quantities = {"kinetic", "potential", "elastic"};
+    if (m.kind == MonitorKind::energy) quantities = energy_names(s.particles());
+    if (m.kind == MonitorKind::wall) quantities = {"x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz"};
+    if (m.kind == MonitorKind::contacts) quantities = {"n", "walls", "z"};
     if (m.kind == MonitorKind::momentum) {
       quantities = {"px", "py", "pz"};
       quantities.resize(static_cast<std::size_t>(s.scene().dim));
@@ -153,33 +143,54 @@ void Monitors::make_names(const Simulation& s) {
   }
 }
 
-std::vector<double> Monitors::values(const Simulation& s) const {
+std::vector<double> Monitors::values(Simulation& s) const {
   const std::vector<Monitor>& monitors = s.scene().output.monitors;
+  const bool contacts = std::any_of(monitors.begin(), monitors.end(),
+                                    [&](const Monitor& m) { return looks_at_contacts(s.scene(), m); });
+  if (contacts) s.refresh_contacts();  // may move rows
+
   const ParticleValues of(s);
   std::vector<std::size_t> first{0};
   for (const Monitor& m : monitors) first.push_back(first.back() + sums_of(m, s.particles()));
   std::vector<decomp::ExactSum> sums(first.back());
+  const auto part = [&](std::size_t k) { return std::span(sums).subspan(first[k], first[k + 1] - first[k]); };
   for (std::size_t row = 0; row < s.particles().owned(); ++row)
     for (std::size_t k = 0; k < monitors.size(); ++k)
-      if (first[k + 1] > first[k])
-        add_row(s.scene(), monitors[k], of, row, std::span(sums).subspan(first[k], first[k + 1] - first[k]));
+      if (first[k + 1] > first[k]) add_row(s.scene(), monitors[k], of, row, part(k));
+  if (contacts)
+    for_each_contact(s, [&](const ContactRecord& contact) {
+      for (std::size_t k = 0; k < monitors.size() && contact.counted; ++k)
+        add_contact(monitors[k], contact, part(k));
+    });
   if (!sums.empty()) decomp::ExactSum::all_reduce(s.comm(), sums);
   const std::vector<double> chosen = values_of(s, of, ids_);
 
   std::vector<double> out;
   auto particle = chosen.begin();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < monitors.size(); ++k) {
-    if (monitors[k].kind == MonitorKind::particle) {
-      const auto n = static_cast<std::ptrdiff_t>(ParticleValues::count(s.particles()));
-      out.insert(out.end(), particle, particle + n);
-      particle += n;
-    } else if (monitors[k].kind == MonitorKind::group) {
-      const double number = sums[first[k]].value(), mass = sums[first[k] + 1].value();
-      out.push_back(number);
-      for (std::size_t q = first[k] + 2; q < first[k + 1]; ++q)
-        out.push_back(number > 0 ? sums[q].value() / mass : std::numeric_limits<double>::quiet_NaN());
-    } else {
-      for (std::size_t q = first[k]; q < first[k + 1]; ++q) out.push_back(sums[q].value());
+    std::vector<double> sum;
+    for (const decomp::ExactSum& exact : part(k)) sum.push_back(exact.value());
+    switch (monitors[k].kind) {
+      case MonitorKind::particle: {
+        const auto n = static_cast<std::ptrdiff_t>(ParticleValues::count(s.particles()));
+        out.insert(out.end(), particle, particle + n);
+        particle += n;
+        break;
+      }
+      case MonitorKind::group:
+        out.push_back(sum[0]);
+        for (std::size_t q = 2; q < sum.size(); ++q) out.push_back(sum[0] > 0 ? sum[q] / sum[1] : none);
+        break;
+      case MonitorKind::wall:
+        for (double value : values_of_wall(s, monitors[k].wall)) out.push_back(value);
+        break;
+      case MonitorKind::contacts:
+        out.insert(out.end(), {sum[0], sum[1], sum[2] > 0 ? (2 * sum[0] + sum[1]) / sum[2] : none});
+        break;
+      case MonitorKind::energy:
+      case MonitorKind::momentum:
+        out.insert(out.end(), sum.begin(), sum.end());
     }
   }
   return out;
@@ -189,7 +200,7 @@ double kinetic_energy(const Simulation& s) {
   const ParticleValues of(s);
   decomp::ExactSum sum;
   for (std::size_t row = 0; row < s.particles().owned(); ++row)
-    if (s.scene().groups[of.group(row)].kind != GroupKind::wall) sum.add(kinetic_energy(of, row));
+    if (!is_held(s.scene().groups[of.group(row)])) sum.add(kinetic_energy(of, row));
   decomp::ExactSum::all_reduce(s.comm(), std::span(&sum, 1));
   return sum.value();
 }

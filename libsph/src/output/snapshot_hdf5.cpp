@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <span>
 
-#include "decomp/migrate.hpp"
 #include "output/fill_file.hpp"
+#include "output/sorted_table.hpp"
 #include "sph/report.hpp"
 #include "sph/snapshot.hpp"
 
@@ -12,7 +11,6 @@ namespace sph {
 namespace {
 
 constexpr std::size_t conversion_rows = std::size_t{1} << 20;
-constexpr int id_column = 0;  // the field table begins with the id
 
 std::vector<Field> fields_of(const Particles& particles) {
   std::vector<Field> out;
@@ -21,8 +19,8 @@ std::vector<Field> fields_of(const Particles& particles) {
   return out;
 }
 
-/// The columns to write, in a table of their own: they are about to be sorted. Column k holds field k, then
-/// follow the extra columns.
+/// The columns to write, in a table of their own: they are about to be sorted. Column k holds field k, the
+/// id first as in the field table, then follow the extra columns.
 decomp::Table copy(const Particles& particles, const std::vector<Field>& fields, const Wrap& wrap,
                    const std::vector<ExtraColumn>& extra) {
   decomp::Table table;
@@ -51,34 +49,60 @@ decomp::Table copy(const Particles& particles, const std::vector<Field>& fields,
   return table;
 }
 
-/// Rank r gets the r-th of equal ranges of ids, then sorts its rows.
-void sort_by_id(const decomp::Comm& comm, decomp::Table& table) {
-  const auto* id = table.as<std::uint64_t>(id_column);
-  // Flipping the top bit makes the order of int64, which the reduction knows, that of the ids.
-  constexpr std::uint64_t top = std::uint64_t{1} << 63;
-  const auto key = [](std::uint64_t x) { return static_cast<std::int64_t>(x ^ top); };
-  std::int64_t greatest = key(0);
-  std::int64_t least_negated = key(0);
-  for (std::size_t row = 0; row < table.owned(); ++row) {
-    greatest = std::max(greatest, key(id[row]));
-    least_negated = std::max(least_negated, key(~id[row]));
-  }
-  const std::uint64_t last = static_cast<std::uint64_t>(comm.max(greatest)) ^ top;
-  const std::uint64_t first = ~(static_cast<std::uint64_t>(comm.max(least_negated)) ^ top);
-
-  if (comm.size() > 1) {
-    const std::uint64_t range = (last - first) / static_cast<std::uint64_t>(comm.size()) + 1;
-    std::vector<decomp::Rank> owner(table.owned());
-    for (std::size_t row = 0; row < owner.size(); ++row)
-      owner[row] = static_cast<decomp::Rank>((id[row] - first) / range);
-    decomp::redistribute(comm, owner, table, nullptr);
-    id = table.as<std::uint64_t>(id_column);
-  }
-  std::vector<std::uint32_t> order(table.owned());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
-  table.reorder(order);
+/// Contacts as a table; id and partner come first, for the sort.
+decomp::Table copy(const ContactColumns& contacts) {
+  decomp::Table table;
+  const std::size_t rows = contacts.id.size();
+  const auto add = [&](const std::string& name, const auto& values, std::size_t components) {
+    if (values.size() != components * rows)
+      throw std::logic_error("contacts of the snapshot: " + name + " does not have one value per contact");
+    table.add_column(name, 8 * components);
+  };
+  add("id", contacts.id, 1);
+  add("partner", contacts.partner, 1);
+  add("point", contacts.point, 3);
+  add("force", contacts.force, 3);
+  add("overlap", contacts.overlap, 1);
+  table.resize(rows, 0);
+  int to = 0;
+  const auto fill = [&](const auto& values) {
+    decomp::Column& column = table.column(to++);
+    if (!values.empty()) std::memcpy(column.data(), values.data(), rows * column.width());
+  };
+  fill(contacts.id);
+  fill(contacts.partner);
+  fill(contacts.point);
+  fill(contacts.force);
+  fill(contacts.overlap);
+  return table;
 }
+
+std::vector<DataSet> contact_sets(std::uint64_t rows) {
+  return {{"contacts/id", Element::u64, rows, 1, "1", "the lower id of the two, or the grain at a wall"},
+          {"contacts/partner", Element::u64, rows, 1, "1", "the higher id, or 2^63 + index of the wall"},
+          {"contacts/point", Element::f64, rows, 3, "m", "middle of the overlap, or on the wall"},
+          {"contacts/force", Element::f64, rows, 3, "N",
+           "on id: elastic normal force at the present overlap and tangential spring, no dashpots"},
+          {"contacts/overlap", Element::f64, rows, 1, "m", "r_i + r_j - distance"}};
+}
+
+/// A table as it goes into the file: sorted unless it is too long, with this rank's place in it.
+struct Placed {
+  decomp::Table table;
+  std::int64_t all_rows = 0;
+  std::uint64_t first = 0, rows = 0;
+
+  void place(const decomp::Comm& comm, std::int64_t sort_limit, int keys) {
+    all_rows = comm.sum(static_cast<std::int64_t>(table.owned()));
+    if (all_rows <= sort_limit) sort_by_id(comm, table, keys);
+    rows = static_cast<std::uint64_t>(table.owned());
+    first = static_cast<std::uint64_t>(comm.exclusive_sum(static_cast<std::int64_t>(rows)));
+  }
+  void write(SharedHdf5File& file, const std::vector<DataSet>& sets) const {
+    for (int c = 0; c < table.columns(); ++c)
+      file.write(sets[static_cast<std::size_t>(c)], first, rows, table.column(c).data());
+  }
+};
 
 std::vector<Attribute> attributes_of(int dim, std::int64_t rows, const GlobalState& global,
                                      const PositionScale& scale, const Provenance& provenance) {
@@ -139,32 +163,39 @@ void write_metres(SharedHdf5File& file, const DataSet& set, std::uint64_t first,
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
                     const Provenance& provenance, const std::vector<ExtraColumn>& extra,
-                    std::int64_t sort_limit) {
+                    std::int64_t sort_limit, const ContactColumns* contacts) {
   const std::string what = "cannot write " + path.string();
   const std::vector<Field> fields = fields_of(particles);
-  decomp::Table table;
-  all_or_none(comm, what, [&] { table = copy(particles, fields, wrap, extra); });
-  const std::int64_t all_rows = comm.sum(static_cast<std::int64_t>(table.owned()));
-  if (all_rows <= sort_limit) sort_by_id(comm, table);
-  const auto rows = static_cast<std::uint64_t>(table.owned());
-  const auto first = static_cast<std::uint64_t>(comm.exclusive_sum(static_cast<std::int64_t>(rows)));
-
+  Placed rows, touching;
+  all_or_none(comm, what, [&] {
+    rows.table = copy(particles, fields, wrap, extra);
+    if (contacts != nullptr) touching.table = copy(*contacts);
+  });
+  rows.place(comm, sort_limit, 1);
   const std::vector<DataSet> sets =
-      data_sets_of(particles.dim(), static_cast<std::uint64_t>(all_rows), fields, extra);
+      data_sets_of(particles.dim(), static_cast<std::uint64_t>(rows.all_rows), fields, extra);
+  std::vector<DataSet> all_sets = sets, sets_of_contacts;
+  if (contacts != nullptr) {
+    touching.place(comm, sort_limit, 2);
+    sets_of_contacts = contact_sets(static_cast<std::uint64_t>(touching.all_rows));
+    all_sets.insert(all_sets.end(), sets_of_contacts.begin(), sets_of_contacts.end());
+  }
+
   std::filesystem::path temporary = path;
   temporary += ".tmp";
   try {
     all_or_none(comm, what, [&] {
       if (comm.rank() == 0)
-        lay_out(temporary, attributes_of(particles.dim(), all_rows, global, scale, provenance), sets);
+        lay_out(temporary, attributes_of(particles.dim(), rows.all_rows, global, scale, provenance),
+                all_sets);
     });
     fill_in(comm, comm, temporary, what, [&](SharedHdf5File& file) {
-      for (int c = 0; c < table.columns(); ++c)
-        file.write(sets[static_cast<std::size_t>(c)], first, rows, table.column(c).data());
+      rows.write(file, sets);
+      touching.write(file, sets_of_contacts);
       const auto position = std::find(fields.begin(), fields.end(), Field::position) - fields.begin();
       if (particles.has(Field::position))
-        write_metres(file, sets.back(), first, rows, table.as<std::int64_t>(static_cast<int>(position)),
-                     scale);
+        write_metres(file, sets.back(), rows.first, rows.rows,
+                     rows.table.as<std::int64_t>(static_cast<int>(position)), scale);
     });
     all_or_none(comm, what, [&] {
       if (comm.rank() == 0) rename_durably(temporary, path);

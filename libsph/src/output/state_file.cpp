@@ -86,11 +86,14 @@ class SnapshotFile : public StateFile {
     s.scale.quantum = file.real("quantum");
     for (const FieldInfo& i : field_table) {
       if (!file.has(set_of(i.field))) continue;
-      if (i.state)
+      // The stress of a grain is derived from its contacts.
+      if (i.state && !(i.field == Field::stress && file.has(set_of(Field::radius))))
         s.fields.push_back(i.field);
       else
         s.other_fields.emplace_back(i.name);
     }
+    if (file.has("particles/coordination")) s.other_fields.emplace_back("coordination");
+    if (file.has("contacts/id")) s.contacts = file.rows("contacts/id");
     s.fingerprint = file.text("fingerprint");
     s.scene_toml = file.text("scene");
     s.version = file.text("version");

@@ -24,6 +24,7 @@ struct StateSummary {
   std::vector<std::string> other_fields;
   bool history = false;  ///< are contact histories stored
   std::string fingerprint, scene_toml, version, git, compiler, flags;
+  std::optional<std::uint64_t> contacts = std::nullopt;  ///< rows of a snapshot's contacts, if it has them
 };
 
 class StateFile {

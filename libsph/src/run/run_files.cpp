@@ -6,8 +6,8 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
-#include "output/averages.hpp"
 #include "output/durable_file.hpp"
+#include "output/extra_columns.hpp"
 #include "run/agree.hpp"
 #include "sph/checkpoint.hpp"
 
@@ -137,7 +137,7 @@ Provenance RunFiles::provenance(const Simulation& s) const {
   return {to_toml(s.scene()), s.fingerprint(), group_names(s.scene())};
 }
 
-void RunFiles::add_series_row(const Simulation& s) {
+void RunFiles::add_series_row(Simulation& s) {
   const std::vector<double> values = monitors_.values(s);
   if (s.comm().rank() != 0 || failed()) return;
   failure_ = attempt([&] { series_->add(s.global().step, s.global().time, values); });
@@ -152,9 +152,11 @@ void RunFiles::check(const Simulation& s) const {
 void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
   const GlobalState& g = s.global();
   const SnapshotEntry entry{fmt::format("snapshot_{:09}.h5", g.step), g.step, g.time, s.particle_count()};
-  const std::vector<ExtraColumn> extra = averages(s);
+  const std::vector<ExtraColumn> extra = extra_columns(s);
+  const OutputControl& output = s.scene().output;
+  const ContactColumns contacts = output.contacts ? contact_columns(s) : ContactColumns{};
   write_snapshot(s.comm(), dir_ / entry.file, s.particles(), g, s.scale(), s.wrap(), provenance(s), extra,
-                 s.scene().output.sort_limit);
+                 output.sort_limit, output.contacts ? &contacts : nullptr);
   std::vector<SnapshotEntry> listed = snapshots_;
   listed.push_back(entry);
   if (scheduled) snapshots_ = listed;

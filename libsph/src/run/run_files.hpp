@@ -36,7 +36,7 @@ class RunFiles {
   RunFiles(const Simulation& simulation, std::filesystem::path dir, const RunMemory& memory);
 
   /// A row that rank 0 cannot write is its `failure` until the ranks meet in check(): no reduction for a row.
-  void add_series_row(const Simulation& simulation);
+  void add_series_row(Simulation& simulation);
   [[nodiscard]] bool failed() const { return !failure_.empty(); }  ///< not collective
   void check(const Simulation& simulation) const;                  ///< throws what failed
   /// `scheduled`: it belongs to the run's rhythm and is remembered; the last state need not.

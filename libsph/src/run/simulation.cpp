@@ -146,6 +146,12 @@ void Simulation::refresh_halo(FieldSet fields) {
   refresh_end();
 }
 
+void Simulation::refresh_contacts() {
+  if (stale_) rebuild();
+  stale_ = false;
+  refresh_halo(grains_->reads());
+}
+
 // The one reduction of a step. What it brings acts in the next step.
 std::int64_t Simulation::finish_step(std::int64_t request) {
   const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
@@ -167,8 +173,9 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   if (all[2] > 0) stop_at_bad_particle();
   if (grains_) {
     guard_sweep(all);
-    grains_->move_walls(global_, wall_force);
+    // Walls drift before servos change their speeds.
     moved_ += 1.0001 * std::max(all[0], grains_->fastest_wall(global_)) * global_.dt;
+    grains_->move_walls(global_, wall_force);
   } else {
     moved_ += physics_.longest_shift(global_);
   }
