@@ -3,6 +3,7 @@
 import numpy as np
 
 WINDOW = 1.0  # standard deviation of the Gaussian that smooths displacements, in diameters
+BAND = 5.0    # half the width of a shear band, in diameters
 
 
 def smooth(values, sigma):
@@ -74,9 +75,9 @@ class Fault:
 
 
 def find_faults(gamma, grid, surface, wall, diameter, most=6):
-    """The lines along which the mean shear strain is largest, one after the other: what lies within three
-    diameters of a line is left out of the search for the next. Lines on which strain is below 40 % of the first
-    one's, or twice the mean of the sand, are no faults."""
+    """The lines along which the mean shear strain is largest, one after the other: what lies within BAND of a
+    line is left out of the search for the next. Lines on which strain is below half the first one's, or 2.5 times
+    the mean of the sand, are no faults."""
     strain = np.nan_to_num(gamma)
     mean = np.nanmean(gamma)
     dips = np.concatenate([np.arange(12.0, 66.0), -np.arange(12.0, 66.0)])
@@ -105,10 +106,10 @@ def find_faults(gamma, grid, surface, wall, diameter, most=6):
             at = int(np.argmax(score))
             if best is None or score[at] > best.strain:
                 best = Fault(float(roots[at]), float(dip), float(top[at]), float(score[at]))
-        if best.strain < 2 * mean or (found and best.strain < 0.4 * found[0].strain):
+        if best.strain < 2.5 * mean or (found and best.strain < 0.5 * found[0].strain):
             break
         found.append(best)
         angle = np.radians(best.dip)
         distance = np.abs((mesh_x - best.root) * np.sin(angle) - mesh_z * np.cos(angle))
-        strain = np.where(distance < 3 * diameter, 0, strain)
+        strain = np.where(distance < BAND * diameter, 0, strain)
     return found
