@@ -6,6 +6,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
 from PIL import Image
 
@@ -14,7 +15,8 @@ from wedge import critical_taper
 
 # Three layers, each in two tones: offsets show better in thin bands.
 LAYERS = ("#8a5a33", "#a87142", "#d9b779", "#ecd39e", "#4f7f78", "#6fa39a")
-FORWARD, BACK, WALL = "#c1272d", "#1b6ca8", "#555555"
+FORWARD, BACK, WALL, CHAIN = "#c1272d", "#1b6ca8", "#555555", "#7a1f1f"
+CURVES = ("#8a6d1d", "#3a7d44", "#7a4f9e")
 STYLE = {
     "font.size": 10, "axes.titlesize": 10, "axes.titlelocation": "left",
     "axes.edgecolor": "#555555", "axes.linewidth": 0.8, "axes.axisbelow": True, "grid.color": "#dddddd",
@@ -37,18 +39,18 @@ def sheet(history, number, bar=False):
     high = 100 * 1.12 * max(m.surface.height.max() for m in history.moments)
     low, right = 100 * history.wall_start - 0.5, 100 * history.far + 0.5
     inches = width * (high + 0.6) / (right - low)
-    gap, above, below = 0.32, 0.45, 0.5 + 0.6 * bar
-    size = (width + 0.8, above + number * (inches + gap) + below)
+    gap, above, below = 0.32, 0.45, 0.5 + 0.75 * bar
+    size = (width + 0.95, above + number * (inches + gap) + below)
     figure = plt.figure(figsize=size)
     for k in range(number):
         top = size[1] - above - k * (inches + gap) - 0.15
-        axes = figure.add_axes([0.55 / size[0], (top - inches) / size[1], width / size[0], inches / size[1]])
+        axes = figure.add_axes([0.7 / size[0], (top - inches) / size[1], width / size[0], inches / size[1]])
         axes.set(xlim=(low, right), ylim=(-0.6, high), ylabel="z (cm)")
         axes.tick_params(labelbottom=k == number - 1)
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
     figure.axes[-1].set_xlabel("x (cm)")
-    figure.text(0.55 / size[0], 1 - 0.2 / size[1], history.run.title, fontsize=13, weight="bold", va="center")
+    figure.text(0.7 / size[0], 1 - 0.2 / size[1], history.run.title, fontsize=13, weight="bold", va="center")
     return figure, list(figure.axes)
 
 
@@ -94,7 +96,7 @@ def draw_strain(history):
         axes.set_title(f"shortening {100 * moment.since:.1f} to {100 * moment.shortening:.1f} cm", pad=2)
     panels[0].legend(handles=[Line2D([], [], color=FORWARD, label="forward thrust, dip"),
                               Line2D([], [], color=BACK, label="back thrust")], loc="upper right", ncols=2)
-    place = figure.add_axes([0.25, 0.42 / figure.get_figheight(), 0.5, 0.12 / figure.get_figheight()])
+    place = figure.add_axes([0.25, 0.55 / figure.get_figheight(), 0.5, 0.12 / figure.get_figheight()])
     figure.colorbar(drawn, cax=place, orientation="horizontal", label="shear strain meanwhile", extend="max")
     return figure
 
@@ -106,7 +108,7 @@ def draw_chains(history):
         contacts = Contacts(moment.snapshot)
         circles(axes, moment.snapshot, facecolors="#efe9dc")
         width = 0.28 * np.minimum(contacts.strength, 12)
-        axes.add_collection(LineCollection(100 * contacts.lines, linewidths=width, colors="#7a1f1f"))
+        axes.add_collection(LineCollection(100 * contacts.lines, linewidths=width, colors=CHAIN))
         draw_walls(axes, history, moment)
         axes.set_title(f"shortening {100 * moment.shortening:.1f} cm: contacts above the mean force of "
                        f"{1e3 * contacts.mean_force:.2g} mN; coordination {contacts.coordination:.2f}, fabric anisotropy "
@@ -132,7 +134,7 @@ def draw_stress(history):
         centre = 100 * np.stack([history.grid.centres(0)[i], history.grid.centres(1)[k]], axis=1)
         axes.add_collection(LineCollection(np.stack([centre - arm, centre + arm], axis=1), colors="white", linewidths=0.9))
         draw_walls(axes, history, moment)
-    place = figure.add_axes([0.25, 0.42 / figure.get_figheight(), 0.5, 0.12 / figure.get_figheight()])
+    place = figure.add_axes([0.25, 0.55 / figure.get_figheight(), 0.5, 0.12 / figure.get_figheight()])
     figure.colorbar(drawn, cax=place, orientation="horizontal", extend="max",
                     label="pressure in the plane (kPa); lines: direction of the greatest compression")
     return figure
@@ -143,22 +145,22 @@ def draw_history(history, sand, floor):
     way = 100 * history.speed * (table["t"] - history.begin)
     moving = way >= 0
     figure, (force, slope, order) = plt.subplots(3, 1, figsize=(9, 8), sharex=True, layout="constrained")
-    weight = 1e3 * np.abs(table["back_fx"]) / history.run.width / 1e3
-    force.plot(way[moving], weight[moving], color="#1b6ca8", linewidth=0.9)
-    force.set_ylabel("force on the back wall\n(N per mm of width)")
+    force.plot(way[moving], np.abs(table["back_fx"][moving]) / history.run.width, color="#1b6ca8", linewidth=0.9)
+    force.set_ylabel("force on the back wall\n(N per m of width)")
+    force.set_ylim(bottom=0)
     shortening = [100 * m.shortening for m in history.moments]
-    slope.plot(shortening, [m.taper for m in history.moments], "o-", color="#3a7d44", markersize=3, linewidth=1)
+    slope.plot(shortening, [m.taper for m in history.moments], "o-", color=CURVES[1], markersize=3, linewidth=1)
     least, after = (critical_taper(sand[k], floor[k]) for k in (0, 1))
-    slope.axhspan(min(least, after), max(least, after), color="#3a7d44", alpha=0.18, linewidth=0)
+    slope.axhspan(min(least, after), max(least, after), color=CURVES[1], alpha=0.18, linewidth=0)
     slope.annotate("least stable slope", (0.01, max(least, after)), xycoords=("axes fraction", "data"), xytext=(0, 2),
-                   textcoords="offset points", fontsize=8, color="#3a7d44")
-    slope.set_ylabel("slope of the surface (°)")
+                   textcoords="offset points", fontsize=8, color=CURVES[1])
+    slope.set(ylabel="slope of the surface (°)", ylim=(0, 12))
     for moment in history.moments:
         for fault in moment.faults:
             order.plot(100 * moment.shortening, 100 * fault.root, "^" if fault.dip > 0 else "v", markersize=5,
                        color=FORWARD if fault.dip > 0 else BACK, alpha=0.8)
     order.plot(shortening, [100 * m.wall for m in history.moments], color=WALL, linewidth=2, label="back wall")
-    order.plot(shortening, [100 * m.front for m in history.moments], color="#8a6d1d", linewidth=1, label="front of the rise")
+    order.plot(shortening, [100 * m.front for m in history.moments], color=CURVES[0], linewidth=1, label="front of the rise")
     handles, labels = order.get_legend_handles_labels()
     handles += [Line2D([], [], color=FORWARD, marker="^", linestyle="", label="root of a forward thrust"),
                 Line2D([], [], color=BACK, marker="v", linestyle="", label="root of a back thrust")]
@@ -173,7 +175,7 @@ def draw_history(history, sand, floor):
 
 def draw_shear(boxes):
     figure, axes = plt.subplots(figsize=(9, 4), layout="constrained")
-    for box, colour in zip(boxes, ("#8a5a33", "#4f7f78", "#7a4f9e", "#444444")):
+    for box, colour in zip(boxes, (LAYERS[0], BACK, CURVES[2], WALL)):
         axes.plot(box.way / box.height, box.ratio, color=colour, linewidth=0.4, alpha=0.4)
         name = {"sand": "sand on sand", "floor": "sand on the floor"}[box.name]
         axes.plot(box.way / box.height, box.smoothed, color=colour, linewidth=1.5,
@@ -187,8 +189,13 @@ def draw_shear(boxes):
 
 
 def save(figure, path):
-    """With few colours: a quarter as large."""
+    """With few colours: a quarter as large. Our own, which may be rare, are among them in two shades."""
     figure.canvas.draw()
     picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])
-    picture.quantize(96, dither=Image.Dither.NONE).save(path, optimize=True)
+    own = np.array([to_rgb(c) for c in ("white", "black", *LAYERS, *CURVES, FORWARD, BACK, WALL, CHAIN)])
+    own = np.concatenate([255 * own, 255 * (0.6 * own + 0.4)]).round().astype(np.uint8)
+    frequent = picture.quantize(200, dither=Image.Dither.NONE).getpalette()[:600]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*own.ravel().tolist(), *frequent])
+    picture.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
     plt.close(figure)
