@@ -5,7 +5,7 @@ import numpy as np
 from strain import Grid, find_faults, shear_strain
 from wedge import Surface
 
-STEP = 0.008  # shortening between the two snapshots that show the active faults, at least [m]
+STEP = 0.004  # shortening between the two snapshots that show the active faults, at least [m]
 
 
 class Moment:

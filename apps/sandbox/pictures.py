@@ -89,9 +89,10 @@ def draw_strain(history):
         axes.plot(100 * moment.surface.x, 100 * moment.surface.height, color="#333333", linewidth=0.7)
         for fault in moment.faults:
             (x0, x1), (z0, z1) = fault.ends
-            axes.plot([100 * x0, 100 * x1], [100 * z0, 100 * z1], color=FORWARD if fault.dip > 0 else BACK, linewidth=1.6)
+            colour = FORWARD if fault.dip > 0 else BACK
+            axes.plot([100 * x0, 100 * x1], [100 * z0, 100 * z1], color=colour, linewidth=1.6)
             axes.annotate(f"{abs(fault.dip):.0f}°", (100 * x1, 100 * z1), xytext=(0, 3), textcoords="offset points",
-                          ha="center", fontsize=8, color=FORWARD if fault.dip > 0 else BACK)
+                          ha="center", fontsize=8, color=colour)
         draw_walls(axes, history, moment)
         axes.set_title(f"shortening {100 * moment.since:.1f} to {100 * moment.shortening:.1f} cm", pad=2)
     panels[0].legend(handles=[Line2D([], [], color=FORWARD, label="forward thrust, dip"),
@@ -111,7 +112,7 @@ def draw_chains(history):
         axes.add_collection(LineCollection(100 * contacts.lines, linewidths=width, colors=CHAIN))
         draw_walls(axes, history, moment)
         axes.set_title(f"shortening {100 * moment.shortening:.1f} cm: contacts above the mean force of "
-                       f"{1e3 * contacts.mean_force:.2g} mN; coordination {contacts.coordination:.2f}, fabric anisotropy "
+                       f"{1e3 * contacts.mean_force:.2g} mN; coordination {contacts.coordination:.2f}, anisotropy "
                        f"{contacts.anisotropy:.2f} along {contacts.direction:.0f}°", pad=2)
     return figure
 
@@ -132,7 +133,8 @@ def draw_stress(history):
         i, k = i[inside], k[inside]
         arm = 0.25 * np.stack([np.cos(angle[i, k]), np.sin(angle[i, k])], axis=1)
         centre = 100 * np.stack([history.grid.centres(0)[i], history.grid.centres(1)[k]], axis=1)
-        axes.add_collection(LineCollection(np.stack([centre - arm, centre + arm], axis=1), colors="white", linewidths=0.9))
+        ends = np.stack([centre - arm, centre + arm], axis=1)
+        axes.add_collection(LineCollection(ends, colors="white", linewidths=0.9))
         draw_walls(axes, history, moment)
     place = figure.add_axes([0.25, 0.55 / figure.get_figheight(), 0.5, 0.12 / figure.get_figheight()])
     figure.colorbar(drawn, cax=place, orientation="horizontal", extend="max",
@@ -160,7 +162,8 @@ def draw_history(history, sand, floor):
             order.plot(100 * moment.shortening, 100 * fault.root, "^" if fault.dip > 0 else "v", markersize=5,
                        color=FORWARD if fault.dip > 0 else BACK, alpha=0.8)
     order.plot(shortening, [100 * m.wall for m in history.moments], color=WALL, linewidth=2, label="back wall")
-    order.plot(shortening, [100 * m.front for m in history.moments], color=CURVES[0], linewidth=1, label="front of the rise")
+    order.plot(shortening, [100 * m.front for m in history.moments], color=CURVES[0], linewidth=1,
+               label="front of the rise")
     handles, labels = order.get_legend_handles_labels()
     handles += [Line2D([], [], color=FORWARD, marker="^", linestyle="", label="root of a forward thrust"),
                 Line2D([], [], color=BACK, marker="v", linestyle="", label="root of a back thrust")]
@@ -191,11 +194,16 @@ def draw_shear(boxes):
 def save(figure, path):
     """With few colours: a quarter as large. Our own, which may be rare, are among them in two shades."""
     figure.canvas.draw()
-    picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])
+    rgb = np.asarray(figure.canvas.buffer_rgba())[:, :, :3]
     own = np.array([to_rgb(c) for c in ("white", "black", *LAYERS, *CURVES, FORWARD, BACK, WALL, CHAIN)])
     own = np.concatenate([255 * own, 255 * (0.6 * own + 0.4)]).round().astype(np.uint8)
-    frequent = picture.quantize(200, dither=Image.Dither.NONE).getpalette()[:600]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([*own.ravel().tolist(), *frequent])
-    picture.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
+    frequent = Image.fromarray(rgb).quantize(200, dither=Image.Dither.NONE).getpalette()[:600]
+    palette = np.concatenate([own, np.reshape(frequent, (-1, 3)).astype(np.uint8)])
+    packed = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
+    colours, where = np.unique(packed, return_inverse=True)
+    distance = sum(((colours[:, None] >> shift & 255).astype(np.int32) - palette[None, :, c]) ** 2
+                   for c, shift in enumerate((16, 8, 0)))
+    picture = Image.fromarray(distance.argmin(axis=1).astype(np.uint8)[where].reshape(rgb.shape[:2]), mode="P")
+    picture.putpalette(palette.tobytes())
+    picture.save(path, optimize=True)
     plt.close(figure)

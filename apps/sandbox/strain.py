@@ -74,42 +74,47 @@ class Fault:
         return (self.root, x), (0.0, self.top)
 
 
+def best_of_dip(strain, grid, surface, wall, diameter, dip):
+    """The line of that dip, from the floor to the surface, with the most strain."""
+    tangent = np.tan(np.radians(dip))
+    roots = np.arange(wall, grid.centres(0)[-1], diameter)
+    top = surface.at(roots)
+    for _ in range(3):  # where the line meets the surface
+        top = surface.at(roots + top / tangent)
+    ends = roots + top / tangent
+    # Points along each line, as many for all, from a diameter above the floor to one below the surface.
+    z = diameter + np.linspace(0, 1, 40)[None, :] * np.maximum(top - 2 * diameter, diameter)[:, None]
+    i, k = grid.index(np.stack([(roots[:, None] + z / tangent).ravel(), z.ravel()], axis=1))
+    values = strain[i, k].reshape(z.shape)
+    # Half of it the mean, half the weaker quarter: a band must go all the way through.
+    score = 0.5 * values.mean(axis=1) + 0.5 * np.quantile(values, 0.25, axis=1)
+    score[(ends < wall) | (ends > grid.centres(0)[-1])] = 0
+    at = int(np.argmax(score))
+    return Fault(float(roots[at]), float(dip), float(top[at]), float(score[at]))
+
+
 def find_faults(gamma, grid, surface, wall, diameter, most=6):
     """The lines along which the mean shear strain is largest, one after the other: what lies within BAND of a
-    line is left out of the search for the next. Lines on which strain is below half the first one's, or 2.5 times
-    the mean of the sand, are no faults."""
-    strain = np.nan_to_num(gamma)
+    line is left out of the search for more lines of its sense. Lines on which strain is below half the first
+    one's, or 2.5 times the mean of the sand, are no faults."""
+    blurred = smooth(np.nan_to_num(gamma), 1.5 * diameter / grid.cell)  # lines go through the middle of wide bands
+    strain = {1: blurred, -1: blurred.copy()}
     mean = np.nanmean(gamma)
-    dips = np.concatenate([np.arange(12.0, 66.0), -np.arange(12.0, 66.0)])
-    xs, zs = grid.centres(0), grid.centres(1)
-    mesh_x, mesh_z = np.meshgrid(xs, zs, indexing="ij")
-    found = []
-    for _ in range(most):
-        best = None
-        for dip in dips:
-            tangent = np.tan(np.radians(dip))
-            roots = np.arange(wall, xs[-1], diameter)
-            # Points along each line, as many for all, from a diameter above the floor to one below the surface.
-            share = np.linspace(0, 1, 40)
-            top = surface.at(roots)
-            for _ in range(3):  # where the line meets the surface
-                top = surface.at(roots + top / tangent)
-            ends = roots + top / tangent
-            z = diameter + share[None, :] * np.maximum(top - 2 * diameter, diameter)[:, None]
-            x = roots[:, None] + z / tangent
-            i = np.clip(((x - grid.lower[0]) / grid.cell).astype(int), 0, grid.shape[0] - 1)
-            k = np.clip(((z - grid.lower[1]) / grid.cell).astype(int), 0, grid.shape[1] - 1)
-            values = strain[i, k]
-            # Half of it the mean, half the weaker quarter: a band must go all the way through.
-            score = 0.5 * values.mean(axis=1) + 0.5 * np.quantile(values, 0.25, axis=1)
-            score[(ends < wall) | (ends > xs[-1])] = 0
-            at = int(np.argmax(score))
-            if best is None or score[at] > best.strain:
-                best = Fault(float(roots[at]), float(dip), float(top[at]), float(score[at]))
-        if best.strain < 2.5 * mean or (found and best.strain < 0.5 * found[0].strain):
+    mesh_x, mesh_z = np.meshgrid(grid.centres(0), grid.centres(1), indexing="ij")
+
+    def best(sense):
+        lines = [best_of_dip(strain[sense], grid, surface, wall, diameter, sense * dip) for dip in np.arange(12.0, 66.0)]
+        return max(lines, key=lambda line: line.strain)
+
+    found, next_one = [], {sense: best(sense) for sense in strain}
+    while len(found) < most:
+        sense = max(next_one, key=lambda s: next_one[s].strain)
+        fault = next_one[sense]
+        if fault.strain < 2.5 * mean or (found and fault.strain < 0.5 * found[0].strain):
             break
-        found.append(best)
-        angle = np.radians(best.dip)
-        distance = np.abs((mesh_x - best.root) * np.sin(angle) - mesh_z * np.cos(angle))
-        strain = np.where(distance < BAND * diameter, 0, strain)
+        found.append(fault)
+        angle = np.radians(fault.dip)
+        distance = np.abs((mesh_x - fault.root) * np.sin(angle) - mesh_z * np.cos(angle))
+        strain[sense] = np.where(distance < BAND * diameter, 0, strain[sense])
+        next_one[sense] = best(sense)
     return found
