@@ -29,8 +29,8 @@ def theory(sand, floor):
     for k, name in enumerate(("peak", "residual")):
         forward, back = thrust_dips(sand[k], floor[k])
         yield (f"critical taper with {name} friction, sand {sand[k]:.1f} deg, floor {floor[k]:.1f} deg: slope at "
-               f"least {critical_taper(sand[k], floor[k]):.1f} deg, forward thrusts dip {forward:.1f} deg, back thrusts "
-               f"{back:.1f} deg")
+               f"least {critical_taper(sand[k], floor[k]):.1f} deg, forward thrusts dip {forward:.1f} deg, back "
+               f"thrusts {back:.1f} deg")
 
 
 def measured(history):

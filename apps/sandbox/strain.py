@@ -4,6 +4,7 @@ import numpy as np
 
 WINDOW = 1.0  # standard deviation of the Gaussian that smooths displacements, in diameters
 BAND = 5.0    # half the width of a shear band, in diameters
+DIPS = np.arange(12.0, 66.0)
 
 
 def smooth(values, sigma):
@@ -103,7 +104,7 @@ def find_faults(gamma, grid, surface, wall, diameter, most=6):
     mesh_x, mesh_z = np.meshgrid(grid.centres(0), grid.centres(1), indexing="ij")
 
     def best(sense):
-        lines = [best_of_dip(strain[sense], grid, surface, wall, diameter, sense * dip) for dip in np.arange(12.0, 66.0)]
+        lines = (best_of_dip(strain[sense], grid, surface, wall, diameter, sense * dip) for dip in DIPS)
         return max(lines, key=lambda line: line.strain)
 
     found, next_one = [], {sense: best(sense) for sense in strain}
