@@ -316,6 +316,16 @@ class Cases:
             assert len(kept) == 1 and kept[0].name in result.complaints[0], result.err
             self.run.run(1, "peperite", "info", kept[0])
 
+    def test_grain_guards(self):
+        for ranks in (1, 3):
+            out = f"overlap{ranks}"
+            result = self.run.run(ranks, "peperite", "run", self.grain_scene, "--set", "start.spacing=0.7 mm",
+                                  "--steps", 5, "--out", out, code=3)
+            assert len(result.complaints) == 1 and "contact.largest_overlap" in result.complaints[0], result.err
+            for command in (["check"], ["run", "--out", "bad_step"]):
+                self.run.refused(ranks, "peperite", command[0], self.grain_scene, *command[1:], "--set", "time.dt=1 ms",
+                                 says="above the limit of a stable contact")
+
     def test_used_directory(self):
         self.run.run(1, "buoyant_cylinder", "--steps", 3, "--out", "used")
         before = self.run.files("used")

@@ -51,7 +51,8 @@ struct PlaneNow {
   bool present;
 };
 
-/// What must not change while contacts move between ranks, summed over all: each contact counts once.
+/// What must not change while contacts move between ranks, summed over all: both entries of a pair count,
+/// since two ranks may need one each.
 struct ContactCensus {
   std::uint64_t count = 0, keys = 0;
   friend bool operator==(const ContactCensus&, const ContactCensus&) = default;

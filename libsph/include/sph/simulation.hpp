@@ -63,7 +63,7 @@ class Simulation {
   void step_in_passes();
   void step_in_a_sweep();
   void rebuild();
-  void rebuild_contacts(const decomp::Payload& contacts);
+  void rebuild_contacts(const decomp::Payload& contacts, const ContactCensus& sent);
   enum class Side { interior, boundary };
   void run(const Pass& pass, const PassContext& context, Side side);
   void refresh_begin(FieldSet wanted);
