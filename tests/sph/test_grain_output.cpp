@@ -63,8 +63,7 @@ TEST_F(GrainOutput, ContactsAndStressOfTwoGrainsOnAFloor) {
   EXPECT_EQ(read<double>(file, "particles/coordination", Element::f64), (std::vector<double>{2, 1}));
   const auto stress = read<double>(file, "particles/stress", Element::f64);
   ASSERT_EQ(stress.size(), 12u);
-  for (std::size_t k = 0; k < 12; ++k)
-    EXPECT_NEAR(stress[k], k % 6 == 2 ? stress[k] : 0, 1e-6);
+  for (std::size_t k = 0; k < 12; ++k) EXPECT_NEAR(stress[k], k % 6 == 2 ? stress[k] : 0, 1e-6);
   expect_share(stress[2], -(1 * 0.009 + 1.5 * 0.00925) / volume);
   expect_share(stress[8], -1.5 * 0.00925 / volume);
   EXPECT_NE(describe(file).find("contacts 2"), std::string::npos);
