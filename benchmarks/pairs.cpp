@@ -112,7 +112,7 @@ void shuffle_ids(sph::Particles& p) {
 /// CPU seconds of all passes over all particles with the given lists.
 double pass_seconds(sph::Simulation& s, sph::Particles& particles, const sph::NeighbourLists& lists,
                     const sph::RowRanges& ranges) {
-  static std::vector<std::byte> rows;
+  static decomp::LargeVector<std::byte> rows;
   const double start = cpu_seconds();
   for (const sph::Pass& pass : s.physics().passes()) {
     const sph::PassContext context = s.physics().context(particles, lists, rows);

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Debian's lammps has no SPH package: builds LAMMPS from Debian's own source with it (-O2, as Debian does).
-# Usage: build_lammps.sh DIR   leaves DIR/build/lmp; needs apt-get and the build tools of cmake/packages.sh.
+# Builds LAMMPS from Debian's own source; needs apt-get and the build tools of cmake/packages.sh.
+#   build_lammps.sh DIR          DIR/build/lmp with the SPH package, which Debian's lammps lacks (-O2, as Debian does)
+#   build_lammps.sh DIR native   DIR/native/lmp with the GRANULAR package for this machine (-O3 -march=native)
 set -eu
 dir=$(mkdir -p "$1" && cd "$1" && pwd)
 cd "$dir"
@@ -18,7 +19,9 @@ apt-get $apt update -q
 # shellcheck disable=SC2086
 apt-get $apt source -q --download-only lammps
 tar xf lammps_*.orig.tar.xz
-cmake -S "$(ls -d lammps-*/)/cmake" -B build -G Ninja -D CMAKE_BUILD_TYPE=Release \
-  -D CMAKE_CXX_FLAGS_RELEASE="-O2 -DNDEBUG" -D PKG_SPH=on -D BUILD_MPI=on -D BUILD_OMP=off \
+build=build package=SPH flags=-O2
+[ "${2:-}" != native ] || build=native package=GRANULAR flags="-O3 -march=native"
+cmake -S "$(ls -d lammps-*/)/cmake" -B $build -G Ninja -D CMAKE_BUILD_TYPE=Release \
+  -D CMAKE_CXX_FLAGS_RELEASE="$flags -DNDEBUG" -D PKG_$package=on -D BUILD_MPI=on -D BUILD_OMP=off \
   -D WITH_JPEG=off -D WITH_PNG=off -D WITH_FFMPEG=off
-cmake --build build -j "$(nproc)"
+cmake --build $build -j "$(nproc)"

@@ -2,31 +2,25 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <stdexcept>
 
+#include "decomp/memory.hpp"
 #include "row_copy.hpp"
 
 namespace decomp {
 namespace {
 
-constexpr std::size_t alignment = 64;
 constexpr std::size_t padding = 4096;
-
-std::size_t round_up(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
 
 }  // namespace
 
-void Column::Free::operator()(std::byte* p) const noexcept {
-  ::operator delete[](p, std::align_val_t{alignment});
-}
+void Column::Free::operator()(std::byte* p) const noexcept { release_large(p); }
 
 void Column::reserve(std::size_t rows) {
   if (data_ && rows <= capacity_) return;
   const std::size_t capacity = std::max(rows, capacity_ + capacity_ / 2);
-  const std::size_t bytes = round_up(capacity * width_ + padding);
-  std::unique_ptr<std::byte[], Free> grown(
-      static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{alignment})));
+  const std::size_t bytes = capacity * width_ + padding;
+  std::unique_ptr<std::byte[], Free> grown(static_cast<std::byte*>(allocate_large(bytes)));
   const std::size_t kept = capacity_ * width_;
   if (kept > 0) std::memcpy(grown.get(), data_.get(), kept);
   // Lanes past the last row are computed and thrown away: zeros keep them from raising traps.

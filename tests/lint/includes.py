@@ -6,7 +6,7 @@ from source_files import at, code, cpp
 
 STANDARD = re.compile(r"^[a-z_0-9]+$")
 OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "signal.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "sys/statvfs.h",
-                    "sys/resource.h", "stdlib.h", "time.h"}
+                    "sys/resource.h", "sys/mman.h", "stdlib.h", "time.h"}
 
 # header: files that may include it
 HIDDEN = {

@@ -11,12 +11,18 @@ namespace {
 
 using Order = std::array<std::size_t, factor_count>;
 
-std::size_t levels(std::size_t f) { return factors()[f].levels.size(); }
+using Levels = std::array<std::size_t, factor_count>;
+
+Levels levels_of(Family family) {
+  Levels n;
+  for (std::size_t f = 0; f < factor_count; ++f) n[f] = factors(family)[f].levels.size();
+  return n;
+}
 
 /// Which combinations of levels of three factors f < g < h are still to be covered.
 class Triples {
  public:
-  Triples() {
+  explicit Triples(Family family) : levels_(levels_of(family)) {
     for (std::size_t f = 0; f < factor_count; ++f)
       for (std::size_t g = f + 1; g < factor_count; ++g)
         for (std::size_t h = g + 1; h < factor_count; ++h) {
@@ -27,6 +33,7 @@ class Triples {
   }
 
   [[nodiscard]] bool done() const { return left_ == 0; }
+  [[nodiscard]] std::size_t levels(std::size_t f) const { return levels_[f]; }
 
   /// How many open combinations of `row` have factor `f` and two of `chosen`.
   [[nodiscard]] std::size_t gain(const Row& row, std::size_t f, const Order& chosen,
@@ -73,14 +80,15 @@ class Triples {
            row.level[f[2]];
   }
 
+  Levels levels_;
   std::size_t first_[factor_count][factor_count][factor_count]{};
   std::vector<bool> open_;
   std::size_t left_ = 0;
 };
 
 /// A row that covers an open combination, its other factors set one by one to what covers most.
-std::pair<Row, std::size_t> candidate(const Triples& triples, std::mt19937_64& random) {
-  Row row;
+std::pair<Row, std::size_t> candidate(const Triples& triples, Family family, std::mt19937_64& random) {
+  Row row{family, {}};
   const auto start = triples.open_triple(row, random());
   Order order{};
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -90,10 +98,10 @@ std::pair<Row, std::size_t> candidate(const Triples& triples, std::mt19937_64& r
   });
   std::size_t total = 1;
   for (std::size_t k = start.size(); k < factor_count; ++k) {
-    const std::size_t f = order[k], first = random() % levels(f);
+    const std::size_t f = order[k], first = random() % triples.levels(f);
     std::size_t best = 0, most = 0;
-    for (std::size_t l = 0; l < levels(f); ++l) {
-      row.level[f] = static_cast<std::uint8_t>((first + l) % levels(f));
+    for (std::size_t l = 0; l < triples.levels(f); ++l) {
+      row.level[f] = static_cast<std::uint8_t>((first + l) % triples.levels(f));
       const std::size_t gain = triples.gain(row, f, order, k);
       if (l == 0 || gain > most) best = row.level[f], most = gain;
     }
@@ -105,29 +113,30 @@ std::pair<Row, std::size_t> candidate(const Triples& triples, std::mt19937_64& r
 
 }  // namespace
 
-std::vector<Row> covering_array(std::uint64_t seed) {
+std::vector<Row> covering_array(Family family, std::uint64_t seed) {
   constexpr int candidates = 60;  // more do not make the array notably shorter
   std::mt19937_64 random(seed);
-  Triples triples;
+  Triples triples(family);
   std::vector<Row> rows;
   while (!triples.done()) {
-    auto best = candidate(triples, random);
+    auto best = candidate(triples, family, random);
     for (int c = 1; c < candidates; ++c)
-      if (auto other = candidate(triples, random); other.second > best.second) best = other;
+      if (auto other = candidate(triples, family, random); other.second > best.second) best = other;
     rows.push_back(best.first);
     triples.cover(best.first);
   }
   return rows;
 }
 
-std::size_t uncovered_triples(const std::vector<Row>& rows) {
+std::size_t uncovered_triples(Family family, const std::vector<Row>& rows) {
+  const Levels levels = levels_of(family);
   std::size_t missing = 0;
   for (std::size_t f = 0; f < factor_count; ++f)
     for (std::size_t g = f + 1; g < factor_count; ++g)
       for (std::size_t h = g + 1; h < factor_count; ++h) {
         std::set<std::tuple<int, int, int>> seen;
         for (const Row& row : rows) seen.emplace(row.level[f], row.level[g], row.level[h]);
-        missing += levels(f) * levels(g) * levels(h) - seen.size();
+        missing += levels[f] * levels[g] * levels[h] - seen.size();
       }
   return missing;
 }

@@ -9,10 +9,11 @@
 
 namespace equivalence {
 
-/// No combination of levels is excluded: all scenes exist in both precisions, and all fit on all rank counts.
-[[nodiscard]] std::vector<Row> covering_array(std::uint64_t seed);
+/// No combination of levels is excluded: all scenes of a family exist in all its precisions and fit on all
+/// rank counts.
+[[nodiscard]] std::vector<Row> covering_array(Family family, std::uint64_t seed);
 
 /// Number of 3-way combinations that occur in no row, by plain enumeration; 0 for a covering array.
-[[nodiscard]] std::size_t uncovered_triples(const std::vector<Row>& rows);
+[[nodiscard]] std::size_t uncovered_triples(Family family, const std::vector<Row>& rows);
 
 }  // namespace equivalence

@@ -5,9 +5,10 @@
 //   equivalence --array SEED                    a 3-way covering array of the factors
 //   equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run again
 //   equivalence --row "scene=... ranks=..."     one row, as printed
-// with --seed S (of the order, the cuts and the restarts: 1), --steps N (the last that is compared: 300),
-// --long N (of every eighth row of an array: 2000), --every (compare at every step), --limit SECONDS (start
-// no row after that long). The last line is "N passed, M failed"; exit status 1 if any failed.
+// with --grains (scenes of grains instead of SPH), --seed S (of the order, the cuts and the restarts: 1),
+// --steps N (the last that is compared: 300), --long N (of every eighth row of an array: 2000), --every
+// (compare at every step), --limit SECONDS (start no row after that long). The last line is "N passed, M
+// failed"; exit status 1 if any failed.
 #include <mpi.h>
 #include <unistd.h>
 
@@ -34,6 +35,7 @@ constexpr int most_ranks = 8;
 
 struct Options {
   enum class Mode { array, full, row } mode = Mode::array;
+  Family family = Family::sph;
   std::uint64_t seed = 1;
   std::int64_t steps = 300, long_steps = 2000;
   bool every = false;
@@ -54,6 +56,8 @@ Options parse(int argc, char** argv) {
       o.seed = std::stoull(value());
     else if (key == "--full")
       o.mode = Options::Mode::full;
+    else if (key == "--grains")
+      o.family = Family::grains;
     else if (key == "--row")
       o.mode = Options::Mode::row, o.row = value();
     else if (key == "--seed")
@@ -81,12 +85,12 @@ Options parse(int argc, char** argv) {
 std::vector<Row> rows_of(const Options& o) {
   if (o.mode == Options::Mode::row) return {row_from_text(o.row)};
   if (o.mode == Options::Mode::array) {
-    std::vector<Row> rows = covering_array(o.seed);
-    if (const std::size_t missing = uncovered_triples(rows); missing > 0)
+    std::vector<Row> rows = covering_array(o.family, o.seed);
+    if (const std::size_t missing = uncovered_triples(o.family, rows); missing > 0)
       throw std::runtime_error(std::to_string(missing) + " 3-way combinations are not covered");
     return rows;
   }
-  std::vector<Row> rows = full_product();
+  std::vector<Row> rows = full_product(o.family);
   shuffle(rows, o.seed);
   std::vector<Row> mine;
   for (std::size_t k = o.part - 1; k < rows.size(); k += o.parts) mine.push_back(rows[k]);
@@ -101,7 +105,7 @@ std::vector<Case> cases_of(const Options& o) {
     const std::int64_t last = longer ? std::max(o.steps, o.long_steps) : o.steps;
     Case c{row, {}};
     for (std::int64_t s = 1; s <= last; ++s)
-      if (o.every || s == 1 || s == 100 || s == 300 || s == last) c.steps.push_back(s);
+      if (o.every || s == 1 || s == 100 || s == 300 || s == 3000 || s == last) c.steps.push_back(s);
     cases.push_back(std::move(c));
   }
   return cases;

@@ -8,10 +8,14 @@
 
 namespace equivalence {
 
-const std::array<FactorInfo, factor_count>& factors() {
-  static const std::array<FactorInfo, factor_count> table{{
-      {"scene", {"fluid2d", "solid2d", "gas2d", "ida2d", "flow2d", "fluid3d", "solid3d", "gas3d"}},
-      {"precision", {"double", "mixed"}},
+namespace {
+
+using Table = std::array<FactorInfo, factor_count>;
+
+Table table_of(std::vector<std::string_view> scenes, std::vector<std::string_view> precisions) {
+  return {{
+      {"scene", std::move(scenes)},
+      {"precision", std::move(precisions)},
       {"ranks", {"2", "3", "4", "5", "7", "8"}},
       {"cuts", {"uniform", "time", "counts", "chaos", "replay"}},
       {"overlap", {"on", "off"}},
@@ -20,7 +24,16 @@ const std::array<FactorInfo, factor_count>& factors() {
       // other: from another count above one; from_one: 1 -> ranks; to_one: ranks -> 1
       {"restart", {"none", "other", "from_one", "to_one"}},
   }};
-  return table;
+}
+
+}  // namespace
+
+const Table& factors(Family family) {
+  static const Table sph = table_of(
+      {"fluid2d", "solid2d", "gas2d", "ida2d", "flow2d", "fluid3d", "solid3d", "gas3d"}, {"double", "mixed"});
+  // Contacts are always computed in double.
+  static const Table grains = table_of({"linear", "hertz", "smooth", "sizes", "glued", "servo"}, {"double"});
+  return family == Family::grains ? grains : sph;
 }
 
 int Row::ranks() const {
@@ -34,7 +47,8 @@ std::string to_text(const Row& row) {
   std::string text;
   for (std::size_t f = 0; f < factor_count; ++f) {
     if (f > 0) text += ' ';
-    text.append(factors()[f].name).append("=").append(factors()[f].levels[row.level[f]]);
+    const FactorInfo& factor = factors(row.family)[f];
+    text.append(factor.name).append("=").append(factor.levels[row.level[f]]);
   }
   return text;
 }
@@ -42,8 +56,10 @@ std::string to_text(const Row& row) {
 Row row_from_text(const std::string& text) {
   std::istringstream words(text);
   Row row;
+  for (const std::string_view scene : factors(Family::grains)[0].levels)
+    if (text.starts_with("scene=" + std::string(scene) + " ")) row.family = Family::grains;
   for (std::size_t f = 0; f < factor_count; ++f) {
-    const FactorInfo& factor = factors()[f];
+    const FactorInfo& factor = factors(row.family)[f];
     const std::string start = std::string(factor.name) + "=";
     std::string word;
     words >> word;
@@ -58,12 +74,12 @@ Row row_from_text(const std::string& text) {
   return row;
 }
 
-std::vector<Row> full_product() {
-  std::vector<Row> rows{Row{}};
+std::vector<Row> full_product(Family family) {
+  std::vector<Row> rows{Row{family, {}}};
   for (std::size_t f = 0; f < factor_count; ++f) {
     std::vector<Row> longer;
     for (Row row : rows)
-      for (std::size_t l = 0; l < factors()[f].levels.size(); ++l) {
+      for (std::size_t l = 0; l < factors(family)[f].levels.size(); ++l) {
         row.level[f] = static_cast<std::uint8_t>(l);
         longer.push_back(row);
       }

@@ -11,6 +11,9 @@
 
 namespace equivalence {
 
+/// Scenes of SPH and scenes of grains: a table of levels each, and so a matrix each.
+enum class Family : std::uint8_t { sph, grains };
+
 enum class Factor : std::uint8_t { scene, precision, ranks, cuts, overlap, order, list, restart, count_ };
 inline constexpr std::size_t factor_count = static_cast<std::size_t>(Factor::count_);
 
@@ -18,14 +21,15 @@ struct FactorInfo {
   std::string_view name;
   std::vector<std::string_view> levels;
 };
-[[nodiscard]] const std::array<FactorInfo, factor_count>& factors();
+[[nodiscard]] const std::array<FactorInfo, factor_count>& factors(Family family);
 
 /// One level per factor, by its index in FactorInfo::levels.
 struct Row {
+  Family family = Family::sph;
   std::array<std::uint8_t, factor_count> level{};
   [[nodiscard]] std::string_view operator[](Factor f) const {
     const auto k = static_cast<std::size_t>(f);
-    return factors()[k].levels[level[k]];
+    return factors(family)[k].levels[level[k]];
   }
   [[nodiscard]] int ranks() const;
   friend bool operator==(const Row&, const Row&) = default;
@@ -33,10 +37,11 @@ struct Row {
 
 /// "scene=gas2d precision=mixed ranks=5 ...", all factors in their order.
 [[nodiscard]] std::string to_text(const Row& row);
-[[nodiscard]] Row row_from_text(const std::string& text);  ///< throws std::runtime_error
+/// Throws std::runtime_error; the scene tells the family.
+[[nodiscard]] Row row_from_text(const std::string& text);
 
 /// All rows, in the order of their factors.
-[[nodiscard]] std::vector<Row> full_product();
+[[nodiscard]] std::vector<Row> full_product(Family family);
 /// The same rows in an order drawn from `seed`.
 void shuffle(std::vector<Row>& rows, std::uint64_t seed);
 

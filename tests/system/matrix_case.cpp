@@ -26,7 +26,9 @@ void write_state(const fs::path& path, const sph::Simulation& s) {
 
 void write_restart(const fs::path& dir, const sph::Simulation& s) {
   const sph::RunRecord record{s.global(), s.scale(), sph::to_toml(s.scene()), ""};
-  sph::write_checkpoint(s.comm(), dir, s.particles(), nullptr, record, s.wrap(), provenance_of(s), 0);
+  const decomp::Payload contacts = s.contacts();
+  sph::write_checkpoint(s.comm(), dir, s.particles(), s.has_history() ? &contacts : nullptr, record, s.wrap(),
+                        provenance_of(s), 0);
 }
 
 /// The scene as anybody would run it on one rank.
@@ -48,17 +50,18 @@ void write_shuffled_start(const fs::path& path, const sph::Simulation& s, std::u
   for (std::size_t n = order.size(); n > 1; --n)
     std::swap(order[n - 1], order[draw(seed, "line" + std::to_string(n)) % n]);
 
-  const double* gas = p.data<sph::Field::gas_content>();
+  const double *gas = p.data<sph::Field::gas_content>(), *radius = p.data<sph::Field::radius>();
   std::ofstream out(path);
   out.precision(17);
-  out << (d == 2 ? "id,x,y,vx,vy,group,rho" : "id,x,y,z,vx,vy,vz,group,rho") << (gas != nullptr ? ",m" : "");
+  out << (d == 2 ? "id,x,y,vx,vy,group," : "id,x,y,z,vx,vy,vz,group,")
+      << (radius != nullptr ? "radius" : "rho") << (gas != nullptr ? ",m" : "");
   for (const std::size_t i : order) {
     out << '\n' << p.data<sph::Field::id>()[i];
     for (std::size_t a = 0; a < d; ++a)
       out << ',' << s.scale().metres(p.data<sph::Field::position>()[i * d + a]);
     for (std::size_t a = 0; a < d; ++a) out << ',' << p.data<sph::Field::velocity>()[i * d + a];
     out << ',' << s.scene().groups[p.data<sph::Field::group>()[i]].name << ','
-        << p.data<sph::Field::density>()[i];
+        << (radius != nullptr ? radius[i] : p.data<sph::Field::density>()[i]);
     if (gas != nullptr) out << ',' << gas[i];
   }
   out << '\n';
@@ -208,7 +211,8 @@ std::string Cases::explain(const decomp::Comm& one, const Row& row) const {
   sph::Simulation simulation(one, reference_scene(row));
   while (simulation.global().step < mismatch_step_) simulation.step();
   write_state(run_dir(row) / "reference.h5", simulation);
-  return sph::first_difference(run_dir(row) / "reference.h5", run_dir(row) / "row.h5");
+  const std::string fields = sph::first_difference(run_dir(row) / "reference.h5", run_dir(row) / "row.h5");
+  return fields.empty() ? "the particles agree: walls or contact histories differ" : fields;
 }
 
 }  // namespace equivalence

@@ -43,6 +43,15 @@ const std::vector<Source>& sources() {
        "tests/scenes/box3d_solid.toml",
        {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3"}},
       {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.fragmentation.void_fraction=0.09"}},
+      {"linear", "tests/scenes/grains_pour.toml", {}},
+      {"hertz",
+       "tests/scenes/grains_pour.toml",
+       {"contact.law=hertz", "group.sand.normal_stiffness=", "group.sand.young_modulus=1e6",
+        "group.sand.poisson_ratio=0.3", "group.sand.rolling_friction=0.1"}},
+      {"smooth", "tests/scenes/grains_pour.toml", {"group.sand.friction=", "contact.tangential_damping="}},
+      {"sizes", "tests/scenes/grains_sizes.toml", {}},
+      {"glued", "tests/scenes/grains_glued.toml", {}},
+      {"servo", "tests/scenes/grains_servo.toml", {}},
   };
   return table;
 }
@@ -53,7 +62,7 @@ sph::Scene scene_of(const Row& row) {
   const Source& source = *std::find_if(sources().begin(), sources().end(),
                                        [&](const Source& s) { return s.name == row[Factor::scene]; });
   std::vector<std::string> overrides = source.overrides;
-  overrides.push_back("precision=" + std::string(row[Factor::precision]));
+  if (row.family == Family::sph) overrides.push_back("precision=" + std::string(row[Factor::precision]));
   overrides.push_back("decomposition.overlap=" +
                       std::string(row[Factor::overlap] == "on" ? "true" : "false"));
   const std::string_view list = row[Factor::list];
@@ -68,7 +77,14 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   const sph::Particles& particles = simulation.particles();
   const std::uint32_t* group = particles.data<sph::Field::group>();
   const double* psi = particles.data<sph::Field::void_fraction>();
-  Liveliness out{simulation.counters().rebuilds, 0, 0};
+  Liveliness out{simulation.counters().rebuilds};
+  if (const sph::Grains* grains = simulation.grains()) {
+    out.contacts_begun = grains->counters().created;
+    out.contacts_ended = grains->counters().ended;
+    out.histories_kept = grains->counters().carried;
+    for (const sph::WallState& wall : simulation.global().walls) out.walls_moved |= wall.offset[2] != 0;
+    return out;
+  }
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     for (const sph::Group& g : simulation.scene().groups)
       if (g.fragments_to == static_cast<int>(group[i])) ++out.spray;
@@ -82,6 +98,17 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     throw std::runtime_error(scene.name + " is too quiet for a test: " + what);
   };
   if (end.rebuilds < start.rebuilds + 2) quiet("its lists were not rebuilt twice");
+  if (scene.of_grains()) {
+    constexpr std::int64_t some = 50;
+    if (end.contacts_begun < some) quiet("few contacts began");
+    if (end.contacts_ended < some) quiet("few contacts ended");
+    const bool rough = sph::contact_fusion(scene).history > 0;
+    if (rough && end.histories_kept < some) quiet("few contacts outlived a rebuild");
+    const bool servo = std::any_of(scene.walls.begin(), scene.walls.end(),
+                                   [](const sph::Wall& wall) { return wall.force.has_value(); });
+    if (servo && !end.walls_moved) quiet("no wall moved");
+    return;
+  }
   if (!scene.has_bubbly()) return;
   if (end.void_fraction <= 0) quiet("no gas came out of solution");
   if (end.spray <= start.spray) quiet("no particle changed its group");

@@ -19,6 +19,10 @@ LONG = 6000  # steps: two seconds on an idle machine, long enough to be interrup
 # Interrupted runs: a row every step, six snapshots, a checkpoint as often as possible.
 BUSY = ["--set", "output.series_interval=0", "--set", "output.snapshot_interval=0.2"]
 OFTEN = ["--set", "output.checkpoint_interval=0.05"]
+GRAIN_STEPS = 8000
+# Random cuts at every rebuild: contacts change ranks all the time.
+BUSY_GRAINS = ["--set", "output.series_interval=0", "--set", "output.snapshot_interval=0.02",
+               "--set", "decomposition.balance=chaos"]
 
 
 class Cases:
@@ -26,6 +30,7 @@ class Cases:
         self.run = run
         self.cases = Path(source) / "apps" / "buoyant_cylinder"
         self.bad_scenes = Path(source) / "tests" / "bad_scenes"
+        self.grain_scene = Path(source) / "tests" / "scenes" / "grains_servo.toml"
         self.kills = kills
         self.random = runner.generator(seed)
         self._reference = None
@@ -42,12 +47,15 @@ class Cases:
         return self.run.start(ranks, "buoyant_cylinder", "--steps", LONG, *BUSY, "--out", out, *more, **options)
 
     def expect_reference(self, result, out):
-        fingerprint, files = self.reference
+        self.expect(result, out, "reference", self.reference, LONG)
+
+    def expect(self, result, out, like, reference, steps):
+        fingerprint, files = reference
         assert result.fingerprint == fingerprint, f"{result.fingerprint} is not {fingerprint}"
         for name, content in self.run.files(out).items():
             assert content == files[name], f"{out}/{name} differs"
-        last = f"snapshot_{LONG:09}.h5"
-        self.run.run(1, "peperite", "diff", f"{out}/{last}", f"reference/{last}")
+        last = f"snapshot_{steps:09}.h5"
+        self.run.run(1, "peperite", "diff", f"{out}/{last}", f"{like}/{last}")
 
     # ---- the same bits ------------------------------------------------------------------------------------
 
@@ -174,11 +182,25 @@ class Cases:
         self.expect_reference(self.run.run(3, "peperite", "resume", "longer", "--steps", LONG), "longer")
 
     def test_kills(self):
+        self.kill_and_resume("kill", self.start, self.expect_reference)
+
+    def test_grain_kills(self):
+        """Contact histories, walls and stages outlive kills, wherever the cuts are."""
+        def start(ranks, out, *more):
+            return self.run.start(ranks, "peperite", "run", self.grain_scene, "--steps", GRAIN_STEPS, *BUSY_GRAINS,
+                                  "--out", out, *more)
+
+        whole = self.run.finish(start(1, "grains"))
+        reference = whole.fingerprint, self.run.files("grains")
+        self.kill_and_resume("grain_kill", start,
+                             lambda result, out: self.expect(result, out, "grains", reference, GRAIN_STEPS))
+
+    def kill_and_resume(self, name, start, expect):
         kills = runs = 0
         while kills < self.kills:
-            out = f"kill{runs}"  # a run may end before it is killed
+            out = f"{name}{runs}"  # a run may end before it is killed
             runs += 1
-            process = self.start(self.random.randint(1, 3), out, *OFTEN)
+            process = start(self.random.randint(1, 3), out, *OFTEN)
             wait_for(lambda: (self.run.folder / out / "scene.toml").exists() or process.poll() is not None)
             result = None
             while result is None:
@@ -192,7 +214,7 @@ class Cases:
                         kills += 1
                         self.run.finish(process)
                         process = self.run.start(self.random.randint(1, 3), "peperite", "resume", out)
-            self.expect_reference(result, out)
+            expect(result, out)
 
     # ---- damage ---------------------------------------------------------------------------------------------
 
@@ -293,6 +315,16 @@ class Cases:
             kept = list((self.run.folder / out / "crash").iterdir())
             assert len(kept) == 1 and kept[0].name in result.complaints[0], result.err
             self.run.run(1, "peperite", "info", kept[0])
+
+    def test_grain_guards(self):
+        for ranks in (1, 3):
+            out = f"overlap{ranks}"
+            result = self.run.run(ranks, "peperite", "run", self.grain_scene, "--set", "start.spacing=0.7 mm",
+                                  "--steps", 5, "--out", out, code=3)
+            assert len(result.complaints) == 1 and "contact.largest_overlap" in result.complaints[0], result.err
+            for command in (["check"], ["run", "--out", "bad_step"]):
+                self.run.refused(ranks, "peperite", command[0], self.grain_scene, *command[1:], "--set", "time.dt=1 ms",
+                                 says="above the limit of a stable contact")
 
     def test_used_directory(self):
         self.run.run(1, "buoyant_cylinder", "--steps", 3, "--out", "used")

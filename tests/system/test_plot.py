@@ -119,6 +119,62 @@ class Plot(unittest.TestCase):
         self.refused("broken", "--draw", "series", says="series.csv")
 
 
+class Sandbox(unittest.TestCase):
+    """apps/sandbox/plot.py, on a box a quarter as long with a block of sand half as high, pushed fast."""
+
+    SMALL = ["domain.upper=[0.1, 0.0076, 0.12]", "start.spacing=0.0019", "start.upper=[0.0988, 0.0076, 0.0285]",
+             "wall.front.point=[0.099, 0, 0]", "stage.shorten.begin=0.08",
+             "stage.shorten.wall.back.velocity=[0.2, 0, 0]", "output.snapshot_interval=0.02"]
+
+    @classmethod
+    def setUpClass(cls):
+        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
+        cls.folder = cls.run_of.folder
+        cls.cases = Path(given.source).resolve() / "apps" / "sandbox"
+        small = [word for value in cls.SMALL for word in ("--set", value)]
+        cls.run_of.run(1, "sandbox", *small, "--until", 0.16, "--out", "small")
+        cls.run_of.run(1, "sandbox", cls.cases / "shear_floor.toml", "--until", 0.06, "--set", "stage.lower.begin=0.02",
+                       "--set", "stage.press.begin=0.03", "--set", "stage.shear.begin=0.04", "--out", "box")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.run_of.close()
+
+    def plot(self, *arguments):
+        return subprocess.run(["/usr/bin/python3", "-B", self.cases / "plot.py", *arguments], cwd=self.folder,
+                              capture_output=True, text=True)
+
+    def test_pictures_and_summary(self):
+        done = self.plot("small", "--out", "drawn")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        names = ["layers", "strain", "chains", "stress", "history"]
+        self.assertEqual(done.stdout.splitlines()[:5], [f"drawn/{name}.png" for name in names])
+        for name in names:
+            path = self.folder / "drawn" / f"{name}.png"
+            self.assertLess(path.stat().st_size, 400_000, path)
+            pixels = np.asarray(Image.open(path).convert("RGB"))
+            ink = np.mean(np.any(pixels < 250, axis=2))
+            self.assertTrue(0.01 < ink < 0.9, f"{path}: {ink:.2f} of it is drawn on")
+        summary = (self.folder / "drawn" / "summary.txt").read_text()
+        self.assertIn("shortening 1.60 cm of a layer", summary)
+        self.assertIn("coordination", summary)
+        self.assertIn("critical taper", summary)
+
+    def test_shear_box(self):
+        done = self.plot("box")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("floor: friction angle", done.stdout)
+
+    def test_bad_input(self):
+        (self.folder / "none").mkdir()
+        for arguments, says in ((["nowhere"], "nowhere"), (["none"], "no snapshot"), (["small", "small"], "more than one"),
+                                (["small", "--draw", "stars"], "stars")):
+            done = self.plot(*arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(says, done.stderr)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--programs", required=True)

@@ -16,8 +16,8 @@
 
 #include "decomp/comm.hpp"
 #include "decomp/grid.hpp"
+#include "decomp/memory.hpp"
 #include "decomp/table.hpp"
-#include "sph/aligned.hpp"
 #include "sph/neighbour_lists.hpp"
 #include "sph/particles.hpp"
 
@@ -30,9 +30,9 @@ inline constexpr std::uint64_t wall_key = std::uint64_t{1} << 63;
 /// wall that does not exist.
 struct ContactGroups {
   static constexpr std::size_t lanes = 8;
-  std::vector<std::uint32_t> i, j;     ///< [groups * lanes]
-  std::vector<std::uint8_t> touching;  ///< [groups] bit l: lane l touched in the last step
-  AlignedVector<double> history;       ///< [groups][components][lanes]
+  decomp::LargeVector<std::uint32_t> i, j;  ///< [groups * lanes]
+  std::vector<std::uint8_t> touching;       ///< [groups] bit l: lane l touched in the last step
+  decomp::LargeVector<double> history;      ///< [groups][components][lanes]
   [[nodiscard]] std::size_t groups() const { return touching.size(); }
 };
 
@@ -51,7 +51,8 @@ struct PlaneNow {
   bool present;
 };
 
-/// What must not change while contacts move between ranks, summed over all: each contact counts once.
+/// What must not change while contacts move between ranks, summed over all: both entries of a pair count,
+/// since two ranks may need one each.
 struct ContactCensus {
   std::uint64_t count = 0, keys = 0;
   friend bool operator==(const ContactCensus&, const ContactCensus&) = default;

@@ -19,7 +19,7 @@
 namespace sph {
 
 /// Force and torque sums of every row, halo copies included: 4 integers a row, or 8 where grains spin.
-using ContactSums = AlignedVector<std::uint64_t>;
+using ContactSums = decomp::LargeVector<std::uint64_t>;
 
 /// Everything a compiled contact pass needs besides its laws.
 struct ContactContext {
@@ -290,14 +290,22 @@ struct ContactPass {
     return std::bit_cast<std::int64_t>(x + magic) - std::bit_cast<std::int64_t>(magic);
   }
 
-  static void prefetch(const ContactContext& c, const Rows& rows, const ContactGroups& list, std::size_t g) {
+  /// What group g reads of its partners and adds to. Both ends of a row of 24 bytes: it may lie in two lines.
+  /// Inlined by force: g++ takes a function that only prefetches for one without effect and drops the call.
+  [[gnu::always_inline]] static void prefetch(const ContactContext& c, const Rows& rows,
+                                              const ContactGroups& list, std::size_t g) {
     if (g >= list.groups()) return;
     const std::uint32_t* j = list.j.data() + g * lanes;
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::size_t r = j[l];
-      __builtin_prefetch(rows.x + r * 3);
-      __builtin_prefetch(rows.v + r * 3);
-      if constexpr (spins) __builtin_prefetch(rows.w + r * 3);
+      for (const std::size_t end : {r * 3, r * 3 + 2}) {
+        __builtin_prefetch(rows.x + end);
+        __builtin_prefetch(rows.v + end);
+        if constexpr (spins) __builtin_prefetch(rows.w + end);
+      }
+      __builtin_prefetch(rows.radius + r);
+      __builtin_prefetch(rows.mass + r);
+      if constexpr (!one_material) __builtin_prefetch(rows.group + r);
       __builtin_prefetch(c.sums + r * stride, 1);
     }
   }

@@ -73,7 +73,9 @@ class Grains {
   [[nodiscard]] double time_step() const { return dt_; }
 
   /// Walls as they are now.
-  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const;
+  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const {
+    return planes(global, global.time);
+  }
   /// Of two groups, in the order of ContactConstants.
   [[nodiscard]] std::span<const double, 8> pair_constants(std::size_t a, std::size_t b) const {
     return std::span<const double, 8>(constants_.data() + 8 * (a * scene_->groups.size() + b), 8);
@@ -91,6 +93,8 @@ class Grains {
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
+  /// Where the walls are now, and whether they were there at `time`.
+  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global, double time) const;
   [[nodiscard]] const Stage* stage_at(double time) const;
   void find_constants();
   void find_quanta();
@@ -99,7 +103,7 @@ class Grains {
   PositionScale scale_;
   ContactFusion fusion_;
   ContactLists lists_;
-  AlignedVector<double> constants_;
+  decomp::LargeVector<double> constants_;
   std::vector<bool> fixed_;
   double force_quantum_ = 1, torque_quantum_ = 1, dt_ = 0;
   ContactSums sums_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "decomp/grid.hpp"
+#include "decomp/memory.hpp"
 #include "decomp/timer.hpp"
 #include "sph/particles.hpp"
 
@@ -54,7 +55,7 @@ class NeighbourLists {
 
   int lanes_;
   std::vector<std::uint64_t> begin_;  ///< entries before each block, then their number
-  std::vector<std::uint32_t> entries_;
+  decomp::LargeVector<std::uint32_t> entries_;
   std::size_t pairs_ = 0;
 };
 

@@ -35,14 +35,14 @@ struct PassContext {
   const GroupTable* groups;
   RowScale scale;
   TermConstants<double> constants;
-  double gradient_factor;        ///< spacing^D alpha_D / h^(D+1): scale of a sum of V_j grad W
-  double force_factor;           ///< spacing^(2D) alpha_D / h^(D+1): scale of a sum of V_i V_j grad W
-  double diffusion_factor;       ///< 2 delta h spacing^D alpha_D / h^(D+2)
-  std::vector<std::byte>* rows;  ///< scratch, 64-byte aligned use starts at rows_begin()
+  double gradient_factor;                ///< spacing^D alpha_D / h^(D+1): scale of a sum of V_j grad W
+  double force_factor;                   ///< spacing^(2D) alpha_D / h^(D+1): scale of a sum of V_i V_j grad W
+  double diffusion_factor;               ///< 2 delta h spacing^D alpha_D / h^(D+2)
+  decomp::LargeVector<std::byte>* rows;  ///< scratch, 64-byte aligned use starts at rows_begin()
 };
 
 /// 64-byte aligned start of the scratch, grown to `bytes`.
-[[nodiscard]] std::byte* aligned_scratch(std::vector<std::byte>& scratch, std::size_t bytes);
+[[nodiscard]] std::byte* aligned_scratch(decomp::LargeVector<std::byte>& scratch, std::size_t bytes);
 
 template <class T, int D, ValueSet S>
 struct Pair {

@@ -63,7 +63,7 @@ class Simulation {
   void step_in_passes();
   void step_in_a_sweep();
   void rebuild();
-  void rebuild_contacts(const decomp::Payload& contacts);
+  void rebuild_contacts(const decomp::Payload& contacts, const ContactCensus& sent);
   enum class Side { interior, boundary };
   void run(const Pass& pass, const PassContext& context, Side side);
   void refresh_begin(FieldSet wanted);
@@ -85,7 +85,7 @@ class Simulation {
   decomp::Timers timers_;
   Counters counters_;
   std::vector<bool> is_wall_group_;
-  std::vector<std::byte> rows_;
+  decomp::LargeVector<std::byte> rows_;
   void changed(FieldSet fields) { fresh_ = fresh_.without(fields); }
 
   StepMaxima maxima_;        ///< of this rank and step

@@ -102,9 +102,9 @@ std::uint64_t mix(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-void count(ContactCensus& census, std::uint64_t low, std::uint64_t high) {
+void count(ContactCensus& census, std::uint64_t carrier, std::uint64_t partner) {
   ++census.count;
-  census.keys += mix(mix(low) + high);
+  census.keys += mix(mix(carrier) + partner);
 }
 
 }  // namespace
@@ -234,12 +234,8 @@ ContactCensus ContactLists::census(const Particles& p) const {
       for (unsigned bits = g->touching[k]; bits != 0; bits &= bits - 1) {
         const std::size_t at = k * lanes + static_cast<std::size_t>(std::countr_zero(bits));
         const std::uint32_t i = g->i[at], j = g->j[at];
-        if (g == &walls_)
-          count(census, id[i], wall_key | j);
-        else if (id[i] < id[j])
-          count(census, id[i], id[j]);
-        else if (j < p.owned())
-          count(census, id[j], id[i]);
+        count(census, id[i], g == &walls_ ? wall_key | j : id[j]);
+        if (g == &pairs_ && j < p.owned()) count(census, id[j], id[i]);
       }
   return census;
 }
@@ -252,7 +248,7 @@ ContactCensus ContactLists::census(const Particles& p, const decomp::Payload& pa
          at += 8 * (1 + static_cast<std::size_t>(history))) {
       std::uint64_t key;
       std::memcpy(&key, payload.bytes.data() + at, sizeof key);
-      if (id[row] < key) count(census, id[row], key);
+      count(census, id[row], key);
     }
   return census;
 }

@@ -175,7 +175,7 @@ void Grains::set_stage(GlobalState& global) const {
   }
 }
 
-std::vector<PlaneNow> Grains::planes(const GlobalState& global) const {
+std::vector<PlaneNow> Grains::planes(const GlobalState& global, double time) const {
   std::vector<PlaneNow> out;
   for (std::size_t w = 0; w < scene_->walls.size(); ++w) {
     const Wall& wall = scene_->walls[w];
@@ -183,7 +183,7 @@ std::vector<PlaneNow> Grains::planes(const GlobalState& global) const {
                    wall.normal,
                    global.walls[w].velocity,
                    static_cast<std::uint32_t>(wall.group),
-                   wall_now(*scene_, w, global.time).present};
+                   wall_now(*scene_, w, time).present};
     for (std::size_t a = 0; a < 3; ++a)
       plane.point[a] = scale_.quanta(wall.point[a]) + global.walls[w].offset[a];
     out.push_back(plane);
@@ -195,7 +195,9 @@ void Grains::rebuild(const Particles& particles, const decomp::CellGrid& grid, c
                      std::int64_t reach, double skin, const RowRanges& ranges, const GlobalState& global,
                      const decomp::Payload& payload) {
   // A wall that a later stage brings near must be listed in time: walls are looked for where they are now.
-  lists_.build(particles, grid, own_cells, reach, skin, scale_.quantum, ranges, fixed_, planes(global));
+  // One that a stage has just removed had contacts in the last step: the next sweep ends them.
+  lists_.build(particles, grid, own_cells, reach, skin, scale_.quantum, ranges, fixed_,
+               planes(global, global.time - 2 * global.dt));
   lists_.unpack(particles, payload);
   counters_.carried += static_cast<std::int64_t>(lists_.census(particles).count);
   sums_.assign(particles.rows() * (fusion_.spins ? 8 : 4), 0);
@@ -207,7 +209,7 @@ void Grains::rebuild(const Particles& particles, const decomp::CellGrid& grid, c
 
 void Grains::begin_step(const Particles&, const GlobalState& global) {
   sweep_ = {};
-  planes_ = planes(global);
+  planes_ = planes(global, global.time);
   wall_force_.assign(3 * planes_.size(), 0);
 }
 

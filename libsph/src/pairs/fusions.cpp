@@ -68,7 +68,7 @@ const Fusion& find_fusion(int dim, Precision precision, KernelShape kernel, cons
                    ">(),\" to libsph/src/pairs/fusion_list.hpp and rebuild");
 }
 
-std::byte* aligned_scratch(std::vector<std::byte>& scratch, std::size_t bytes) {
+std::byte* aligned_scratch(decomp::LargeVector<std::byte>& scratch, std::size_t bytes) {
   constexpr std::size_t alignment = 64;
   if (scratch.size() < bytes + alignment) scratch.resize(bytes + bytes / 8 + alignment);
   const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());

@@ -192,7 +192,7 @@ FieldSet Physics::integrated() const {
 }
 
 PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
-                             std::vector<std::byte>& rows) const {
+                             decomp::LargeVector<std::byte>& rows) const {
   return {&particles,       &lists,        &groups_,          row_scale_, constants_,
           gradient_factor_, force_factor_, diffusion_factor_, &rows};
 }

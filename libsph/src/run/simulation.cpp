@@ -67,6 +67,8 @@ void Simulation::step_in_a_sweep() {
 void Simulation::rebuild() {
   decomp::Payload contacts = std::exchange(arrived_, {});
   if (grains_ && contacts.rows() == 0) contacts = this->contacts();
+  ContactCensus sent;
+  if (grains_) sent = ContactLists::census(particles_, contacts, grains_->lists().history());
   {
     const auto timing = timers_.time(decomp::Region::migrate);
     distribution_.rebuild(particles_, timers_.take_cost(), is_wall_group_, moved_,
@@ -79,7 +81,7 @@ void Simulation::rebuild() {
   refresh_begin(grains_ ? Grains::constants() : FieldSet{Field::id, Field::position});
   refresh_end();
   if (grains_)
-    rebuild_contacts(contacts);
+    rebuild_contacts(contacts, sent);
   else
     lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
                  distribution_.ranges(), timers_);
@@ -88,17 +90,16 @@ void Simulation::rebuild() {
 }
 
 // No contact may be lost or doubled on its way: count and keys are those of the entries that set out.
-void Simulation::rebuild_contacts(const decomp::Payload& contacts) {
+void Simulation::rebuild_contacts(const decomp::Payload& contacts, const ContactCensus& sent) {
   const auto timing = timers_.time(decomp::Region::lists);
   grains_->rebuild(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
                    distribution_.skin(), distribution_.ranges(), global_, contacts);
-  const ContactCensus sent = ContactLists::census(particles_, contacts, grains_->lists().history());
   const ContactCensus found = grains_->lists().census(particles_);
   std::array<std::uint64_t, 4> all{sent.count, sent.keys, found.count, found.keys};
   comm_.sum(std::span<std::uint64_t>(all));
   if (all[0] != all[2] || all[1] != all[3])
     throw GuardError("step " + std::to_string(global_.step) + ": of " + std::to_string(all[0]) +
-                     " contacts " + std::to_string(all[2]) +
+                     " entries of contacts " + std::to_string(all[2]) +
                      " were found again after the lists were rebuilt; reduce time.dt");
 }
 
@@ -173,8 +174,9 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   if (all[2] > 0) stop_at_bad_particle();
   if (grains_) {
     guard_sweep(all);
-    grains_->move_walls(global_, wall_force);
+    // Walls drift before servos change their speeds.
     moved_ += 1.0001 * std::max(all[0], grains_->fastest_wall(global_)) * global_.dt;
+    grains_->move_walls(global_, wall_force);
   } else {
     moved_ += physics_.longest_shift(global_);
   }

@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+"""Draws and measures runs of the sandbox and of its shear boxes.
+
+    plot.py DIR [DIR ...] [--out DIR] [--draw layers,strain,chains,stress,history,shear]
+
+DIR is the folder of a run: one of the sandbox, any of shear_sand.toml and shear_floor.toml. Writes pictures and
+summary.txt into the first DIR, or into --out, and prints the path of each picture and the summary. The shear boxes
+give the angles of friction from which the theory of the critical taper follows; without them those measured by
+gallery.sh are taken.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from forces import Contacts
+from grain_run import BadInput, Run
+from history import History
+from shear_box import MEASURED, ShearBox, angles
+from wedge import critical_taper, thrust_dips
+
+PICTURES = ("layers", "strain", "chains", "stress", "history", "shear")
+
+
+def theory(sand, floor):
+    """What the critical taper says with the angles at the peak and after it."""
+    for k, name in enumerate(("peak", "residual")):
+        forward, back = thrust_dips(sand[k], floor[k])
+        yield (f"critical taper with {name} friction, sand {sand[k]:.1f} deg, floor {floor[k]:.1f} deg: slope at "
+               f"least {critical_taper(sand[k], floor[k]):.1f} deg, forward thrusts dip {forward:.1f} deg, back "
+               f"thrusts {back:.1f} deg")
+
+
+def measured(history):
+    last = history.moments[-1]
+    yield f"shortening {100 * last.shortening:.2f} cm of a layer {1e3 * history.rest:.1f} mm high"
+    late = [m.taper for m in history.moments if m.shortening >= 0.6 * last.shortening and np.isfinite(m.taper)]
+    if late:
+        yield (f"slope of the surface over the last 40 %: {np.mean(late):.1f} deg, {min(late):.1f} to "
+               f"{max(late):.1f} deg")
+    yield (f"highest point {1e3 * last.surface.height.max():.1f} mm, front of the rise "
+           f"{100 * (last.front - last.wall):.1f} cm ahead of the wall")
+    for name, (dip, spread) in zip(("forward", "back"), history.dips()):
+        if np.isfinite(dip):
+            yield f"{name} thrusts dip {dip:.1f} +- {spread:.1f} deg"
+    for k, thrust in enumerate(history.thrusts):
+        ahead = "" if k == 0 else (f", {(thrust.root - history.thrusts[k - 1].root) / history.rest:.1f} layer heights "
+                                   f"ahead of the last")
+        yield f"forward thrust {k + 1}: at {1e3 * thrust.shortening:.0f} mm, root x = {100 * thrust.root:.1f} cm{ahead}"
+
+
+def from_contacts(history):
+    for moment in (history.moments[0], history.moments[-1]):
+        try:
+            contacts = Contacts(moment.snapshot)
+        except BadInput:
+            return
+        yield (f"contacts at {100 * moment.shortening:.1f} cm: coordination {contacts.coordination:.2f}, anisotropy "
+               f"{contacts.anisotropy:.2f} along {contacts.direction:.0f} deg, mean force "
+               f"{1e3 * contacts.mean_force:.2g} mN")
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(message)
+
+
+def arguments():
+    parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("runs", metavar="DIR", nargs="+", help="folder of a run")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the pictures go (default: the first DIR)")
+    parser.add_argument("--draw", metavar="LIST", default=",".join(PICTURES), help="some of " + ",".join(PICTURES))
+    given = parser.parse_args()
+    given.draw = given.draw.split(",")
+    for name in given.draw:
+        if name not in PICTURES:
+            parser.error(f"--draw: \"{name}\" is not one of {', '.join(PICTURES)}")
+    return given
+
+
+def is_shear_box(run):
+    return any(wall["name"] == "lid" for wall in run.scene.get("wall", []))
+
+
+def main():
+    try:
+        given = arguments()
+        runs = [Run(folder) for folder in given.runs]
+        boxes = [ShearBox(run) for run in runs if is_shear_box(run)]
+        sandboxes = [run for run in runs if not is_shear_box(run)]
+        if len(sandboxes) > 1:
+            raise BadInput("more than one run of the sandbox: draw one after the other")
+        out = given.out or runs[0].folder
+        out.mkdir(parents=True, exist_ok=True)
+        import pictures  # only now: it takes a second, and refusals should not
+        pictures.plt.rcParams.update(pictures.STYLE)
+
+        sand, floor = (found or known for found, known in zip(angles(boxes), MEASURED))
+        lines, drawn = [box.text() for box in boxes], {}
+        if boxes:
+            drawn["shear"] = lambda: pictures.draw_shear(boxes)
+        if sandboxes:
+            history = History(sandboxes[0])
+            lines += [*measured(history), *from_contacts(history)]
+            for name in ("layers", "strain", "chains", "stress"):
+                drawn[name] = lambda draw=getattr(pictures, f"draw_{name}"): draw(history)
+            drawn["history"] = lambda: pictures.draw_history(history, sand, floor)
+        lines += theory(sand, floor)
+        for name in PICTURES:
+            figure = drawn[name]() if name in given.draw and name in drawn else None
+            if figure is not None:
+                pictures.save(figure, out / f"{name}.png")
+                print(out / f"{name}.png")
+        (out / "summary.txt").write_text("\n".join(lines) + "\n")
+        print(*lines, sep="\n")
+    except (BadInput, OSError) as error:
+        print(f"plot.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

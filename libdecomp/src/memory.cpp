@@ -1,0 +1,24 @@
+#include "decomp/memory.hpp"
+
+#include <sys/mman.h>
+
+#include <cstdlib>
+
+namespace decomp {
+
+void* allocate_large(std::size_t bytes) {
+  constexpr std::size_t huge_page = std::size_t{1} << 21;
+  const bool huge = bytes >= 2 * huge_page;
+  const std::size_t unit = huge ? huge_page : cache_line;
+  const std::size_t size = (bytes + unit - 1) / unit * unit;
+  void* memory = std::aligned_alloc(unit, size == 0 ? unit : size);
+  if (memory == nullptr) throw std::bad_alloc();
+#if defined(MADV_HUGEPAGE)
+  if (huge) (void)::madvise(memory, size, MADV_HUGEPAGE);  // a wish: without it everything still works
+#endif
+  return memory;
+}
+
+void release_large(void* memory) noexcept { std::free(memory); }
+
+}  // namespace decomp
