@@ -70,6 +70,20 @@ TEST_F(GrainOutput, ContactsAndStressOfTwoGrainsOnAFloor) {
   EXPECT_NE(describe(file).find("stress, coordination"), std::string::npos) << describe(file);
 }
 
+// After two steps the grains have come closer than the skin of their lists: the next step would rebuild
+// first.
+TEST_F(GrainOutput, FindsAContactThatNoListHasYet) {
+  Scene scene = scene_of(springs, header + "1,0.0600,0.1,0.1,2.5,0,0,sand,0.01,0,0,0\n" +
+                                      "2,0.0816,0.1,0.1,-2.5,0,0,sand,0.01,0,0,0\n");
+  scene.time.dt = 2e-4;
+  Simulation s(world_, scene);
+  s.step();
+  EXPECT_EQ(value(s, "contacts_n"), 0);
+  s.step();
+  EXPECT_EQ(value(s, "contacts_n"), 1);
+  expect_share(value(s, "energy_elastic"), 0.5 * 1000 * 4e-4 * 4e-4);
+}
+
 TEST_F(GrainOutput, AGrainAtRestWeighsOnTheFloor) {
   Simulation s(world_, scene_of(springs, header + "1,0.05,0.1,0.00992,0.25,0,0,sand,0.01,0,0,0\n"));
   for (int n = 0; n < 600; ++n) s.step();
