@@ -95,8 +95,8 @@ def draw_strain(history):
                           ha="center", fontsize=8, color=colour)
         draw_walls(axes, history, moment)
         axes.set_title(f"shortening {100 * moment.since:.1f} to {100 * moment.shortening:.1f} cm", pad=2)
-    panels[0].legend(handles=[Line2D([], [], color=FORWARD, label="forward thrust, dip"),
-                              Line2D([], [], color=BACK, label="back thrust")], loc="upper right", ncols=2)
+    handles = [Line2D([], [], color=FORWARD, label="forward thrust, dip"), Line2D([], [], color=BACK, label="back thrust")]
+    figure.legend(handles=handles, loc="upper right", ncols=2, borderaxespad=0.2)
     place = figure.add_axes([0.25, 0.55 / figure.get_figheight(), 0.5, 0.12 / figure.get_figheight()])
     figure.colorbar(drawn, cax=place, orientation="horizontal", label="shear strain meanwhile", extend="max")
     return figure

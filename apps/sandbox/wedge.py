@@ -52,7 +52,7 @@ class Surface:
 
     def taper(self, rest, diameter):
         """Slope in degrees from the highest point down to the front: a straight line through the surface there."""
-        toe = self.front(rest, 2 * diameter)
+        toe = self.front(rest, 1.5 * diameter)
         crest = self.x[np.argmax(self.height)]
         chosen = (self.x >= crest) & (self.x <= toe)
         if np.sum(chosen) < 6:
