@@ -140,8 +140,10 @@ struct ContactPass {
     }
     const unsigned now = positive_lanes(contact.overlap), before = list.touching[g];
     if (now != before) {
-      sweep.created += std::popcount(now & ~before);
-      sweep.ended += std::popcount(before & ~now);
+      if constexpr (history > 0) {  // without history nobody remembers at a rebuild who touched
+        sweep.created += std::popcount(now & ~before);
+        sweep.ended += std::popcount(before & ~now);
+      }
       list.touching[g] = static_cast<std::uint8_t>(now);
     }
     return out;
