@@ -154,9 +154,9 @@ def draw_history(history, sand, floor):
     slope.plot(shortening, [m.taper for m in history.moments], "o-", color=CURVES[1], markersize=3, linewidth=1)
     least, after = (critical_taper(sand[k], floor[k]) for k in (0, 1))
     slope.axhspan(min(least, after), max(least, after), color=CURVES[1], alpha=0.18, linewidth=0)
-    slope.annotate("least stable slope", (0.01, max(least, after)), xycoords=("axes fraction", "data"), xytext=(0, 2),
+    slope.annotate("least stable taper", (0.01, max(least, after)), xycoords=("axes fraction", "data"), xytext=(0, 2),
                    textcoords="offset points", fontsize=8, color=CURVES[1])
-    slope.set(ylabel="slope of the surface (°)", ylim=(0, 12))
+    slope.set(ylabel="taper (°)", ylim=(0, None))
     for moment in history.moments:
         for fault in moment.faults:
             order.plot(100 * moment.shortening, 100 * fault.root, "^" if fault.dip > 0 else "v", markersize=5,
