@@ -17,7 +17,7 @@ class Moment:
         self.shortening = history.shortening(snapshot)
         self.wall = history.wall_start + self.shortening
         self.surface = Surface(snapshot, run.diameter, self.wall, history.far)
-        self.front = self.surface.front(history.rest, 2 * run.diameter)
+        self.front = self.surface.front(history.rest, 1.5 * run.diameter)
         self.taper = self.surface.taper(history.rest, run.diameter)
         self.gamma, self.faults, self.since = None, [], 0.0
 

@@ -95,8 +95,8 @@ def draw_strain(history):
                           ha="center", fontsize=8, color=colour)
         draw_walls(axes, history, moment)
         axes.set_title(f"shortening {100 * moment.since:.1f} to {100 * moment.shortening:.1f} cm", pad=2)
-    panels[0].legend(handles=[Line2D([], [], color=FORWARD, label="forward thrust, dip"),
-                              Line2D([], [], color=BACK, label="back thrust")], loc="upper right", ncols=2)
+    handles = [Line2D([], [], color=FORWARD, label="forward thrust, dip"), Line2D([], [], color=BACK, label="back thrust")]
+    figure.legend(handles=handles, loc="upper right", ncols=2, borderaxespad=0.2)
     place = figure.add_axes([0.25, 0.55 / figure.get_figheight(), 0.5, 0.12 / figure.get_figheight()])
     figure.colorbar(drawn, cax=place, orientation="horizontal", label="shear strain meanwhile", extend="max")
     return figure
@@ -154,9 +154,9 @@ def draw_history(history, sand, floor):
     slope.plot(shortening, [m.taper for m in history.moments], "o-", color=CURVES[1], markersize=3, linewidth=1)
     least, after = (critical_taper(sand[k], floor[k]) for k in (0, 1))
     slope.axhspan(min(least, after), max(least, after), color=CURVES[1], alpha=0.18, linewidth=0)
-    slope.annotate("least stable slope", (0.01, max(least, after)), xycoords=("axes fraction", "data"), xytext=(0, 2),
+    slope.annotate("least stable taper", (0.01, max(least, after)), xycoords=("axes fraction", "data"), xytext=(0, 2),
                    textcoords="offset points", fontsize=8, color=CURVES[1])
-    slope.set(ylabel="slope of the surface (°)", ylim=(0, 12))
+    slope.set(ylabel="taper (°)", ylim=(0, None))
     for moment in history.moments:
         for fault in moment.faults:
             order.plot(100 * moment.shortening, 100 * fault.root, "^" if fault.dip > 0 else "v", markersize=5,

@@ -28,9 +28,9 @@ def theory(sand, floor):
     """What the critical taper says with the angles at the peak and after it."""
     for k, name in enumerate(("peak", "residual")):
         forward, back = thrust_dips(sand[k], floor[k])
-        yield (f"critical taper with {name} friction, sand {sand[k]:.1f} deg, floor {floor[k]:.1f} deg: slope at "
+        yield (f"critical taper with {name} friction, sand {sand[k]:.1f} deg, floor {floor[k]:.1f} deg: taper at "
                f"least {critical_taper(sand[k], floor[k]):.1f} deg, forward thrusts dip {forward:.1f} deg, back "
-               f"thrusts {back:.1f} deg")
+               f"thrusts {back:.1f} deg, in the flat layer both {45 - sand[k] / 2:.1f} deg")
 
 
 def measured(history):
@@ -38,7 +38,7 @@ def measured(history):
     yield f"shortening {100 * last.shortening:.2f} cm of a layer {1e3 * history.rest:.1f} mm high"
     late = [m.taper for m in history.moments if m.shortening >= 0.6 * last.shortening and np.isfinite(m.taper)]
     if late:
-        yield (f"slope of the surface over the last 40 %: {np.mean(late):.1f} deg, {min(late):.1f} to "
+        yield (f"taper over the last 40 %: {np.mean(late):.1f} deg, {min(late):.1f} to "
                f"{max(late):.1f} deg")
     yield (f"highest point {1e3 * last.surface.height.max():.1f} mm, front of the rise "
            f"{100 * (last.front - last.wall):.1f} cm ahead of the wall")

@@ -75,18 +75,22 @@ class Fault:
         return (self.root, x), (0.0, self.top)
 
 
-def best_of_dip(strain, grid, surface, wall, diameter, dip):
-    """The line of that dip, from the floor to the surface, with the most strain."""
+def along(strain, grid, surface, diameter, dip, roots):
+    """Strain at forty points of each line from the floor, a diameter above it, to a diameter below the surface; the
+    height and x at which lines meet the surface."""
     tangent = np.tan(np.radians(dip))
-    roots = np.arange(wall, grid.centres(0)[-1], diameter)
     top = surface.at(roots)
-    for _ in range(3):  # where the line meets the surface
+    for _ in range(3):
         top = surface.at(roots + top / tangent)
-    ends = roots + top / tangent
-    # Points along each line, as many for all, from a diameter above the floor to one below the surface.
     z = diameter + np.linspace(0, 1, 40)[None, :] * np.maximum(top - 2 * diameter, diameter)[:, None]
     i, k = grid.index(np.stack([(roots[:, None] + z / tangent).ravel(), z.ravel()], axis=1))
-    values = strain[i, k].reshape(z.shape)
+    return strain[i, k].reshape(z.shape), top, roots + top / tangent
+
+
+def best_of_dip(strain, grid, surface, wall, diameter, dip):
+    """The line of that dip with the most strain."""
+    roots = np.arange(wall, grid.centres(0)[-1], diameter)
+    values, top, ends = along(strain, grid, surface, diameter, dip, roots)
     # Half of it the mean, half the weaker quarter: a band must go all the way through.
     score = 0.5 * values.mean(axis=1) + 0.5 * np.quantile(values, 0.25, axis=1)
     score[(ends < wall) | (ends > grid.centres(0)[-1])] = 0
@@ -94,10 +98,19 @@ def best_of_dip(strain, grid, surface, wall, diameter, dip):
     return Fault(float(roots[at]), float(dip), float(top[at]), float(score[at]))
 
 
+def stands_out(blurred, grid, surface, wall, diameter, fault):
+    """Strain on the line is half as large again as on the lines beside the band, on both sides of it."""
+    aside = 1.6 * BAND * diameter / abs(np.sin(np.radians(fault.dip)))
+    roots = fault.root + np.array([-aside, aside])
+    values, _, ends = along(blurred, grid, surface, diameter, fault.dip, roots)
+    inside = (roots > wall) & (ends > wall)
+    return fault.strain > 1.5 * np.max(values.mean(axis=1), where=inside, initial=0)
+
+
 def find_faults(gamma, grid, surface, wall, diameter, most=6):
     """The lines along which the mean shear strain is largest, one after the other: what lies within BAND of a
     line is left out of the search for more lines of its sense. Lines on which strain is below half the first
-    one's, or 2.5 times the mean of the sand, are no faults."""
+    one's, or 2.5 times the mean of the sand, or not much above that on both sides, are no faults."""
     blurred = smooth(np.nan_to_num(gamma), 1.5 * diameter / grid.cell)  # lines go through the middle of wide bands
     strain = {1: blurred, -1: blurred.copy()}
     mean = np.nanmean(gamma)
@@ -107,13 +120,15 @@ def find_faults(gamma, grid, surface, wall, diameter, most=6):
         lines = (best_of_dip(strain[sense], grid, surface, wall, diameter, sense * dip) for dip in DIPS)
         return max(lines, key=lambda line: line.strain)
 
-    found, next_one = [], {sense: best(sense) for sense in strain}
-    while len(found) < most:
+    found, next_one, strongest = [], {sense: best(sense) for sense in strain}, 0.0
+    for _ in range(2 * most):
         sense = max(next_one, key=lambda s: next_one[s].strain)
         fault = next_one[sense]
-        if fault.strain < 2.5 * mean or (found and fault.strain < 0.5 * found[0].strain):
+        strongest = max(strongest, fault.strain)
+        if fault.strain < max(2.5 * mean, 0.5 * strongest) or len(found) == most:
             break
-        found.append(fault)
+        if stands_out(blurred, grid, surface, wall, diameter, fault):
+            found.append(fault)
         angle = np.radians(fault.dip)
         distance = np.abs((mesh_x - fault.root) * np.sin(angle) - mesh_z * np.cos(angle))
         strain[sense] = np.where(distance < BAND * diameter, 0, strain[sense])

@@ -38,6 +38,7 @@ class Surface:
         for k in range(len(height)):
             inside = np.sort(top[bins == k])
             height[k] = inside[-3:].mean() if len(inside) else 0.0  # a grain alone does not make a surface
+        self.left = left
         padded = np.pad(height, 1, mode="edge")
         self.x = 0.5 * (edges[:-1] + edges[1:])
         self.height = np.median([padded[:-2], padded[1:-1], padded[2:]], axis=0)
@@ -51,11 +52,10 @@ class Surface:
         return self.x[risen[-1]] if len(risen) else self.x[0]
 
     def taper(self, rest, diameter):
-        """Slope in degrees from the highest point down to the front: a straight line through the surface there."""
-        toe = self.front(rest, 2 * diameter)
-        crest = self.x[np.argmax(self.height)]
-        chosen = (self.x >= crest) & (self.x <= toe)
-        if np.sum(chosen) < 6:
+        """Slope in degrees of the triangle with the same base, from the wall to the front, and the same area above
+        the surface at rest. A line through the surface itself would follow the side of a single thrust sheet."""
+        base = self.front(rest, 1.5 * diameter) - self.left
+        if base < 2 * rest:
             return np.nan
-        slope = np.polyfit(self.x[chosen], self.height[chosen], 1)[0]
-        return -np.degrees(np.arctan(slope))
+        risen = np.sum((self.height - rest)[self.x < self.left + base]) * (self.x[1] - self.x[0])
+        return np.degrees(np.arctan(2 * risen / base**2))
