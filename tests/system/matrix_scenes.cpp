@@ -79,6 +79,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   const double* psi = particles.data<sph::Field::void_fraction>();
   Liveliness out{simulation.counters().rebuilds};
   if (const sph::Grains* grains = simulation.grains()) {
+    out.contacts = grains->touching_pairs();
     out.contacts_begun = grains->counters().created;
     out.contacts_ended = grains->counters().ended;
     out.histories_kept = grains->counters().carried;
@@ -100,9 +101,10 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
   if (end.rebuilds < start.rebuilds + 2) quiet("its lists were not rebuilt twice");
   if (scene.of_grains()) {
     constexpr std::int64_t some = 50;
-    if (end.contacts_begun < some) quiet("few contacts began");
-    if (end.contacts_ended < some) quiet("few contacts ended");
-    const bool rough = sph::contact_fusion(scene).history > 0;
+    const bool rough = sph::contact_fusion(scene).history > 0;  // smooth grains count nothing
+    if (!rough && end.contacts < some) quiet("few grains touch");
+    if (rough && end.contacts_begun < some) quiet("few contacts began");
+    if (rough && end.contacts_ended < some) quiet("few contacts ended");
     if (rough && end.histories_kept < some) quiet("few contacts outlived a rebuild");
     const bool servo = std::any_of(scene.walls.begin(), scene.walls.end(),
                                    [](const sph::Wall& wall) { return wall.force.has_value(); });
