@@ -56,7 +56,7 @@ class Timing:
 
 
 def run(ranks, *command, cwd=None):
-    """What the program prints, and the peak memory of its largest rank [B]."""
+    """What the program prints, and the peak memory of its largest rank [B]. Interrupted, LIGGGHTS writes into `cwd`."""
     with tempfile.TemporaryFile("w+") as out:
         process = subprocess.Popen([str(word) for word in ("mpirun", "-np", ranks, *command)], env=environment,
                                    cwd=cwd, stdout=out, stderr=subprocess.STDOUT)
@@ -109,9 +109,9 @@ def files_of(work, name, grains, drift=0):
 
 def peer(path, deck, law_variable, law_words):
     def measure(files, law, ranks, skin, steps):
-        text, memory = run(ranks, path, "-in", deck, "-log", "none",
-                           *variables(data=files.data, skin=skin * bed.LARGEST_DIAMETER, warm=WARM, n=steps,
-                                      **{law_variable: law_words[law]}), cwd=here / "peers")
+        text, memory = run(ranks, path, "-in", here / "peers" / deck, "-log", "none",
+                           *variables(peers=here / "peers", data=files.data, skin=skin * bed.LARGEST_DIAMETER,
+                                      warm=WARM, n=steps, **{law_variable: law_words[law]}), cwd=files.data.parent)
         seconds = float(re.findall(r"Loop time of (\S+)", text)[-1])
         rebuilds = int(re.findall(r"Neighbor list builds = (\d+)", text)[-1])
         return Timing(seconds / steps, rebuilds / steps, memory)
@@ -198,8 +198,8 @@ def compare(codes, beds, tile, options):
 
 def energies_of_lammps(lmp, files, law):
     """Translational energy of each step, of the velocities that Peperite has then (see the deck), and rotational."""
-    text, _ = run(1, lmp, "-in", "lmp_push.in", "-log", "none", cwd=here / "peers",
-                  *variables(data=files.data, law=law, skin=0.1 * bed.LARGEST_DIAMETER, n=CHECKED,
+    text, _ = run(1, lmp, "-in", here / "peers/lmp_push.in", "-log", "none", cwd=files.data.parent,
+                  *variables(peers=here / "peers", data=files.data, law=law, skin=0.1 * bed.LARGEST_DIAMETER, n=CHECKED,
                              tangential="mindlin_rescale/force"))  # as ours: unloading makes no energy
     table = re.findall(r"^ *Step.*?\n(.*?)^Loop", text, re.M | re.S)[-1]
     return [tuple(map(float, line.split()[1:])) for line in table.splitlines()]

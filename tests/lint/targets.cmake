@@ -3,7 +3,8 @@ set(lint ${CMAKE_CURRENT_SOURCE_DIR}/lint/lint.py)
 add_test(NAME lint COMMAND ${PYTHON} -B ${lint})
 add_test(NAME lint.self_test COMMAND ${PYTHON} -B ${lint} --self-test)
 
-file(GLOB private_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib*/src/*.hpp)
+file(GLOB private_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/libdecomp/src/*.hpp
+  ${PROJECT_SOURCE_DIR}/libsph/src/*/*.hpp)
 set(stubs)
 foreach(header ${private_headers})
   get_filename_component(name ${header} NAME_WE)

@@ -91,7 +91,8 @@ struct ContactPass {
 
   static ContactConstants<V> constants(const V (&k)[8]) { return {k[0], k[1], k[2], k[3], k[4], k[5], k[6]}; }
 
-  static ContactConstants<V> constants_of(const ContactContext& c, const std::uint32_t* pair) {
+  [[gnu::always_inline]] static ContactConstants<V> constants_of(const ContactContext& c,
+                                                                 const std::uint32_t* pair) {
     V k[8];
     if constexpr (one_material)
       for (int n = 0; n < 8; ++n) k[n] = V(c.constants[n]);
@@ -102,8 +103,8 @@ struct ContactPass {
 
   /// The laws, with the history of group `g` before and after. Lanes that do not touch answer zero and lose
   /// their history.
-  static Answer respond(Contact<V>& contact, const ContactConstants<V>& k, ContactGroups& list, std::size_t g,
-                        ContactSweep& sweep) {
+  [[gnu::always_inline]] static Answer respond(Contact<V>& contact, const ContactConstants<V>& k,
+                                               ContactGroups& list, std::size_t g, ContactSweep& sweep) {
     const V gone = V::zero();
     const auto touching = [&](V x) { return where_less(gone, contact.overlap, x); };
     Answer out;
@@ -224,7 +225,8 @@ struct ContactPass {
   }
 
   /// separation, slip and roll from the relative velocity and r_i omega_i + r_j omega_j.
-  static void kinematics(Contact<V>& contact, const V (&rel)[3], const V (&surface)[3]) {
+  [[gnu::always_inline]] static void kinematics(Contact<V>& contact, const V (&rel)[3],
+                                                const V (&surface)[3]) {
     const V(&n)[3] = contact.normal;
     contact.separation = rel[0] * n[0] + rel[1] * n[1] + rel[2] * n[2];
     if constexpr (spins) {
