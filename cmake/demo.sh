@@ -6,7 +6,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/environment.sh
-until=${1:-10}     # of the scene's 20: half a minute of run
+until=${1:-10}      # of the scene's 20: half a minute of run
 until_sand=${2:-2}  # of the scene's 6.75, 2.4 cm of shortening: three minutes of run
 
 sh cmake/packages.sh
