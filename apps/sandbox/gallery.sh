@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs the sandbox and its shear boxes and draws the pictures in gallery/: about seven minutes on two cores.
+# Runs the sandbox and its shear boxes and draws the pictures in gallery/: about a quarter of an hour on two cores.
 # Cases that have already come to their end in RUNS are only drawn.
 #
 #     sh apps/sandbox/gallery.sh [PROGRAMS] [RUNS] [RANKS]     default: build/bin out/gallery 2

@@ -108,7 +108,7 @@ def draw_chains(history):
     for axes, moment in zip(panels, moments):
         contacts = Contacts(moment.snapshot)
         circles(axes, moment.snapshot, facecolors="#efe9dc")
-        width = 0.28 * np.minimum(contacts.strength, 12)
+        width = 0.1 * np.minimum(contacts.strength, 20)
         axes.add_collection(LineCollection(100 * contacts.lines, linewidths=width, colors=CHAIN))
         draw_walls(axes, history, moment)
         axes.set_title(f"shortening {100 * moment.shortening:.1f} cm: contacts above the mean force of "
