@@ -176,7 +176,7 @@ def compare(codes, beds, tile, options):
     first = options.beds[0]
     skins = {(name, law): options.skin or best_skin(name, measure, beds[first], steps[first], law)
              for law in options.laws for name, measure in codes.items()}
-    small = {name: measure(tile, options.laws[0], 1, skins[name, options.laws[0]], 1).memory
+    small = {name: measure(tile, options.laws[0], 1, skins[name, options.laws[0]], 200).memory
              for name, measure in codes.items()}
     print("\nbytes per grain: growth of the peak memory from the tile of 12,800 to the bed, one rank")
     print("bed   law    ranks code             M/s  ours/its  B/grain  skin/d  rebuilds/1000")

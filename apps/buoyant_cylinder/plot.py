@@ -9,9 +9,7 @@ and prints the path of each picture. With several runs their names go before the
 of all are on one sheet.
 """
 
-import argparse
 import sys
-from pathlib import Path
 
 import matplotlib
 
@@ -23,7 +21,8 @@ from matplotlib.colors import to_rgb, to_rgba
 from matplotlib.lines import Line2D
 from PIL import Image
 
-from run_data import BadInput, Run
+from run_data import Run
+from run_folder import drawing_parser, given_to, refusing
 
 PICTURES = ("particles", "pressure", "strip", "series")
 WALL, SPRAY = "#9a9a9a", "#1b2a49"
@@ -303,26 +302,14 @@ def draw_series(runs):
 # ---- command line -------------------------------------------------------------------------------------------
 
 
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(message)
-
-
 def arguments():
-    parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs", metavar="DIR", nargs="+", help="folder of a run")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the pictures go (default: the first DIR)")
+    parser = drawing_parser(__doc__, PICTURES)
     parser.add_argument("--time", metavar="T", type=float,
                         help="draw the snapshot nearest to T seconds (default: last)")
     parser.add_argument("--dynamic", action="store_true", help="stresses: leave the hydrostatic pressure out")
     parser.add_argument("--average", choices=("time", "space"),
                         help="velocity and pressure: draw the averages of output.average_time or average_space")
-    parser.add_argument("--draw", metavar="LIST", default=",".join(PICTURES), help="some of " + ",".join(PICTURES))
-    given = parser.parse_args()
-    given.draw = given.draw.split(",")
-    for name in given.draw:
-        if name not in PICTURES:
-            parser.error(f"--draw: \"{name}\" is not one of {', '.join(PICTURES)}")
+    given = given_to(parser, PICTURES)
     if given.time is not None and not np.isfinite(given.time):
         parser.error("--time: not a finite number")
     return given
@@ -369,21 +356,16 @@ def save(figure, path):
     plt.close(figure)
 
 
-def main():
-    try:
-        given = arguments()
-        runs = [Run(folder) for folder in given.runs]
-        out = given.out or runs[0].folder
-        out.mkdir(parents=True, exist_ok=True)
-        plt.rcParams.update(STYLE)
-        for name, figure in pictures(runs, given):
-            save(figure, out / name)
-            print(out / name)
-    except (BadInput, OSError) as error:
-        print(f"plot.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+def draw():
+    given = arguments()
+    runs = [Run(folder) for folder in given.runs]
+    out = given.out or runs[0].folder
+    out.mkdir(parents=True, exist_ok=True)
+    plt.rcParams.update(STYLE)
+    for name, figure in pictures(runs, given):
+        save(figure, out / name)
+        print(out / name)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(refusing(draw))

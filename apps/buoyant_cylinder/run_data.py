@@ -1,14 +1,14 @@
 """The files of a run: snapshots and time series of two-dimensional scenes."""
 
+import sys
 import tomllib
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-
-class BadInput(Exception):
-    """What is wrong with the arguments or with a file, in one line."""
+sys.path.append(str(Path(__file__).resolve().parent.parent / "plotting"))
+from run_folder import BadInput, RunFolder  # noqa: E402
 
 
 class Snapshot:
@@ -77,21 +77,13 @@ class Snapshot:
         return centre + radius, centre - radius, np.arctan2(xy, half) / 2
 
 
-class Run:
-    """A folder of snapshots and its time series."""
+class Run(RunFolder):
+    """The folder of a run of a two-dimensional scene."""
 
     def __init__(self, folder):
-        self.folder = Path(folder)
-        if not self.folder.is_dir():
-            raise BadInput(f"{folder}: no such folder")
-        self.snapshots = sorted((Snapshot(p) for p in self.folder.glob("snapshot_*.h5")), key=lambda s: s.step)
-        if not self.snapshots:
-            raise BadInput(f"{folder}: no snapshot_*.h5 in it")
-        self.scene = self.snapshots[-1].scene
+        super().__init__(folder, Snapshot)
         if self.scene["dimension"] != 2:
             raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions; only 2 can be drawn")
-        self.name = self.folder.resolve().name
-        self.title = self.scene.get("title", self.name)
         self.kinds = [g["kind"] for g in self.scene["group"]]
         self.names = [g["name"] for g in self.scene["group"]]
         self.sprays = {g["fragmentation"]["group"] for g in self.scene["group"] if "fragmentation" in g}
@@ -107,21 +99,6 @@ class Run:
 
     def heading(self, snapshot):
         return f"{self.title}, t = {snapshot.time:.1f} s{snapshot.remark}"
-
-    def series(self):
-        """Columns by name. A last line that is not complete is left out: the run may still be writing."""
-        path = self.folder / "series.csv"
-        try:
-            lines = path.read_text().rpartition("\n")[0].splitlines()
-            names = lines[0].split(",") if lines else []
-            rows = [[float(value) for value in line.split(",")] for line in lines[1:]]
-            if "t" not in names or not rows:
-                raise ValueError("no time series in it")
-            if any(len(row) != len(names) for row in rows):
-                raise ValueError("lines of different lengths")
-        except (OSError, ValueError) as error:
-            raise BadInput(f"{path}: cannot read it: {error}") from None
-        return dict(zip(names, np.array(rows).T))
 
     def tracked(self):
         """Name of the first monitor that follows a particle."""

@@ -1,16 +1,16 @@
 """The files of a run of the sandbox or the shear box: snapshots of grains, contacts, time series."""
 
+import sys
 import tomllib
 from pathlib import Path
 
 import h5py
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parent.parent / "plotting"))
+from run_folder import BadInput, RunFolder  # noqa: E402
+
 WALL = np.uint64(1) << np.uint64(63)  # partners of contacts at or above it are walls
-
-
-class BadInput(Exception):
-    """What is wrong with the arguments or with a file, in one line."""
 
 
 class Snapshot:
@@ -57,18 +57,11 @@ class Snapshot:
         return a, b, force, way / np.linalg.norm(way, axis=1)[:, None]
 
 
-class Run:
-    """A folder of snapshots and its time series."""
+class Run(RunFolder):
+    """The folder of a run of grains."""
 
     def __init__(self, folder):
-        self.folder = Path(folder)
-        if not self.folder.is_dir():
-            raise BadInput(f"{folder}: no such folder")
-        self.snapshots = sorted((Snapshot(p) for p in self.folder.glob("snapshot_*.h5")), key=lambda s: s.step)
-        if not self.snapshots:
-            raise BadInput(f"{folder}: no snapshot_*.h5 in it")
-        self.scene = self.snapshots[-1].scene
-        self.title = self.scene.get("title", self.folder.name)
+        super().__init__(folder, Snapshot)
         sizes = [g["diameter"] for g in self.scene["group"] if "diameter" in g]
         self.diameter = float(np.mean(sizes[0]))
         lower, upper = self.scene["domain"]["lower"], self.scene["domain"]["upper"]
@@ -87,20 +80,3 @@ class Run:
                 if change["name"] == name and any(change.get("velocity", [])):
                     return stage["begin"], np.array(change["velocity"])
         raise BadInput(f"{self.folder}: no stage of its scene moves the wall \"{name}\"")
-
-    def series(self, *needed):
-        """Columns by name. A last line that is not complete is left out: the run may still be writing."""
-        path = self.folder / "series.csv"
-        try:
-            lines = path.read_text().rpartition("\n")[0].splitlines()
-            names = lines[0].split(",") if lines else []
-            rows = [[float(value) for value in line.split(",")] for line in lines[1:]]
-            if not rows or any(len(row) != len(names) for row in rows):
-                raise ValueError("no whole lines in it")
-        except (OSError, ValueError) as error:
-            raise BadInput(f"{path}: cannot read it: {error}") from None
-        table = dict(zip(names, np.array(rows).T))
-        for name in needed:
-            if name not in table:
-                raise BadInput(f"{path}: no column {name}: the scene lacks its [[monitor]]")
-        return table

@@ -9,9 +9,7 @@ give the angles of friction from which the theory of the critical taper follows;
 gallery.sh are taken.
 """
 
-import argparse
 import sys
-from pathlib import Path
 
 import numpy as np
 
@@ -19,6 +17,7 @@ from forces import Contacts
 from grain_run import BadInput, Run
 from history import History
 from shear_box import MEASURED, ShearBox, angles
+from run_folder import drawing_parser, given_to, refusing
 from wedge import critical_taper, thrust_dips
 
 PICTURES = ("layers", "strain", "chains", "stress", "history", "shear")
@@ -62,64 +61,41 @@ def from_contacts(history):
                f"{1e3 * contacts.mean_force:.2g} mN")
 
 
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise BadInput(message)
-
-
-def arguments():
-    parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs", metavar="DIR", nargs="+", help="folder of a run")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the pictures go (default: the first DIR)")
-    parser.add_argument("--draw", metavar="LIST", default=",".join(PICTURES), help="some of " + ",".join(PICTURES))
-    given = parser.parse_args()
-    given.draw = given.draw.split(",")
-    for name in given.draw:
-        if name not in PICTURES:
-            parser.error(f"--draw: \"{name}\" is not one of {', '.join(PICTURES)}")
-    return given
-
-
 def is_shear_box(run):
     return any(wall["name"] == "lid" for wall in run.scene.get("wall", []))
 
 
-def main():
-    try:
-        given = arguments()
-        runs = [Run(folder) for folder in given.runs]
-        boxes = [ShearBox(run) for run in runs if is_shear_box(run)]
-        sandboxes = [run for run in runs if not is_shear_box(run)]
-        if len(sandboxes) > 1:
-            raise BadInput("more than one run of the sandbox: draw one after the other")
-        out = given.out or runs[0].folder
-        out.mkdir(parents=True, exist_ok=True)
-        import pictures  # only now: it takes a second, and refusals should not
-        pictures.plt.rcParams.update(pictures.STYLE)
+def draw():
+    given = given_to(drawing_parser(__doc__, PICTURES), PICTURES)
+    runs = [Run(folder) for folder in given.runs]
+    boxes = [ShearBox(run) for run in runs if is_shear_box(run)]
+    sandboxes = [run for run in runs if not is_shear_box(run)]
+    if len(sandboxes) > 1:
+        raise BadInput("more than one run of the sandbox: draw one after the other")
+    out = given.out or runs[0].folder
+    out.mkdir(parents=True, exist_ok=True)
+    import pictures  # only now: it takes a second, and refusals should not
+    pictures.plt.rcParams.update(pictures.STYLE)
 
-        sand, floor = (found or known for found, known in zip(angles(boxes), MEASURED))
-        lines, drawn = [box.text() for box in boxes], {}
-        if boxes:
-            drawn["shear"] = lambda: pictures.draw_shear(boxes)
-        if sandboxes:
-            history = History(sandboxes[0])
-            lines += [*measured(history), *from_contacts(history)]
-            for name in ("layers", "strain", "chains", "stress"):
-                drawn[name] = lambda draw=getattr(pictures, f"draw_{name}"): draw(history)
-            drawn["history"] = lambda: pictures.draw_history(history, sand, floor)
-        lines += theory(sand, floor)
-        for name in PICTURES:
-            figure = drawn[name]() if name in given.draw and name in drawn else None
-            if figure is not None:
-                pictures.save(figure, out / f"{name}.png")
-                print(out / f"{name}.png")
-        (out / "summary.txt").write_text("\n".join(lines) + "\n")
-        print(*lines, sep="\n")
-    except (BadInput, OSError) as error:
-        print(f"plot.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    sand, floor = (found or known for found, known in zip(angles(boxes), MEASURED))
+    lines, drawn = [box.text() for box in boxes], {}
+    if boxes:
+        drawn["shear"] = lambda: pictures.draw_shear(boxes)
+    if sandboxes:
+        history = History(sandboxes[0])
+        lines += [*measured(history), *from_contacts(history)]
+        for name in ("layers", "strain", "chains", "stress"):
+            drawn[name] = lambda draw=getattr(pictures, f"draw_{name}"): draw(history)
+        drawn["history"] = lambda: pictures.draw_history(history, sand, floor)
+    lines += theory(sand, floor)
+    for name in PICTURES:
+        figure = drawn[name]() if name in given.draw and name in drawn else None
+        if figure is not None:
+            pictures.save(figure, out / f"{name}.png")
+            print(out / f"{name}.png")
+    (out / "summary.txt").write_text("\n".join(lines) + "\n")
+    print(*lines, sep="\n")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(refusing(draw))

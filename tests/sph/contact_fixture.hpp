@@ -49,7 +49,8 @@ template <class Normal, class Friction = Coulomb, class Rolling = NoRolling>
 struct Pair {
   Body i, j;
   bool wall = false;  ///< i is a plane through i.x with the normal +y, and moves as it is told
-  ContactConstants<V> k{V::zero(), V::zero(), V::zero(), V::zero(), V::zero(), V::zero(), V::zero()};
+  ContactConstants<V> k{V::zero(), V::zero(), V::zero(), V::zero(),
+                        V::zero(), V::zero(), V::zero(), V::zero()};
   V3 gravity{V::zero(), V::zero(), V::zero()};
   V dt = 1e-3;
   V3 spring{V::zero(), V::zero(), V::zero()}, roll_spring{V::zero(), V::zero(), V::zero()};
@@ -87,16 +88,16 @@ struct Pair {
     normal = Normal::force(contact, k);
     Load out;
     const V touch = contact.overlap;
-    V3 tangent{V::zero(), V::zero(), V::zero()};
+    V3 tangent{V::zero(), V::zero(), V::zero()}, rolling{V::zero(), V::zero(), V::zero()};
     if constexpr (Friction::history > 0) Friction::force(contact, k, normal, spring, tangent);
-    if constexpr (Rolling::history > 0) Rolling::torque(contact, k, normal, roll_spring);
+    if constexpr (Rolling::history > 0) Rolling::torque(contact, k, normal, roll_spring, rolling);
     cross(contact.normal, tangent, out.twist);
     for (int a = 0; a < 3; ++a) {
       spring[a] = where_positive(touch, spring[a]);
       roll_spring[a] = where_positive(touch, roll_spring[a]);
       out.force[a] = where_positive(touch, normal.force * contact.normal[a] + tangent[a]);
       out.twist[a] = where_positive(touch, out.twist[a]);
-      out.rolling[a] = roll_spring[a];
+      out.rolling[a] = where_positive(touch, rolling[a]);
     }
     largest_overlap = max(largest_overlap, touch);
     largest_force = max(largest_force, where_positive(touch, normal.force));

@@ -23,9 +23,10 @@ Pair<Normal, Friction, RollingSpring> resting(double stiffness) {
   p.wall = true;
   p.j.radius = radius;
   p.j.inverse_mass = 1.0;
-  p.k = {
-      V(stiffness), V(2.0 / 7 * stiffness), V(0.4), V(1.0), V(0.8), lanes([](int l) { return rolling[l]; }),
-      V(0.0)};
+  p.k = {V(stiffness), V(2.0 / 7 * stiffness),
+         V(0.4),       V(1.0),
+         V(0.8),       lanes([](int l) { return rolling[l]; }),
+         V(0.0),       V(0.0)};
   p.gravity[1] = -g;
   const double overlap = std::is_same_v<Normal, HertzNormal>
                              ? std::pow(0.75 * g / (stiffness * std::sqrt(radius)), 2.0 / 3)
@@ -73,8 +74,33 @@ TEST(ContactRolling, SpinAboutTheNormalIsFree) {
   for (int l = 0; l < V::lanes; ++l) EXPECT_EQ(p.j.w[1][l], 3.0);
 }
 
-// The spring has no dashpot: on a smooth plane a stopped grain goes on to swing with what the spring held at
-// its limit, at most limit / sqrt(k_r I), k_r = 2.25 k (mu_r R)^2: a speed that does not depend on mu_r.
+// Rolling to and fro about the contact with a plane is a damped oscillator of that fraction of the critical
+// damping: its amplitude falls by exp(-2 pi eta / sqrt(1 - eta^2)) in a period.
+TEST(ContactRolling, DashpotIsTheFractionOfTheCriticalOne) {
+  constexpr double stiffness = 1e6, arm = 0.02, w0 = 0.01;
+  static constexpr double eta[8] = {0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5};
+  auto p = resting<LinearNormal, Coulomb>(stiffness);
+  p.k.rolling_friction = arm;
+  p.k.rolling_damping = lanes([](int l) { return eta[l]; });
+  p.j.w[2] = w0;
+  p.j.v[0] = -w0 * radius;
+  const double omega = std::sqrt(2.25 * stiffness * arm * arm / 1.4);
+  V amplitude = V::zero();
+  for (int n = 0; n * p.dt[0] < 20 / omega; ++n) {
+    p.step();
+    for (int l = 0; l < V::lanes; ++l) {
+      const double period = 2 * std::numbers::pi / (omega * std::sqrt(1 - eta[l] * eta[l]));
+      if (n == static_cast<int>(std::lround(period / p.dt[0]))) amplitude.v[l] = p.j.w[2][l];
+    }
+  }
+  for (int l = 0; l < V::lanes; ++l) {
+    const double fall = std::exp(-2 * std::numbers::pi * eta[l] / std::sqrt(1 - eta[l] * eta[l]));
+    EXPECT_NEAR(amplitude[l] / w0, fall, 5e-3) << eta[l];
+  }
+}
+
+// Without a dashpot: on a smooth plane a stopped grain goes on to swing with what the spring held at its
+// limit, at most limit / sqrt(k_r I), k_r = 2.25 k (mu_r R)^2: a speed that does not depend on mu_r.
 // Friction's dashpot takes it away.
 TEST(ContactRolling, SwingsOnAfterTheStop) {
   const auto largest_swing = [](auto p) {
@@ -100,13 +126,13 @@ TEST(ContactRolling, SwingsOnAfterTheStop) {
 // Overlap and roll go round a closed loop, in all phases to each other: the spring may not give energy.
 TEST(ContactRolling, CyclesMakeNoEnergy) {
   Contact<V> c{};
-  const ContactConstants<V> k{V(1e8), V(0.0), V(0.0), V(0.0), V(0.0), V(0.3), V(0.0)};
+  const ContactConstants<V> k{V(1e8), V(0.0), V(0.0), V(0.0), V(0.0), V(0.3), V(0.0), V(0.0)};
   c.normal[0] = 1, c.normal[1] = c.normal[2] = 0;
   c.radius = radius;
   c.mass = 1;
   c.dt = 1;
   for (V& r : c.roll) r = V::zero();
-  V spring[3] = {V::zero(), V::zero(), V::zero()}, work = V::zero(), last = V::zero();
+  V spring[3] = {V::zero(), V::zero(), V::zero()}, torque[3], work = V::zero(), last = V::zero();
   constexpr int steps = 2000;
   const double depth = 1e-5, swing = 1e-5;  // [rad], far below the limit
   V largest = V::zero();
@@ -119,7 +145,7 @@ TEST(ContactRolling, CyclesMakeNoEnergy) {
     c.separation = lanes([&](int l) { return at(before, l) - at(time, l); });
     c.roll[2] = swing * (std::sin(time) - std::sin(before));
     const NormalForce<V> normal = HertzNormal::force(c, k);
-    RollingSpring::torque(c, k, normal, spring);
+    RollingSpring::torque(c, k, normal, spring, torque);
     if (n >= steps) work += V(0.5) * (spring[2] + last) * c.roll[2];
     last = spring[2];
     largest = max(largest, spring[2] * V(swing));

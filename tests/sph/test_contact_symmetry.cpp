@@ -53,28 +53,28 @@ struct Case {
   ContactConstants<V> k{};
   V spring[3], roll_spring[3];
   NormalForce<V> normal{};
-  V force[3];
+  V force[3], torque[3];
 
   template <class Normal>
   void answer() {
     normal = Normal::force(contact, k);
     Coulomb::force(contact, k, normal, spring, force);
-    RollingSpring::torque(contact, k, normal, roll_spring);
+    RollingSpring::torque(contact, k, normal, roll_spring, torque);
   }
 
   template <class F>
   void each_vector(F apply) {
     for (int a = 0; a < 3; ++a)
-      for (V* v :
-           {&contact.normal[a], &contact.slip[a], &contact.roll[a], &spring[a], &roll_spring[a], &force[a]})
+      for (V* v : {&contact.normal[a], &contact.slip[a], &contact.roll[a], &spring[a], &roll_spring[a],
+                   &force[a], &torque[a]})
         apply(*v);
   }
   template <class F>
   void each_scalar(F apply) {
-    for (V* v :
-         {&contact.overlap, &contact.separation, &contact.radius, &contact.mass, &contact.dt, &k.stiffness,
-          &k.shear_stiffness, &k.damping, &k.shear_damping, &k.friction, &k.rolling_friction, &k.least_force,
-          &normal.force, &normal.elastic, &normal.shear_stiffness, &normal.shear_change, &normal.dashpot})
+    for (V* v : {&contact.overlap, &contact.separation, &contact.radius, &contact.mass, &contact.dt,
+                 &k.stiffness, &k.shear_stiffness, &k.damping, &k.shear_damping, &k.friction,
+                 &k.rolling_friction, &k.least_force, &k.rolling_damping, &normal.force, &normal.elastic,
+                 &normal.shear_stiffness, &normal.shear_change, &normal.dashpot})
       apply(*v);
   }
 };
@@ -184,7 +184,7 @@ TEST(ContactSymmetry, BodiesAreExchangeable) {
       }
     }
     p.j.x[0] = p.i.x[0] + V(0.1);  // never at one point
-    p.k = {V(100.0), V(80.0), V(0.3), V(0.5), V(0.4), V(0.1), V(0.0)};
+    p.k = {V(100.0), V(80.0), V(0.3), V(0.5), V(0.4), V(0.1), V(0.0), V(0.3)};
     P q = p;
     std::swap(q.i, q.j);
     p.steps(3);

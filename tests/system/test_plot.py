@@ -33,6 +33,7 @@ class Plot(unittest.TestCase):
         cases = Path(given.source).resolve() / "apps" / "buoyant_cylinder"
         sys.path.insert(0, str(cases))
         cls.script = importlib.import_module("plot")
+        cls.refusing = importlib.import_module("run_folder").refusing
         for case in ("solid", "gas"):
             cls.run_of.run(2, "buoyant_cylinder", cases / f"{case}.toml", *OPTIONS, "--out", case)
 
@@ -45,7 +46,7 @@ class Plot(unittest.TestCase):
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), contextlib.chdir(self.folder), \
                 unittest.mock.patch("sys.argv", ["plot.py", *map(str, arguments)]):
-            code = self.script.main()
+            code = type(self).refusing(self.script.draw)
         return code, out.getvalue(), err.getvalue()
 
     def drawn(self, *arguments):

@@ -13,6 +13,7 @@
 #include "sph/contact/normal.hpp"
 #include "sph/contact/rolling.hpp"
 #include "sph/contact_lists.hpp"
+#include "sph/fixed_point.hpp"
 #include "sph/particles.hpp"
 #include "sph/simd.hpp"
 
@@ -44,13 +45,22 @@ struct ContactSweep {
   std::int64_t created = 0, ended = 0;   ///< contacts, each once a rank that sees it
 };
 
-template <class NormalLaw, class FrictionLaw, class RollingLaw, bool one_material>
+/// Sums in whole quanta, whose bits depend on no order. benchmarks/contacts.cpp has what they cost.
+struct QuantumSums {
+  using Sum = std::uint64_t;
+  static Int64x8 lanes(Simd<double> quanta) { return to_integers(quanta); }
+  static Sum scalar(double quanta) { return static_cast<Sum>(round_to_quanta(quanta)); }
+  static double value(Sum sum) { return static_cast<double>(static_cast<std::int64_t>(sum)); }
+};
+
+template <class NormalLaw, class FrictionLaw, class RollingLaw, bool one_material, class Sums = QuantumSums>
 struct ContactPass {
   static constexpr bool spins = FrictionLaw::history + RollingLaw::history > 0;
   static constexpr int history = FrictionLaw::history + RollingLaw::history;
   static constexpr int stride = spins ? 8 : 4;
   static constexpr std::size_t lanes = ContactGroups::lanes;
   using V = Simd<double>;
+  using Sum = typename Sums::Sum;
 
   static void run(const ContactContext& c, std::span<const ContactBlock> blocks, const RowRanges& ranges,
                   ContactSweep& sweep) {
@@ -65,7 +75,8 @@ struct ContactPass {
       if (moves(RowClass::interior_movers) || moves(RowClass::boundary_movers))
         move(c, rows, block.first, block.last, sweep);
       else
-        std::fill(c.sums + std::size_t{block.first} * stride, c.sums + std::size_t{block.last} * stride, 0u);
+        std::fill(rows.sums + std::size_t{block.first} * stride, rows.sums + std::size_t{block.last} * stride,
+                  Sum{});
     }
   }
 
@@ -75,13 +86,15 @@ struct ContactPass {
     double *v, *w;
     const double *radius, *mass;
     const std::uint32_t* group;
+    Sum* sums;
     explicit Rows(const ContactContext& c)
         : x(c.particles->data<Field::position>()),
           v(c.particles->data<Field::velocity>()),
           w(c.particles->data<Field::spin>()),
           radius(c.particles->data<Field::radius>()),
           mass(c.particles->data<Field::mass>()),
-          group(c.particles->data<Field::group>()) {}
+          group(c.particles->data<Field::group>()),
+          sums(reinterpret_cast<Sum*>(c.sums)) {}
   };
 
   /// Forces and torques of eight contacts. Torque on j: roll - r_j couple, on i: -roll - r_i couple.
@@ -89,7 +102,9 @@ struct ContactPass {
     V force[3], couple[3], roll[3];
   };
 
-  static ContactConstants<V> constants(const V (&k)[8]) { return {k[0], k[1], k[2], k[3], k[4], k[5], k[6]}; }
+  static ContactConstants<V> constants(const V (&k)[8]) {
+    return {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]};
+  }
 
   [[gnu::always_inline]] static ContactConstants<V> constants_of(const ContactContext& c,
                                                                  const std::uint32_t* pair) {
@@ -133,10 +148,11 @@ struct ContactPass {
       double* rolled = stored + FrictionLaw::history * lanes;
       V spring[3];
       for (int a = 0; a < 3; ++a) std::memcpy(&spring[a].v, rolled + a * lanes, sizeof spring[a].v);
-      RollingLaw::torque(contact, k, normal, spring);
+      RollingLaw::torque(contact, k, normal, spring, out.roll);
       for (int a = 0; a < 3; ++a) {
-        out.roll[a] = touching(spring[a]);
-        std::memcpy(rolled + a * lanes, &out.roll[a].v, sizeof out.roll[a].v);
+        const V kept = touching(spring[a]);
+        std::memcpy(rolled + a * lanes, &kept.v, sizeof kept.v);
+        out.roll[a] = touching(out.roll[a]);
       }
     }
     const unsigned now = positive_lanes(contact.overlap), before = list.touching[g];
@@ -158,7 +174,7 @@ struct ContactPass {
     ContactGroups& list = c.lists->pairs();
     const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* j = list.j.data() + g * lanes;
-    prefetch(c, rows, list, g + 8);
+    prefetch(rows, list, g + 8);
     const V unit(c.length_quantum);
     V xi[4], xj[4];
     load_vectors(reinterpret_cast<const double*>(rows.x), i, xi);
@@ -204,24 +220,24 @@ struct ContactPass {
       for (int l = 0; l < V::lanes; ++l) sweep.overlap = std::max(sweep.overlap, excess[l]);
 
     const V force_scale(1 / c.force_quantum);
-    Int64x8 on_i[stride] = {}, on_j[stride] = {};
+    decltype(Sums::lanes(V())) on_i[stride] = {}, on_j[stride] = {};
     V worst = V::zero();
     for (int a = 0; a < 3; ++a) {
       const V f = answer.force[a] * force_scale;
       worst = max(worst, max(f, -f));
-      on_j[a] = to_integers(f);
+      on_j[a] = Sums::lanes(f);
       on_i[a] = -on_j[a];
     }
     if constexpr (spins) {
       const V torque_scale(1 / c.torque_quantum);
       for (int a = 0; a < 3; ++a) {
-        on_i[4 + a] = to_integers((-answer.roll[a] - ri * answer.couple[a]) * torque_scale);
-        on_j[4 + a] = to_integers((answer.roll[a] - rj * answer.couple[a]) * torque_scale);
+        on_i[4 + a] = Sums::lanes((-answer.roll[a] - ri * answer.couple[a]) * torque_scale);
+        on_j[4 + a] = Sums::lanes((answer.roll[a] - rj * answer.couple[a]) * torque_scale);
       }
     }
     if (positive_lanes(worst - V(0x1p49)) != 0) note(sweep, worst);
-    add_to_rows<stride>(c.sums, i, on_i);
-    add_to_rows<stride>(c.sums, j, on_j);
+    add_to_rows<stride>(rows.sums, i, on_i);
+    add_to_rows<stride>(rows.sums, j, on_j);
   }
 
   /// separation, slip and roll from the relative velocity and r_i omega_i + r_j omega_j.
@@ -276,28 +292,21 @@ struct ContactPass {
       for (int a = 0; a < 3; ++a) {
         const double f = answer.force[a][k] * (1 / c.force_quantum);
         sweep.force = std::max(sweep.force, std::fabs(f));
-        const std::int64_t quanta = round_to_integer(f);
-        c.sums[std::size_t{i[l]} * stride + static_cast<std::size_t>(a)] -=
-            static_cast<std::uint64_t>(quanta);
-        c.wall_force[walls[l] * 3 + static_cast<std::uint32_t>(a)] += quanta;
+        const Sum sum = Sums::scalar(f);
+        rows.sums[std::size_t{i[l]} * stride + static_cast<std::size_t>(a)] -= sum;
+        c.wall_force[walls[l] * 3 + static_cast<std::uint32_t>(a)] += static_cast<std::int64_t>(sum);
         if constexpr (spins) {
           const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
-          c.sums[std::size_t{i[l]} * stride + 4 + static_cast<std::size_t>(a)] +=
-              static_cast<std::uint64_t>(round_to_integer(torque * (1 / c.torque_quantum)));
+          rows.sums[std::size_t{i[l]} * stride + 4 + static_cast<std::size_t>(a)] +=
+              Sums::scalar(torque * (1 / c.torque_quantum));
         }
       }
     }
   }
 
-  static std::int64_t round_to_integer(double x) {
-    constexpr double magic = 6755399441055744.0;
-    return std::bit_cast<std::int64_t>(x + magic) - std::bit_cast<std::int64_t>(magic);
-  }
-
   /// What group g reads of its partners and adds to. Both ends of a row of 24 bytes: it may lie in two lines.
   /// Inlined by force: g++ takes a function that only prefetches for one without effect and drops the call.
-  [[gnu::always_inline]] static void prefetch(const ContactContext& c, const Rows& rows,
-                                              const ContactGroups& list, std::size_t g) {
+  [[gnu::always_inline]] static void prefetch(const Rows& rows, const ContactGroups& list, std::size_t g) {
     if (g >= list.groups()) return;
     const std::uint32_t* j = list.j.data() + g * lanes;
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -310,7 +319,7 @@ struct ContactPass {
       __builtin_prefetch(rows.radius + r);
       __builtin_prefetch(rows.mass + r);
       if constexpr (!one_material) __builtin_prefetch(rows.group + r);
-      __builtin_prefetch(c.sums + r * stride, 1);
+      __builtin_prefetch(rows.sums + r * stride, 1);
     }
   }
 
@@ -320,22 +329,21 @@ struct ContactPass {
     const double dt = c.dt, quanta = dt / c.length_quantum;
     double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
     for (std::size_t r = first; r < last; ++r) {
-      std::uint64_t* sums = c.sums + r * stride;
+      Sum* sums = rows.sums + r * stride;
       const double inverse_mass = 1 / rows.mass[r];
       double v2 = 0, a2 = 0;
       for (std::size_t a = 0; a < 3; ++a) {
-        const double force = static_cast<double>(static_cast<std::int64_t>(sums[a])) * c.force_quantum;
+        const double force = Sums::value(sums[a]) * c.force_quantum;
         const double acceleration = force * inverse_mass + c.gravity[a];
         const double v = rows.v[r * 3 + a] + acceleration * dt;
         rows.v[r * 3 + a] = v;
-        rows.x[r * 3 + a] += round_to_integer(v * quanta);
+        rows.x[r * 3 + a] += round_to_quanta(v * quanta);
         v2 += v * v;
         a2 += acceleration * acceleration;
       }
       if constexpr (spins) {
         const double turn = 2.5 * inverse_mass / (rows.radius[r] * rows.radius[r]) * c.torque_quantum * dt;
-        for (std::size_t a = 0; a < 3; ++a)
-          rows.w[r * 3 + a] += static_cast<double>(static_cast<std::int64_t>(sums[4 + a])) * turn;
+        for (std::size_t a = 0; a < 3; ++a) rows.w[r * 3 + a] += Sums::value(sums[4 + a]) * turn;
       }
       for (int k = 0; k < stride; ++k) sums[k] = 0;
       speed2 = v2 <= speed2 ? speed2 : v2;

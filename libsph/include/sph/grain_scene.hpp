@@ -39,6 +39,7 @@ struct ContactControl {
   ContactLaw law = ContactLaw::linear;
   std::optional<double> normal_damping;  ///< linear law: gamma_n [1/s] for all, instead of restitution
   double tangential_damping = 0;         ///< of the tangential dashpot, in normal ones
+  double rolling_damping = 0.3;          ///< of the rolling dashpot, in critical ones
   bool pull = false;                     ///< dashpots may pull at the end of a contact
   double largest_overlap = 0.2;          ///< in radii of the smaller grain: beyond it the run stops
   std::vector<ContactPair> pairs;

@@ -59,8 +59,9 @@ class Grains {
                const decomp::Payload& payload);
 
   /// Contacts of the blocks, then kick and drift of their grains. begin_step() clears what a step sums.
-  void begin_step(const Particles& particles, const GlobalState& global);
+  void begin_step(const GlobalState& global);
   void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
+  [[nodiscard]] ContactContext context(Particles& particles, double dt);  ///< of a sweep
   [[nodiscard]] const ContactSweep& swept() const { return sweep_; }
   [[nodiscard]] std::vector<std::int64_t>& wall_force() { return wall_force_; }  ///< of this rank [quanta]
 
@@ -95,7 +96,6 @@ class Grains {
  private:
   /// Where the walls are now, and whether they were there at `time`.
   [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global, double time) const;
-  [[nodiscard]] const Stage* stage_at(double time) const;
   void find_constants();
   void find_quanta();
 

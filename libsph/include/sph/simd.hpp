@@ -15,6 +15,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+
+#include "sph/fixed_point.hpp"
 
 namespace sph {
 
@@ -249,17 +252,18 @@ using Int64x8 = SimdTraits<double>::Int;
 
 /// Nearest integers, ties to even, of |a| < 2^51: as round_to_quanta() for scalars.
 [[gnu::always_inline]] inline Int64x8 to_integers(Simd<double> a) {
-  constexpr double magic = 6755399441055744.0;  // 1.5 * 2^52
-  return std::bit_cast<Int64x8>((a + Simd<double>(magic)).v) - std::bit_cast<std::int64_t>(magic);
+  return std::bit_cast<Int64x8>((a + Simd<double>(rounding_shift)).v) -
+         std::bit_cast<std::int64_t>(rounding_shift);
 }
 
-/// Adds lane l of value[0 .. Stride) to row index[l] of a table of Stride integers a row (4 or 8, aligned to
-/// its size), lane by lane, so that an index may repeat.
-template <int Stride>
-[[gnu::always_inline]] inline void add_to_rows(std::uint64_t* base, const std::uint32_t* index,
-                                               const Int64x8 (&value)[Stride]) {
-  static_assert(Stride == 4 || Stride == 8);
+/// Adds lane l of value[0 .. Stride) to row index[l] of a table of Stride numbers a row (4 or 8, aligned to
+/// its size), lane by lane, so that an index may repeat. T: std::uint64_t, or double (in benchmarks).
+template <int Stride, class T, class Lanes>
+[[gnu::always_inline]] inline void add_to_rows(T* base, const std::uint32_t* index,
+                                               const Lanes (&value)[Stride]) {
+  static_assert((Stride == 4 || Stride == 8) && sizeof(T) == 8);
 #if defined(__AVX512F__)
+  constexpr bool floating = std::is_floating_point_v<T>;
   const auto low = [&](int a, int b) {
     return _mm512_unpacklo_epi64(std::bit_cast<__m512i>(value[a]), std::bit_cast<__m512i>(value[b]));
   };
@@ -277,8 +281,11 @@ template <int Stride>
                   g = _mm512_shuffle_i64x2(even45, even67, 0xdd);
     const __m512i f = _mm512_shuffle_i64x2(odd45, odd67, 0x88), h = _mm512_shuffle_i64x2(odd45, odd67, 0xdd);
     const auto add = [&](int lane, __m512i row) {
-      std::uint64_t* at = base + std::size_t{index[lane]} * 8;
-      _mm512_store_si512(at, _mm512_add_epi64(_mm512_load_si512(at), row));
+      T* at = base + std::size_t{index[lane]} * 8;
+      if constexpr (floating)
+        _mm512_store_pd(at, _mm512_add_pd(_mm512_load_pd(at), _mm512_castsi512_pd(row)));
+      else
+        _mm512_store_si512(at, _mm512_add_epi64(_mm512_load_si512(at), row));
     };
     add(0, _mm512_shuffle_i64x2(a, e, 0x88));
     add(1, _mm512_shuffle_i64x2(b, f, 0x88));
@@ -290,8 +297,13 @@ template <int Stride>
     add(7, _mm512_shuffle_i64x2(d, h, 0xdd));
   } else {
     const auto add = [&](int lane, __m256i row) {
-      __m256i* at = reinterpret_cast<__m256i*>(base + std::size_t{index[lane]} * 4);
-      _mm256_store_si256(at, _mm256_add_epi64(_mm256_load_si256(at), row));
+      T* at = base + std::size_t{index[lane]} * 4;
+      if constexpr (floating) {
+        _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), _mm256_castsi256_pd(row)));
+      } else {
+        __m256i* rows = reinterpret_cast<__m256i*>(at);
+        _mm256_store_si256(rows, _mm256_add_epi64(_mm256_load_si256(rows), row));
+      }
     };
     const auto both = [&](int lane, __m512i rows) {  // blocks: x y of lanes 0 and 4, then z w of both
       const __m512i sorted = _mm512_shuffle_i64x2(rows, rows, 0xd8);
@@ -306,8 +318,7 @@ template <int Stride>
 #else
   for (int l = 0; l < Simd<double>::lanes; ++l)
     for (int k = 0; k < Stride; ++k)
-      base[std::size_t{index[l]} * Stride + static_cast<std::size_t>(k)] +=
-          static_cast<std::uint64_t>(value[k][l]);
+      base[std::size_t{index[l]} * Stride + static_cast<std::size_t>(k)] += static_cast<T>(value[k][l]);
 #endif
 }
 

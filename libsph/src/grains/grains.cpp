@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/fixed_point.hpp"
 #include "sph/contact/restitution.hpp"
 #include "sph/contact/time_step.hpp"
+#include "sph/fixed_point.hpp"
 #include "sph/grain_mass.hpp"
 
 namespace sph {
@@ -53,7 +53,7 @@ std::array<double, 8> constants_of(const Scene& scene, std::size_t a, std::size_
           friction,
           rolling,
           control.pull ? -std::numeric_limits<double>::infinity() : 0.0,
-          0.0};
+          control.rolling_damping};
 }
 
 /// Of all pairs, of two grains of that radius at the largest overlap allowed: dF/d(delta) [N/m].
@@ -207,29 +207,32 @@ void Grains::rebuild(const Particles& particles, const decomp::CellGrid& grid, c
   for (const WallState& w : global.walls) wall_reference_.push_back(w.offset);
 }
 
-void Grains::begin_step(const Particles&, const GlobalState& global) {
+void Grains::begin_step(const GlobalState& global) {
   sweep_ = {};
   planes_ = planes(global, global.time);
   wall_force_.assign(3 * planes_.size(), 0);
 }
 
+ContactContext Grains::context(Particles& particles, double dt) {
+  return {&particles,
+          &lists_,
+          constants_.data(),
+          static_cast<std::uint32_t>(scene_->groups.size()),
+          planes_,
+          wall_force_.data(),
+          sums_.data(),
+          scale_.quantum,
+          force_quantum_,
+          torque_quantum_,
+          dt,
+          {scene_->gravity[0], scene_->gravity[1], scene_->gravity[2]},
+          scene_->contact.largest_overlap};
+}
+
 void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges,
                    double dt) {
-  const ContactContext context{&particles,
-                               &lists_,
-                               constants_.data(),
-                               static_cast<std::uint32_t>(scene_->groups.size()),
-                               planes_,
-                               wall_force_.data(),
-                               sums_.data(),
-                               scale_.quantum,
-                               force_quantum_,
-                               torque_quantum_,
-                               dt,
-                               {scene_->gravity[0], scene_->gravity[1], scene_->gravity[2]},
-                               scene_->contact.largest_overlap};
   ContactSweep now;
-  fusion_.sweep(context, blocks, ranges, now);
+  fusion_.sweep(context(particles, dt), blocks, ranges, now);
   sweep_.speed2 = now.speed2 <= sweep_.speed2 ? sweep_.speed2 : now.speed2;
   sweep_.acceleration2 = now.acceleration2 <= sweep_.acceleration2 ? sweep_.acceleration2 : now.acceleration2;
   sweep_.force = std::max(sweep_.force, now.force);

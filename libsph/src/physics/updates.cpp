@@ -1,7 +1,7 @@
 // Local updates: what happens to one particle between two passes, from its own values and pair sums alone.
 #include <cmath>
 
-#include "physics/fixed_point.hpp"
+#include "sph/fixed_point.hpp"
 #include "sph/physics.hpp"
 #include "sph/stress_update.hpp"
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "physics/fixed_point.hpp"
 #include "sph/error.hpp"
 #include "sph/exact_math.hpp"
+#include "sph/fixed_point.hpp"
 #include "sph/kernels.hpp"
 #include "sph/simd.hpp"
 

@@ -50,7 +50,7 @@ void Simulation::step_in_passes() {
 void Simulation::step_in_a_sweep() {
   grains_->set_stage(global_);
   if (stale_) rebuild();
-  grains_->begin_step(particles_, global_);
+  grains_->begin_step(global_);
   const auto sweep = [&](std::span<const ContactBlock> blocks) {
     const auto timing = timers_.time(decomp::Region::contacts);
     grains_->sweep(particles_, blocks, distribution_.ranges(), global_.dt);

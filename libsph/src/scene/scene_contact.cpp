@@ -59,6 +59,11 @@ ContactControl read_contact_law(const TableReader& table) {
   if (contact.tangential_damping > 1)
     table.fail("tangential_damping", fmt::format("is {}", contact.tangential_damping),
                "it is a fraction of the normal dashpot, 0 to 1");
+  contact.rolling_damping =
+      table.number("rolling_damping", dimension::none, Bound::not_negative).value_or(contact.rolling_damping);
+  if (contact.rolling_damping > 1)
+    table.fail("rolling_damping", fmt::format("is {}", contact.rolling_damping),
+               "it is a fraction of the critical dashpot, 0 to 1");
   contact.pull = table.flag("pull").value_or(false);
   contact.largest_overlap =
       table.number("largest_overlap", dimension::none, Bound::positive).value_or(contact.largest_overlap);

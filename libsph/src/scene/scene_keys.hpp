@@ -63,8 +63,8 @@ inline constexpr auto output_list =
                          "average_time", "average_space", "sort_limit", "checkpoint_files", "contacts"});
 inline constexpr auto monitor_list =
     std::to_array<Word>({"name", "kind", "id", "nearest_to", "group", "wall"});
-inline constexpr auto contact_list =
-    std::to_array<Word>({"law", "normal_damping", "tangential_damping", "pull", "largest_overlap", "pair"});
+inline constexpr auto contact_list = std::to_array<Word>(
+    {"law", "normal_damping", "tangential_damping", "rolling_damping", "pull", "largest_overlap", "pair"});
 inline constexpr auto contact_pair_list =
     std::to_array<Word>({"groups", "friction", "rolling_friction", "restitution"});
 inline constexpr auto wall_list =

@@ -14,6 +14,7 @@ void write_contact(SceneWriter& out, const Scene& scene) {
   out.text("law", word(contact_law_words(), c.law));
   if (c.normal_damping) out.number("normal_damping", *c.normal_damping);
   out.number("tangential_damping", c.tangential_damping);
+  out.number("rolling_damping", c.rolling_damping);
   out.flag("pull", c.pull);
   out.number("largest_overlap", c.largest_overlap);
   const auto name = [&](int group) {

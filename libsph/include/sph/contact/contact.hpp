@@ -28,6 +28,7 @@ struct ContactConstants {
   V friction;          ///< mu
   V rolling_friction;  ///< mu_r
   V least_force;       ///< of the normal force: 0, or minus infinity where dashpots may pull
+  V rolling_damping;   ///< of the rolling dashpot, 0 to 1 of the critical one
 };
 
 /// What a normal law answers.

@@ -1,0 +1,93 @@
+// What it costs that the sums of contact forces have the same bits in any order: the sweep over contacts with
+// sums in whole quanta against the same sweep with sums in double, which no application can choose.
+// Alternately, on one core, CPU time.
+//
+//     build/bin/contacts SCENE [key=value ...]      a scene of one material with friction, without rolling
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <ctime>
+#include <functional>
+#include <vector>
+
+#include "sph/error.hpp"
+#include "sph/simulation.hpp"
+
+namespace {
+
+using namespace sph;
+
+/// In the order of the list. 0.0 and the integer 0 have the same bits, so sweeps of both kinds may alternate.
+struct DoubleSums {
+  using Sum = double;
+  static Simd<double>::Native lanes(Simd<double> x) { return x.v; }
+  static double scalar(double x) { return x; }
+  static double value(double sum) { return sum; }
+};
+
+template <class Normal>
+struct Sweeps {
+  ContactSweepFunction quanta = ContactPass<Normal, Coulomb, NoRolling, true, QuantumSums>::run,
+                       doubles = ContactPass<Normal, Coulomb, NoRolling, true, DoubleSums>::run;
+};
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double median(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v[v.size() / 2];
+}
+
+template <class Normal>
+void compare(Simulation& s) {
+  // The benchmark moves the grains of the simulation with sweeps of its own.
+  auto& grains = const_cast<Grains&>(*s.grains());
+  auto& particles = const_cast<Particles&>(s.particles());
+  const auto seconds = [&](ContactSweepFunction sweep) {
+    const double start = cpu_seconds();
+    ContactSweep swept;
+    const ContactContext context = grains.context(particles, s.global().dt);
+    sweep(context, grains.lists().interior(), s.distribution().ranges(), swept);
+    sweep(context, grains.lists().boundary(), s.distribution().ranges(), swept);
+    return cpu_seconds() - start;
+  };
+  const Sweeps<Normal> sweeps;
+  constexpr int repeats = 100;
+  std::vector<double> quanta, doubles;
+  for (int r = 0; r < repeats; ++r) {
+    quanta.push_back(seconds(sweeps.quanta));
+    doubles.push_back(seconds(sweeps.doubles));
+  }
+  const double n = static_cast<double>(s.particle_count()), q = median(quanta), d = median(doubles);
+  fmt::print("{:.0f} grains: quanta {:.1f} ns/grain, doubles {:.1f}: bits {:+.1f} %\n", n, 1e9 * q / n,
+             1e9 * d / n, 100 * (q / d - 1));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int code = 0;
+  try {
+    if (argc < 2) throw InputError("contacts: needs a scene");
+    const decomp::Comm comm(MPI_COMM_SELF);
+    Simulation s(comm, read_scene(argv[1], {argv + 2, argv + argc}));
+    for (int k = 0; k < 20; ++k) s.step();
+    if (s.scene().contact.law == ContactLaw::hertz)
+      compare<HertzNormal>(s);
+    else if (s.scene().contact.normal_damping)
+      compare<LinearRate>(s);
+    else
+      compare<LinearNormal>(s);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    code = 2;
+  }
+  MPI_Finalize();
+  return code;
+}
