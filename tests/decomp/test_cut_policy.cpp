@@ -55,8 +55,8 @@ TEST(Chaos, IsAFunctionOfSeedAndCallNumber) {
   int repeats = 0, agreements = 0, twin_rows = 0;
   Cuts before = start;
   for (int call = 0; call < 50; ++call) {
-    const Cuts cuts = a->next(before, std::vector<double>(9, 1.0), limits);
-    ASSERT_EQ(cuts, b->next(start, std::vector<double>(9, call), limits));
+    const Cuts cuts = a->next(before, {std::vector<double>(9, 1.0)}, limits);
+    ASSERT_EQ(cuts, b->next(start, {std::vector<double>(9, call)}, limits));
     repeats += cuts == before;
     agreements += cuts == other->next(start, {}, limits);
     twin_rows += cuts.column[0] == cuts.column[1] || cuts.row == cuts.column[0];
@@ -69,7 +69,7 @@ TEST(Chaos, IsAFunctionOfSeedAndCallNumber) {
 
 TEST(Fixed, NeverMoves) {
   const Cuts cuts = uniform_cuts(7, 20, 30);
-  EXPECT_EQ(make_fixed()->next(cuts, std::vector<double>{9, 1, 1, 1, 1, 1, 1}, {20, 30}), cuts);
+  EXPECT_EQ(make_fixed()->next(cuts, {std::vector<double>{9, 1, 1, 1, 1, 1, 1}}, {20, 30}), cuts);
 }
 
 TEST(Replay, GivesTheRecordingAndThenItsLastEntry) {
@@ -146,21 +146,21 @@ TEST(Literal, FirstStepsByHand) {
   const auto policy = make_literal();
   Cuts cuts{{0, 1}, {{0, 10, 20}}};
   // No history: one cell towards the costlier side.
-  cuts = policy->next(cuts, std::vector<double>{10, 30}, limits);
+  cuts = policy->next(cuts, {std::vector<double>{10, 30}}, limits);
   EXPECT_EQ(cuts.column[0][1], 11);
   // f went from 20 to 12 over +1 cell: J = -8, dx = 0.5 * 12 / 8 = 0.75, truncated to 0.
-  cuts = policy->next(cuts, std::vector<double>{14, 26}, limits);
+  cuts = policy->next(cuts, {std::vector<double>{14, 26}}, limits);
   EXPECT_EQ(cuts.column[0][1], 11);
   // The cut did not move, J is undefined: towards the costlier side again.
-  cuts = policy->next(cuts, std::vector<double>{14, 26}, limits);
+  cuts = policy->next(cuts, {std::vector<double>{14, 26}}, limits);
   EXPECT_EQ(cuts.column[0][1], 12);
   // J = (-2 - 12) / 1 = -14, dx = -0.5 * (-2) / (-14): truncated.
-  cuts = policy->next(cuts, std::vector<double>{21, 19}, limits);
+  cuts = policy->next(cuts, {std::vector<double>{21, 19}}, limits);
   EXPECT_EQ(cuts.column[0][1], 12);
   // Below the threshold of 2 % of the mean nothing moves.
-  cuts = policy->next(cuts, std::vector<double>{20.1, 19.9}, limits);
+  cuts = policy->next(cuts, {std::vector<double>{20.1, 19.9}}, limits);
   EXPECT_EQ(cuts.column[0][1], 12);
-  EXPECT_THROW((void)policy->next(cuts, std::vector<double>{1, 2, 3}, limits), std::invalid_argument);
+  EXPECT_THROW((void)policy->next(cuts, {std::vector<double>{1, 2, 3}}, limits), std::invalid_argument);
 }
 
 TEST(Literal, ConvergesOnARamp) {
@@ -169,7 +169,7 @@ TEST(Literal, ConvergesOnARamp) {
   const auto density = [](std::int64_t, std::int64_t x) { return 1.0 + static_cast<double>(x); };
   EXPECT_GT(imbalance(costs(cuts, density)), 1.7);
   const auto policy = make_literal();
-  for (int call = 0; call < 150; ++call) cuts = policy->next(cuts, costs(cuts, density), limits);
+  for (int call = 0; call < 150; ++call) cuts = policy->next(cuts, {costs(cuts, density)}, limits);
   EXPECT_LT(imbalance(costs(cuts, density)), 1.06) << to_text(cuts);
 }
 
@@ -180,7 +180,7 @@ TEST(Literal, BalancesRowsByTheMeanOfTheirRanks) {
   const double before = imbalance(costs(cuts, density));
   const auto policy = make_literal();
   for (int call = 0; call < 150; ++call) {
-    const Cuts moved = policy->next(cuts, costs(cuts, density), limits);
+    const Cuts moved = policy->next(cuts, {costs(cuts, density)}, limits);
     expect_legal(moved, cuts, limits);
     cuts = moved;
   }
@@ -198,7 +198,7 @@ TEST(Literal, StallsOnALongRampOfSmallSteps) {
   for (int i = 0; i < parts; ++i) cost.push_back(1 + 0.015 * (i - parts / 2));
   EXPECT_GT(imbalance(cost), 1.7);
   const auto policy = make_literal();
-  for (int call = 0; call < 10; ++call) ASSERT_EQ(policy->next(cuts, cost, limits), cuts);
+  for (int call = 0; call < 10; ++call) ASSERT_EQ(policy->next(cuts, {cost}, limits), cuts);
 }
 
 RC_GTEST_PROP(Literal, MovesOneLegalCellAtMostWhateverTheCosts, (std::uint64_t seed)) {
@@ -211,8 +211,8 @@ RC_GTEST_PROP(Literal, MovesOneLegalCellAtMostWhateverTheCosts, (std::uint64_t s
   for (int call = 0; call < 20; ++call) {
     const auto term = rc::gen::oneOf(rc::gen::arbitrary<double>(), rc::gen::element(0.0, 1e308, inf, nan));
     const auto cost = *rc::gen::container<std::vector<double>>(static_cast<std::size_t>(ranks), term);
-    const Cuts moved = policy->next(cuts, cost, limits);
-    RC_ASSERT(moved == twin->next(cuts, cost, limits));
+    const Cuts moved = policy->next(cuts, {cost}, limits);
+    RC_ASSERT(moved == twin->next(cuts, {cost}, limits));
     const CellGrid grid(2, {}, {limits.row_cells, limits.column_cells, 0}, {}, 1);
     RC_ASSERT(JaggedPartition(grid, 0, 1, moved).ranks() == ranks);
     const auto near = [](const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "decomp/cell_costs.hpp"
 #include "decomp/cut_policy.hpp"
 #include "decomp/partition.hpp"
 
@@ -287,14 +288,16 @@ TEST(Partition, NeighboursAreFoundQuicklyAmongManyRanks) {
 namespace {
 
 // A pile in one corner: every part gets its share as far as cell lines allow, and no part is empty of cells.
-TEST(WeightedCuts, ShareOutAPileInOneCorner) {
+TEST(BestCuts, ShareOutAPileInOneCorner) {
   constexpr std::int64_t rows = 40, columns = 30;
   std::vector<std::int64_t> weight(rows * columns, 0);
   for (std::int64_t r = 0; r < rows / 2; ++r)
     for (std::int64_t c = 0; c < columns / 2; ++c) weight[static_cast<std::size_t>(r * columns + c)] = 10;
   const decomp::CellGrid grid(2, {0, 0, 0}, {400, 300, 0}, {false, false, false}, 10);
   for (const int ranks : {1, 2, 3, 4, 7, 12, 101}) {
-    const decomp::JaggedPartition partition(grid, 0, 1, decomp::weighted_cuts(ranks, rows, columns, weight));
+    const decomp::CellCosts costs(rows, columns, std::vector<double>(weight.begin(), weight.end()));
+    const decomp::JaggedPartition partition(
+        grid, 0, 1, decomp::best_cuts(costs, decomp::jagged_shape(ranks, rows, columns)));
     ASSERT_EQ(partition.ranks(), ranks);
     if (ranks > 12) continue;
     std::int64_t total = 0, largest = 0;

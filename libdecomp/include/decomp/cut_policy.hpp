@@ -1,5 +1,5 @@
 // Where the cuts go at a rebuild. A policy is a pure function of (cuts, times); what it decides can never
-// change a bit of the physics, only its speed. The full set of balancers is added here, one class each.
+// change a bit of the physics, only its speed. One class each, in src/balance.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "decomp/cell_costs.hpp"
 #include "decomp/partition.hpp"
 
 namespace decomp {
@@ -17,12 +18,20 @@ struct CutLimits {
   std::int64_t column_cells;  ///< cells along the column axis
 };
 
+/// What was measured since the last call.
+struct Load {
+  std::span<const double> cost;      ///< of each rank: seconds of computation (no waiting), or counts
+  const CellCosts* cells = nullptr;  ///< what the particles of each column of cells should cost, in any unit
+  double price = 0;                  ///< of moving one mean cost to another rank, in mean costs of a call
+};
+
 class CutPolicy {
  public:
   virtual ~CutPolicy() = default;
-  /// New cuts from the present ones and the cost of each rank since the last call: seconds of computation
-  /// (no waiting), or counts. The number of rows and of columns in each row stays the same.
-  [[nodiscard]] virtual Cuts next(const Cuts& now, std::span<const double> cost, const CutLimits& limits) = 0;
+  /// New cuts from the present ones. The number of parts stays the same; only a policy that uses cells may
+  /// change the number of columns of a row.
+  [[nodiscard]] virtual Cuts next(const Cuts& now, const Load& load, const CutLimits& limits) = 0;
+  [[nodiscard]] virtual bool uses_cells() const { return false; }
 };
 
 /// Cuts never move.
@@ -35,6 +44,17 @@ class CutPolicy {
 /// of the mean. It stalls where every neighbouring difference is below the threshold, however large their sum
 /// (a long ramp of costs is a fixed point), and creeps at one cell a call: kept as the seed's baseline.
 [[nodiscard]] std::unique_ptr<CutPolicy> make_literal(double beta = 0.5, double threshold = 0.02);
+
+/// Cuts that follow the measured time without the literal rule's stall, see balance/quasi_newton.cpp:
+/// residuals of grouped parts, coarse to fine; the Jacobian of a cost spread evenly over a part's cells, or
+/// the seed's secant where it is near that; half of the thinner part at most per call; costs smoothed while
+/// cuts rest. Cuts rest where a move would not pay.
+[[nodiscard]] std::unique_ptr<CutPolicy> make_quasi_newton();
+
+/// The cost of each cell from what its particles should cost and the measured speed of the rank that has
+/// them, and then the best cuts for these costs at once; rows have their own numbers of columns if
+/// `unequal_rows`.
+[[nodiscard]] std::unique_ptr<CutPolicy> make_hybrid(bool unequal_rows = true);
 
 /// Random legal cuts at each call, from a counter-based stream of `seed`: for tests.
 [[nodiscard]] std::unique_ptr<CutPolicy> make_chaos(std::uint64_t seed);

@@ -73,10 +73,4 @@ class JaggedPartition {
 /// columns. Throws InputError "... at most N ranks" when infeasible.
 [[nodiscard]] Cuts uniform_cuts(int ranks, std::int64_t row_cells, std::int64_t column_cells);
 
-/// Cuts of the same shape that share out `weight`, one number per cell of the two cut axes, column fastest:
-/// rows in proportion to their number of columns, then each row's columns evenly. For the start, before any
-/// time is measured.
-[[nodiscard]] Cuts weighted_cuts(int ranks, std::int64_t row_cells, std::int64_t column_cells,
-                                 std::span<const std::int64_t> weight);
-
 }  // namespace decomp

@@ -69,7 +69,7 @@ void Distribution::move_cuts(double cost) {
   const int row = scene_.decomposition.cut_axes[0], column = scene_.decomposition.cut_axes[1];
   const decomp::CutLimits limits{grid_.cells()[static_cast<std::size_t>(row)],
                                  grid_.cells()[static_cast<std::size_t>(column)]};
-  decomp::Cuts cuts = policy_->next(partition_.cuts(), costs, limits);
+  decomp::Cuts cuts = policy_->next(partition_.cuts(), {costs}, limits);
   if (record_.is_open()) record_ << decomp::to_text(cuts) << '\n' << std::flush;
   if (cuts == partition_.cuts()) return;
   partition_ = decomp::JaggedPartition(grid_, row, column, std::move(cuts));
@@ -94,8 +94,10 @@ void Distribution::cut_by_counts(Particles& particles) {
     ++count[static_cast<std::size_t>(cell[row] * columns + cell[column])];
   }
   comm_.sum(count);
-  partition_ = decomp::JaggedPartition(grid_, static_cast<int>(row), static_cast<int>(column),
-                                       decomp::weighted_cuts(comm_.size(), rows, columns, count));
+  const decomp::CellCosts costs(rows, columns, std::vector<double>(count.begin(), count.end()));
+  partition_ =
+      decomp::JaggedPartition(grid_, static_cast<int>(row), static_cast<int>(column),
+                              decomp::best_cuts(costs, decomp::jagged_shape(comm_.size(), rows, columns)));
   curve_ = cells_along_curve();
 }
 

@@ -63,7 +63,7 @@ class Chaos final : public CutPolicy {
  public:
   explicit Chaos(std::uint64_t seed) : seed_(seed) {}
 
-  Cuts next(const Cuts& now, std::span<const double>, const CutLimits& limits) override {
+  Cuts next(const Cuts& now, const Load&, const CutLimits& limits) override {
     const std::uint64_t call = mix(mix(seed_) ^ calls_++);
     Cuts cuts;
     cuts.row = random_line(now.row.size() - 1, limits.row_cells, mix(call));

@@ -10,7 +10,7 @@ namespace {
 
 class Fixed final : public CutPolicy {
  public:
-  Cuts next(const Cuts& now, std::span<const double>, const CutLimits&) override { return now; }
+  Cuts next(const Cuts& now, const Load&, const CutLimits&) override { return now; }
 };
 
 class Replay final : public CutPolicy {
@@ -19,7 +19,7 @@ class Replay final : public CutPolicy {
     if (recorded_.empty()) throw InputError("the recording of cuts is empty");
   }
 
-  Cuts next(const Cuts& now, std::span<const double>, const CutLimits& limits) override {
+  Cuts next(const Cuts& now, const Load&, const CutLimits& limits) override {
     const Cuts& cuts = recorded_[position_];
     const std::string entry = "recorded cuts, entry " + std::to_string(position_ + 1);
     bool same_shape = cuts.column.size() == now.column.size();

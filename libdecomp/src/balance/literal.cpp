@@ -57,7 +57,8 @@ class Literal final : public CutPolicy {
  public:
   Literal(double beta, double threshold) : beta_(beta), threshold_(threshold) {}
 
-  Cuts next(const Cuts& now, std::span<const double> cost, const CutLimits&) override {
+  Cuts next(const Cuts& now, const Load& load, const CutLimits&) override {
+    std::span<const double> cost = load.cost;
     check_costs(now, cost);
     columns_.resize(now.column.size());
     Cuts moved;
