@@ -42,6 +42,12 @@ void widen(std::vector<std::int64_t>& cut) {
 
 }  // namespace
 
+std::size_t part_count(const Cuts& cuts) {
+  std::size_t n = 0;
+  for (const auto& column : cuts.column) n += column.size() - 1;
+  return n;
+}
+
 std::int64_t max_ranks(std::int64_t row_cells, std::int64_t column_cells) {
   return (row_cells / width) * (column_cells / width);
 }

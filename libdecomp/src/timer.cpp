@@ -1,5 +1,7 @@
 #include "decomp/timer.hpp"
 
+#include <time.h>
+
 #include <numeric>
 #include <utility>
 
@@ -8,6 +10,12 @@ namespace decomp {
 namespace {
 
 double in_seconds(std::chrono::nanoseconds d) { return std::chrono::duration<double>(d).count(); }
+
+std::chrono::nanoseconds thread_time() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
+}
 
 constexpr std::size_t index_of(Region r) { return static_cast<std::size_t>(r); }
 
@@ -41,6 +49,12 @@ Timers::Durations Timers::elapsed() const {
 }
 
 void Timers::switch_to(Region r) {
+  // A system call, so only where computation begins or ends.
+  if (is_computation(r) != is_computation(current_)) {
+    const std::chrono::nanoseconds cpu = thread_time();
+    if (is_computation(current_)) cpu_ += cpu - cpu_started_;
+    cpu_started_ = cpu;
+  }
   const Clock::time_point now = Clock::now();
   elapsed_[index_of(current_)] += now - started_;
   started_ = now;
@@ -56,13 +70,13 @@ double Timers::total() const {
   return in_seconds(std::accumulate(d.begin(), d.end(), std::chrono::nanoseconds{}));
 }
 
+double Timers::cost() const {
+  return in_seconds(is_computation(current_) ? cpu_ + thread_time() - cpu_started_ : cpu_);
+}
+
 double Timers::take_cost() {
-  const Durations d = elapsed();
-  std::chrono::nanoseconds computation{};
-  for (std::size_t i = 0; i < d.size(); ++i)
-    if (is_computation(static_cast<Region>(i))) computation += d[i];
-  const std::chrono::nanoseconds before = std::exchange(cost_taken_, computation);
-  return in_seconds(computation - before);
+  const double now = cost();
+  return now - std::exchange(cost_taken_, now);
 }
 
 std::vector<Timers::Row> Timers::summary(const Comm& comm) const {

@@ -114,8 +114,9 @@ struct Judge {
     std::normal_distribution<double> normal;
     std::vector<double> measured = part_costs(costs, cuts, slowness);
     for (double& t : measured) t *= 1 + noise * normal(bits);
-    return policy.next(cuts, {measured, policy.uses_cells() ? &costs : nullptr, 0},
-                       {costs.rows(), costs.columns()});
+    return policy.next(
+        cuts, {measured, policy.uses_cells() ? std::span(&costs, 1) : std::span<const CellCosts>(), 0},
+        {costs.rows(), costs.columns()});
   }
 
   struct Course {
@@ -223,7 +224,7 @@ TEST(Balance, RestsWhereAMoveDoesNotPay) {
     judge.costs = {field_rows, field_columns, fields::wedge(field_rows, field_columns)};
     std::vector<double> measured = part_costs(judge.costs, cuts);
     measured[20] *= 1.08;
-    const Load dear{measured, &judge.costs, 1e6}, cheap{measured, &judge.costs, 1e-3};
+    const Load dear{measured, {&judge.costs, 1}, 1e6}, cheap{measured, {&judge.costs, 1}, 1e-3};
     EXPECT_EQ(make(name)->next(cuts, dear, {field_rows, field_columns}), cuts) << name;
     EXPECT_NE(make(name)->next(cuts, cheap, {field_rows, field_columns}), cuts) << name;
   }
@@ -245,7 +246,7 @@ RC_GTEST_PROP(Balance, CutsAreLegalWhateverTheCosts, (std::uint32_t seed)) {
       std::vector<double> measured;
       for (int k = 0; k < ranks; ++k)
         measured.push_back(bits() % 4 == 0 ? 0.0 : 1e-6 * static_cast<double>(bits() % 1000));
-      const Load load{measured, &costs, 1e-3};
+      const Load load{measured, {&costs, 1}, 1e-3};
       const Cuts next = policy->next(cuts, load, {rows, columns});
       RC_ASSERT(next == twin->next(cuts, load, {rows, columns}));
       RC_ASSERT(JaggedPartition(grid, 0, 1, next).ranks() == ranks);

@@ -17,7 +17,7 @@ Table table_of(std::vector<std::string_view> scenes, std::vector<std::string_vie
       {"scene", std::move(scenes)},
       {"precision", std::move(precisions)},
       {"ranks", {"2", "3", "4", "5", "7", "8"}},
-      {"cuts", {"uniform", "time", "counts", "chaos", "replay"}},
+      {"cuts", {"uniform", "time", "counts", "hybrid", "chaos", "replay"}},
       {"overlap", {"on", "off"}},
       {"order", {"placed", "shuffled"}},
       {"list", {"small", "large", "every"}},

@@ -149,8 +149,12 @@ void Cases::prepare(const decomp::Comm& one, const Case& c) {
 void Cases::set_cuts(const decomp::Comm& comm, const Row& row, const Leg& leg, sph::Scene& scene) const {
   const std::string_view cuts = row[Factor::cuts];
   sph::Decomposition& d = scene.decomposition;
-  d.cost = cuts == "counts" ? sph::CostSource::counts : sph::CostSource::time;
-  d.cuts = cuts == "time" || cuts == "counts" ? sph::CutRule::literal : sph::CutRule::fixed;
+  // Balanced by time, runs of a second hardly move a cut; by counts, policies decide at every rebuild.
+  d.cost = cuts == "time" ? sph::CostSource::time : sph::CostSource::counts;
+  d.cuts = cuts == "time"     ? sph::CutRule::literal
+           : cuts == "counts" ? sph::CutRule::quasi_newton
+           : cuts == "hybrid" ? sph::CutRule::hybrid
+                              : sph::CutRule::fixed;
   if (comm.size() == 1 || (cuts != "chaos" && cuts != "replay")) return;
 
   const sph::Distribution distribution(comm, scene, sph::position_scale(scene));

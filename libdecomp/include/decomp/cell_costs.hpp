@@ -9,25 +9,44 @@
 
 namespace decomp {
 
-/// `cost` [rows * columns], columns fastest, each >= 0.
+/// A grid of columns of cells, `edge` x `edge` of them taken as one: row r, column c of the cells belong to
+/// index(r, c) of arrays of size().
+struct CellColumns {
+  std::int64_t rows, columns, edge = 1;  ///< [cells]
+  [[nodiscard]] std::int64_t coarse(std::int64_t cells) const { return (cells + edge - 1) / edge; }
+  [[nodiscard]] std::int64_t size() const { return coarse(rows) * coarse(columns); }
+  [[nodiscard]] std::size_t index(std::int64_t r, std::int64_t c) const {
+    return static_cast<std::size_t>(r / edge * coarse(columns) + c / edge);
+  }
+};
+
 class CellCosts {
  public:
-  CellCosts(std::int64_t rows, std::int64_t columns, std::span<const double> cost);
+  /// `cost` [grid.size()], each >= 0; spread evenly over the cells that were taken as one.
+  CellCosts(const CellColumns& grid, std::span<const double> cost);
+  CellCosts(std::int64_t rows, std::int64_t columns, std::span<const double> cost)
+      : CellCosts(CellColumns{rows, columns}, cost) {}
+  /// Sum over k of weight[k] times costs[k]; all of one grid.
+  CellCosts(std::span<const CellCosts> costs, std::span<const double> weight);
 
-  [[nodiscard]] std::int64_t rows() const { return rows_; }
-  [[nodiscard]] std::int64_t columns() const { return columns_; }
+  [[nodiscard]] std::int64_t rows() const { return grid_.rows; }
+  [[nodiscard]] std::int64_t columns() const { return grid_.columns; }
   /// Of the cells r0 <= row < r1, c0 <= column < c1.
   [[nodiscard]] double sum(std::int64_t r0, std::int64_t r1, std::int64_t c0, std::int64_t c1) const {
     return at(r1, c1) - at(r0, c1) - at(r1, c0) + at(r0, c0);
   }
-  [[nodiscard]] double total() const { return at(rows_, columns_); }
+  [[nodiscard]] double total() const { return at(rows(), columns()); }
 
  private:
-  [[nodiscard]] double at(std::int64_t r, std::int64_t c) const {
-    return before_[static_cast<std::size_t>(r * (columns_ + 1) + c)];
+  [[nodiscard]] double corner(std::int64_t r, std::int64_t c) const {
+    return before_[static_cast<std::size_t>(r * (grid_.coarse(grid_.columns) + 1) + c)];
   }
-  std::int64_t rows_, columns_;
-  std::vector<double> before_;  ///< [rows + 1][columns + 1] summed over all cells before
+  [[nodiscard]] double at(std::int64_t r, std::int64_t c) const {
+    return grid_.edge == 1 ? corner(r, c) : between(r, c);
+  }
+  [[nodiscard]] double between(std::int64_t r, std::int64_t c) const;
+  CellColumns grid_;
+  std::vector<double> before_;  ///< [coarse rows + 1][coarse columns + 1] summed over all cells before
 };
 
 /// What each part costs, in the order of the ranks; `slowness`: of each rank, a factor of all its costs.

@@ -20,9 +20,10 @@ struct CutLimits {
 
 /// What was measured since the last call.
 struct Load {
-  std::span<const double> cost;      ///< of each rank: seconds of computation (no waiting), or counts
-  const CellCosts* cells = nullptr;  ///< what the particles of each column of cells should cost, in any unit
-  double price = 0;                  ///< of moving one mean cost to another rank, in mean costs of a call
+  std::span<const double> cost;  ///< of each rank: seconds of computation (no waiting), or counts
+  std::span<const CellCosts> cells =
+      {};            ///< what is counted in each column of cells: particles, pairs; or empty
+  double price = 0;  ///< of moving one mean cost to another rank, in mean costs of a call
 };
 
 class CutPolicy {
@@ -51,9 +52,9 @@ class CutPolicy {
 /// cuts rest. Cuts rest where a move would not pay.
 [[nodiscard]] std::unique_ptr<CutPolicy> make_quasi_newton();
 
-/// The cost of each cell from what its particles should cost and the measured speed of the rank that has
-/// them, and then the best cuts for these costs at once; rows have their own numbers of columns if
-/// `unequal_rows`.
+/// The cost of each cell from what is counted in it, by a fit to the measured costs, and the measured
+/// slowness of the rank that has it; then the best cuts for these costs at once. Rows have their own numbers
+/// of columns if `unequal_rows`.
 [[nodiscard]] std::unique_ptr<CutPolicy> make_hybrid(bool unequal_rows = true);
 
 /// Random legal cuts at each call, from a counter-based stream of `seed`: for tests.

@@ -20,6 +20,8 @@ struct Cuts {
   friend bool operator==(const Cuts&, const Cuts&) = default;
 };
 
+[[nodiscard]] std::size_t part_count(const Cuts& cuts);
+
 class JaggedPartition {
  public:
   /// Throws InputError if the cuts are not strictly increasing from 0 to the grid's end, or a part is

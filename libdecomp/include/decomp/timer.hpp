@@ -52,8 +52,9 @@ class Timers {
   [[nodiscard]] double seconds(Region r) const;  ///< so far, a running region included
   [[nodiscard]] std::int64_t calls(Region r) const;
   [[nodiscard]] double total() const;  ///< since construction; equals the sum over regions
-  /// Seconds of computation since the last call (or construction): the cost a balancer sees.
-  [[nodiscard]] double take_cost();
+  /// CPU seconds of computation so far: where ranks share a core, what others took is not in it.
+  [[nodiscard]] double cost() const;
+  [[nodiscard]] double take_cost();  ///< since the last call (or construction): what a balancer sees
 
   struct Row {
     Region region;
@@ -71,7 +72,9 @@ class Timers {
   std::array<std::int64_t, region_count> calls_{};
   Region current_ = Region::other;
   Clock::time_point started_ = Clock::now();
-  std::chrono::nanoseconds cost_taken_{};
+  std::chrono::nanoseconds cpu_{};          ///< of computation, up to cpu_started_
+  std::chrono::nanoseconds cpu_started_{};  ///< while a region of computation runs
+  double cost_taken_ = 0;
 };
 
 }  // namespace decomp

@@ -1,19 +1,40 @@
 #include "decomp/cell_costs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace decomp {
 
-CellCosts::CellCosts(std::int64_t rows, std::int64_t columns, std::span<const double> cost)
-    : rows_(rows), columns_(columns), before_(static_cast<std::size_t>((rows + 1) * (columns + 1)), 0.0) {
-  const std::size_t stride = static_cast<std::size_t>(columns + 1);
-  for (std::size_t r = 0; r < static_cast<std::size_t>(rows); ++r) {
+CellCosts::CellCosts(const CellColumns& grid, std::span<const double> cost) : grid_(grid) {
+  const auto rows = static_cast<std::size_t>(grid.coarse(grid.rows)),
+             columns = static_cast<std::size_t>(grid.coarse(grid.columns)), stride = columns + 1;
+  before_.assign((rows + 1) * stride, 0.0);
+  for (std::size_t r = 0; r < rows; ++r) {
     double line = 0;
-    for (std::size_t c = 0; c + 1 < stride; ++c) {
-      line += cost[r * (stride - 1) + c];
+    for (std::size_t c = 0; c < columns; ++c) {
+      line += cost[r * columns + c];
       before_[(r + 1) * stride + c + 1] = before_[r * stride + c + 1] + line;
     }
   }
+}
+
+CellCosts::CellCosts(std::span<const CellCosts> costs, std::span<const double> weight)
+    : grid_(costs[0].grid_), before_(costs[0].before_.size(), 0.0) {
+  for (std::size_t k = 0; k < costs.size(); ++k)
+    for (std::size_t n = 0; n < before_.size(); ++n) before_[n] += weight[k] * costs[k].before_[n];
+}
+
+// Bilinear in the coarse cell; the last one may be cut short by the end of the grid.
+double CellCosts::between(std::int64_t r, std::int64_t c) const {
+  const auto place = [&](std::int64_t x, std::int64_t cells) {
+    const std::int64_t k = std::min(x / grid_.edge, grid_.coarse(cells) - 1), first = k * grid_.edge;
+    const std::int64_t last = std::min(first + grid_.edge, cells);
+    return std::pair(k, static_cast<double>(x - first) / static_cast<double>(last - first));
+  };
+  const auto [i, u] = place(r, grid_.rows);
+  const auto [j, w] = place(c, grid_.columns);
+  return (1 - u) * ((1 - w) * corner(i, j) + w * corner(i, j + 1)) +
+         u * ((1 - w) * corner(i + 1, j) + w * corner(i + 1, j + 1));
 }
 
 std::vector<double> part_costs(const CellCosts& costs, const Cuts& cuts, Slowness slowness) {

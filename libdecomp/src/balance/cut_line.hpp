@@ -13,11 +13,6 @@ namespace decomp {
 
 using CutLine = std::vector<std::int64_t>;  ///< [parts + 1], from 0 to the number of cells
 
-[[nodiscard]] inline std::size_t part_count(const Cuts& cuts) {
-  return std::accumulate(cuts.column.begin(), cuts.column.end(), std::size_t{0},
-                         [](std::size_t n, const CutLine& column) { return n + column.size() - 1; });
-}
-
 inline void check_costs(const Cuts& cuts, std::span<const double> cost) {
   if (cost.size() != part_count(cuts))
     throw std::invalid_argument("one cost for each part is needed to balance the cuts");

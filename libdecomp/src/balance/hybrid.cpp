@@ -37,20 +37,55 @@ class SmoothedSlowness {
   std::vector<int> seen_;
 };
 
+/// What one particle, and one pair, costs: weights of the counts by least squares over the ranks, drawn
+/// towards equal shares of all counts, which decides where there are few ranks.
+class Fit {
+ public:
+  std::span<const double> update(std::span<const double> seconds, std::span<const CellCosts> counts,
+                                 const Cuts& now) {
+    const double ranks = static_cast<double>(seconds.size());
+    const double mean = std::accumulate(seconds.begin(), seconds.end(), 0.0) / ranks;
+    if (weight_.size() != counts.size())
+      share_.assign(counts.size(), 1.0 / static_cast<double>(counts.size()));
+    weight_.assign(counts.size(), 1.0);
+    if (counts.size() == 2 && mean > 0) {
+      const std::vector<double> a = part_costs(counts[0], now), b = part_costs(counts[1], now);
+      const double mean_a = counts[0].total() / ranks, mean_b = counts[1].total() / ranks;
+      // Minimise sum (s x + (1 - s) y - t)^2 + pull (s - s_before)^2, all over their means.
+      double up = pull * share_[0], down = pull;
+      for (std::size_t k = 0; k < seconds.size(); ++k) {
+        const double x = a[k] / mean_a, y = b[k] / mean_b, t = seconds[k] / mean;
+        up += (x - y) * (t - y);
+        down += (x - y) * (x - y);
+      }
+      share_[0] = std::clamp(up / down, 0.02, 0.98);
+      share_[1] = 1 - share_[0];
+    }
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      if (counts[k].total() > 0) weight_[k] = share_[k] / counts[k].total();
+    return weight_;
+  }
+
+ private:
+  static constexpr double pull = 0.5;
+  std::vector<double> share_, weight_;
+};
+
 class Hybrid final : public CutPolicy {
  public:
   explicit Hybrid(bool unequal_rows) : unequal_rows_(unequal_rows) {}
 
   Cuts next(const Cuts& now, const Load& load, const CutLimits&) override {
     check_costs(now, load.cost);
-    if (load.cells == nullptr || !(load.cells->total() > 0)) return now;
-    const std::vector<double> units = part_costs(*load.cells, now);
+    if (load.cells.empty() || !(load.cells[0].total() > 0)) return now;
+    const CellCosts cells(load.cells, fit_.update(load.cost, load.cells, now));
+    const std::vector<double> units = part_costs(cells, now);
     const Slowness slowness = slowness_.update(load.cost, units);
-    const Cuts best = unequal_rows_ ? good_cuts(*load.cells, static_cast<int>(units.size()), slowness)
-                                    : best_cuts(*load.cells, shape_of(now), slowness);
-    const double mean = load.cells->total() / static_cast<double>(units.size());
-    const double gain = largest_part(*load.cells, now, slowness) - largest_part(*load.cells, best, slowness);
-    const double moves = moved_share(*load.cells, now, best);
+    const Cuts best = unequal_rows_ ? good_cuts(cells, static_cast<int>(units.size()), slowness)
+                                    : best_cuts(cells, shape_of(now), slowness);
+    const double mean = cells.total() / static_cast<double>(units.size());
+    const double gain = largest_part(cells, now, slowness) - largest_part(cells, best, slowness);
+    const double moves = moved_share(cells, now, best);
     return gain > dead_band * mean && horizon * gain > load.price * moves * mean ? best : now;
   }
 
@@ -58,6 +93,7 @@ class Hybrid final : public CutPolicy {
 
  private:
   bool unequal_rows_;
+  Fit fit_;
   SmoothedSlowness slowness_;
 };
 

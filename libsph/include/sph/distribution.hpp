@@ -3,12 +3,12 @@
 #pragma once
 
 #include <fstream>
-#include <memory>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "decomp/balancer.hpp"
 #include "decomp/comm.hpp"
-#include "decomp/cut_policy.hpp"
 #include "decomp/halo.hpp"
 #include "decomp/migrate.hpp"
 #include "decomp/timer.hpp"
@@ -34,6 +34,7 @@ class Distribution {
   [[nodiscard]] double skin() const { return skin_; }                ///< [m]
   [[nodiscard]] decomp::Box own_cells() const { return partition_.cells(comm_.rank()); }
   [[nodiscard]] std::int64_t migrated() const { return migrated_; }  ///< rows this rank sent away
+  [[nodiscard]] const decomp::BalanceAccount& balance() const { return balancer_.account(); }
 
   /// Where cuts may follow the load: shares out the particles, wherever their rows are now, evenly. Before
   /// the first rebuild; scatter() must follow.
@@ -42,14 +43,20 @@ class Distribution {
   /// Sends every row, with its contacts, to its owner wherever it is: set-up and resume.
   void scatter(Particles& particles, decomp::Payload* contacts = nullptr);
 
+  /// Pairs that are computed for each owned row, or nothing where there are no lists yet.
+  using PairCounts = std::function<std::vector<std::uint32_t>()>;
+
   /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
   /// plans the halo. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
   /// since the last call. `contacts`, if there are any, go with their rows.
-  void rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group,
-               double moved, decomp::Payload* contacts = nullptr);
+  void rebuild(Particles& particles, double cost_seconds, const PairCounts& pairs,
+               const std::vector<bool>& is_wall_group, double moved, decomp::Payload* contacts = nullptr);
 
  private:
-  void move_cuts(double cost);
+  void cut(decomp::Cuts cuts);
+  /// Counts for the balancer: rows and their pairs in each column of cells.
+  [[nodiscard]] decomp::Balancer::CountCells counts_of(const Particles& particles,
+                                                       const PairCounts& pairs) const;
   void wrap_positions(Particles& particles) const;
   [[nodiscard]] std::vector<decomp::Rank> owners(const Particles& particles) const;
   void sort_rows(Particles& particles, const std::vector<bool>& is_wall_group, decomp::Payload* contacts);
@@ -62,7 +69,7 @@ class Distribution {
   std::int64_t reach_;
   decomp::CellGrid grid_;
   decomp::JaggedPartition partition_;
-  std::unique_ptr<decomp::CutPolicy> policy_;
+  decomp::Balancer balancer_;
   decomp::HaloPlan plan_;
   RowRanges ranges_{};
   std::vector<std::uint32_t> curve_;  ///< rank along the Hilbert curve of each own cell, x fastest

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "decomp/balancer.hpp"
 #include "decomp/comm.hpp"
 #include "decomp/timer.hpp"
 #include "sph/particles.hpp"
@@ -37,6 +38,7 @@ struct Performance {
   double halo_bytes_per_step = 0, state_bytes_per_particle = 0, bytes_per_particle = 0,
          bytes_per_halo_particle = 0;
   std::int64_t rebuilds = 0, late_rebuilds = 0, migrated = 0, refreshes = 0;
+  decomp::BalanceAccount balance;
   double imbalance = 1;
   std::vector<decomp::Timers::Row> regions;
 };

@@ -94,7 +94,7 @@ struct TimeControl {
   friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 
-enum class CutRule { fixed, literal, chaos, replay };
+enum class CutRule { fixed, literal, quasi_newton, hybrid, chaos, replay };
 enum class CostSource { time, counts };
 
 struct Decomposition {
@@ -105,7 +105,9 @@ struct Decomposition {
   CutRule cuts = CutRule::literal;
   CostSource cost = CostSource::time;
   std::uint64_t chaos_seed = 1;
-  std::string record;  ///< file to write the cuts of each rebuild to, or empty
+  int slow_rank = 0;    ///< for tests of the balance: this rank ...
+  double slowness = 1;  ///< ... takes so many times as long
+  std::string record;   ///< file to write the cuts of each rebuild to, or empty
   std::string replay;
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };

@@ -64,6 +64,8 @@ class Simulation {
   void step_in_a_sweep();
   void rebuild();
   void rebuild_contacts(const decomp::Payload& contacts, const ContactCensus& sent);
+  [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows() const;
+  void dawdle();
   enum class Side { interior, boundary };
   void run(const Pass& pass, const PassContext& context, Side side);
   void refresh_begin(FieldSet wanted);
@@ -93,7 +95,8 @@ class Simulation {
   bool refreshing_ = false;
   FieldSet fresh_;  ///< fields whose halo copies are up to date
   bool stale_ = true;
-  double moved_ = 0;  ///< bound on any particle's path since the last rebuild [m]
+  double moved_ = 0;       ///< bound on any particle's path since the last rebuild [m]
+  double slow_until_ = 0;  ///< dawdle(): cost of this rank when it last stopped [s]
   std::int64_t count_ = 0;
   decomp::Census census_;
 };

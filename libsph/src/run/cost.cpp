@@ -90,6 +90,7 @@ Performance performance_of(Simulation& s) {
   p.bytes_per_halo_particle = static_cast<double>(bytes_of(halo_fields(s.physics()), dim));
   p.rebuilds = s.counters().rebuilds;
   p.refreshes = s.counters().refreshes;
+  p.balance = s.distribution().balance();
   p.regions = s.timers().summary(comm);
   return p;
 }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <fstream>
 #include <numeric>
+#include <utility>
 
 namespace sph {
 namespace {
@@ -30,6 +32,10 @@ std::unique_ptr<decomp::CutPolicy> make_policy(const Decomposition& d) {
   switch (d.cuts) {
     case CutRule::literal:
       return decomp::make_literal();
+    case CutRule::quasi_newton:
+      return decomp::make_quasi_newton();
+    case CutRule::hybrid:
+      return decomp::make_hybrid();
     case CutRule::chaos:
       return decomp::make_chaos(d.chaos_seed);
     case CutRule::replay: {
@@ -45,6 +51,16 @@ std::unique_ptr<decomp::CutPolicy> make_policy(const Decomposition& d) {
   return decomp::make_fixed();
 }
 
+/// Whether cuts answer to what the particles cost.
+bool follows_load(const Decomposition& d) {
+  return d.cuts == CutRule::literal || d.cuts == CutRule::quasi_newton || d.cuts == CutRule::hybrid;
+}
+
+decomp::CutLimits limits_of(const decomp::CellGrid& grid, const Scene& scene) {
+  const auto [row, column] = scene.decomposition.cut_axes;
+  return {grid.cells()[static_cast<std::size_t>(row)], grid.cells()[static_cast<std::size_t>(column)]};
+}
+
 }  // namespace
 
 Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale)
@@ -56,7 +72,11 @@ Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const P
       grid_(make_grid(scene, scale, reach_)),
       partition_(grid_, scene.decomposition.cut_axes[0], scene.decomposition.cut_axes[1],
                  first_cuts(grid_, scene, comm.size())),
-      policy_(make_policy(scene.decomposition)),
+      // The literal rule goes one cell a call, so it is called at each rebuild.
+      balancer_(make_policy(scene.decomposition), limits_of(grid_, scene),
+                scene.decomposition.cost == CostSource::time &&
+                    (scene.decomposition.cuts == CutRule::quasi_newton ||
+                     scene.decomposition.cuts == CutRule::hybrid)),
       curve_(cells_along_curve()) {
   if (!scene.decomposition.record.empty() && comm.rank() == 0) {
     record_.open(scene.decomposition.record);
@@ -64,41 +84,36 @@ Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const P
   }
 }
 
-void Distribution::move_cuts(double cost) {
-  const std::vector<double> costs = comm_.all_gather(cost);
-  const int row = scene_.decomposition.cut_axes[0], column = scene_.decomposition.cut_axes[1];
-  const decomp::CutLimits limits{grid_.cells()[static_cast<std::size_t>(row)],
-                                 grid_.cells()[static_cast<std::size_t>(column)]};
-  decomp::Cuts cuts = policy_->next(partition_.cuts(), {costs}, limits);
-  if (record_.is_open()) record_ << decomp::to_text(cuts) << '\n' << std::flush;
-  if (cuts == partition_.cuts()) return;
+void Distribution::cut(decomp::Cuts cuts) {
+  const auto [row, column] = scene_.decomposition.cut_axes;
   partition_ = decomp::JaggedPartition(grid_, row, column, std::move(cuts));
   curve_ = cells_along_curve();
 }
 
+decomp::Balancer::CountCells Distribution::counts_of(const Particles& particles,
+                                                     const PairCounts& pairs) const {
+  return [&](const decomp::CellColumns& columns, std::span<std::int64_t> rows,
+             std::span<std::int64_t> of_pairs) {
+    const auto row = static_cast<std::size_t>(scene_.decomposition.cut_axes[0]);
+    const auto column = static_cast<std::size_t>(scene_.decomposition.cut_axes[1]);
+    const std::size_t d = static_cast<std::size_t>(particles.dim());
+    const std::int64_t* x = particles.data<Field::position>();
+    const std::vector<std::uint32_t> listed = pairs ? pairs() : std::vector<std::uint32_t>();
+    for (std::size_t i = 0; i < particles.owned(); ++i) {
+      decomp::Int3 p{};
+      for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+      const decomp::Int3 cell = grid_.cell_of(p);
+      const std::size_t at = columns.index(cell[row], cell[column]);
+      ++rows[at];
+      if (i < listed.size()) of_pairs[at] += listed[i];
+    }
+  };
+}
+
 void Distribution::cut_by_counts(Particles& particles) {
-  constexpr std::int64_t most_columns = 2'000'000;  // summed over ranks in one message
-  const std::size_t row = static_cast<std::size_t>(scene_.decomposition.cut_axes[0]);
-  const std::size_t column = static_cast<std::size_t>(scene_.decomposition.cut_axes[1]);
-  const std::int64_t rows = grid_.cells()[row], columns = grid_.cells()[column];
-  if (scene_.decomposition.cuts != CutRule::literal || comm_.size() == 1 || rows * columns > most_columns)
-    return;
+  if (!follows_load(scene_.decomposition) || comm_.size() == 1) return;
   wrap_positions(particles);
-  const std::size_t d = static_cast<std::size_t>(particles.dim());
-  const std::int64_t* x = particles.data<Field::position>();
-  std::vector<std::int64_t> count(static_cast<std::size_t>(rows * columns), 0);
-  for (std::size_t i = 0; i < particles.owned(); ++i) {
-    decomp::Int3 p{};
-    for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
-    const decomp::Int3 cell = grid_.cell_of(p);
-    ++count[static_cast<std::size_t>(cell[row] * columns + cell[column])];
-  }
-  comm_.sum(count);
-  const decomp::CellCosts costs(rows, columns, std::vector<double>(count.begin(), count.end()));
-  partition_ =
-      decomp::JaggedPartition(grid_, static_cast<int>(row), static_cast<int>(column),
-                              decomp::best_cuts(costs, decomp::jagged_shape(comm_.size(), rows, columns)));
-  curve_ = cells_along_curve();
+  cut(balancer_.first(comm_, counts_of(particles, {})));
 }
 
 std::vector<std::uint32_t> Distribution::cells_along_curve() const {
@@ -153,17 +168,24 @@ void Distribution::scatter(Particles& particles, decomp::Payload* contacts) {
   decomp::redistribute(comm_, owners(particles), particles.table(), contacts);
 }
 
-void Distribution::rebuild(Particles& particles, double cost_seconds, const std::vector<bool>& is_wall_group,
-                           double moved, decomp::Payload* contacts) {
+void Distribution::rebuild(Particles& particles, double cost_seconds, const PairCounts& pairs,
+                           const std::vector<bool>& is_wall_group, double moved, decomp::Payload* contacts) {
   wrap_positions(particles);
   if (comm_.size() > 1) {
     const decomp::JaggedPartition before = partition_;
-    move_cuts(scene_.decomposition.cost == CostSource::time ? cost_seconds
-                                                            : static_cast<double>(particles.owned()));
+    const double cost =
+        scene_.decomposition.cost == CostSource::time ? cost_seconds : static_cast<double>(particles.owned());
+    if (auto cuts = balancer_.next(comm_, partition_.cuts(), cost, counts_of(particles, pairs)))
+      cut(std::move(*cuts));
+    if (record_.is_open()) record_ << decomp::to_text(partition_.cuts()) << '\n' << std::flush;
     const std::int64_t strayed = scale_.quanta(moved) + 1;
     const decomp::MigrationPeers peers = decomp::migration_peers(before, partition_, comm_.rank(), strayed);
-    migrated_ += static_cast<std::int64_t>(
+    const auto start = std::chrono::steady_clock::now();
+    const auto sent = static_cast<std::int64_t>(
         decomp::migrate(comm_, owners(particles), peers, particles.table(), contacts));
+    migrated_ += sent;
+    balancer_.migrated(sent, static_cast<std::int64_t>(particles.owned()),
+                       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   sort_rows(particles, is_wall_group, contacts);
   plan_ = decomp::HaloPlan(comm_, partition_, reach_, particles.dim(), particles.column(Field::position),

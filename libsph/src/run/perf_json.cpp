@@ -53,6 +53,12 @@ void write_perf_json(const std::filesystem::path& path, const Performance& p) {
                   {"late_rebuilds", p.late_rebuilds},
                   {"migrated", p.migrated},
                   {"refreshes", p.refreshes},
+                  {"balance",
+                   {{"calls", p.balance.calls},
+                    {"moves", p.balance.moves},
+                    {"seconds", p.balance.seconds},
+                    {"over_optimum", p.balance.over_optimum},
+                    {"cells_taken_as_one", p.balance.edge}}},
                   {"seconds", regions_json(p.regions)},
                   {"build", build_json()}};
   try {

@@ -43,15 +43,10 @@ void print(const decomp::Comm& comm, const std::string& text) {
 }  // namespace
 
 Screen::Screen(Simulation& simulation)
-    : simulation_(simulation), first_(simulation.global()), last_(first_), last_computation_(computation()) {}
-
-double Screen::computation() const {
-  double sum = 0;
-  for (int r = 0; r < decomp::region_count; ++r)
-    if (decomp::is_computation(static_cast<decomp::Region>(r)))
-      sum += simulation_.timers().seconds(static_cast<decomp::Region>(r));
-  return sum;
-}
+    : simulation_(simulation),
+      first_(simulation.global()),
+      last_(first_),
+      last_computation_(simulation.timers().cost()) {}
 
 void Screen::banner() const {
   const BuildInfo& build = build_info();
@@ -89,7 +84,7 @@ double Screen::seconds_left() const {
 void Screen::status() {
   const GlobalState& now = simulation_.global();
   const double wall = seconds(Clock::now() - last_time_);
-  const double work = computation();
+  const double work = simulation_.timers().cost();
   Status status;
   status.global = now;
   status.particle_steps_per_second = static_cast<double>(simulation_.particle_count()) *
@@ -109,7 +104,7 @@ void Screen::final_report(const std::filesystem::path& dir) {
   p.steps = simulation_.global().step - first_.step;
   p.formulation = simulation_.scene().of_grains() ? "grains" : name_of(simulation_.scene().formulation);
   p.precision = name_of(simulation_.scene().precision);
-  p.imbalance = imbalance_of(simulation_.comm(), computation());
+  p.imbalance = imbalance_of(simulation_.comm(), simulation_.timers().cost());
   all_or_none(simulation_.comm(), "report", [&] {
     if (simulation_.comm().rank() == 0) write_perf_json(dir / "perf.json", p);
   });

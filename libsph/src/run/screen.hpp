@@ -20,7 +20,6 @@ class Screen {
  private:
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] double seconds_left() const;
-  [[nodiscard]] double computation() const;  ///< seconds of this rank since the start
 
   Simulation& simulation_;
   GlobalState first_;  ///< when this run began

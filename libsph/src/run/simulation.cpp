@@ -1,5 +1,6 @@
 #include "sph/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -15,7 +16,17 @@ std::int64_t Simulation::step(std::int64_t request) {
     step_in_a_sweep();
   else
     step_in_passes();
+  if (scene_.decomposition.slowness > 1 && scene_.decomposition.slow_rank == comm_.rank()) dawdle();
   return finish_step(request);
+}
+
+// For tests of the balance: this rank's cores are slower by scene.decomposition.slowness.
+void Simulation::dawdle() {
+  const auto timing = timers_.time(decomp::Region::update);
+  const double until = slow_until_ + scene_.decomposition.slowness * (timers_.cost() - slow_until_);
+  while (timers_.cost() < until) {
+  }
+  slow_until_ = timers_.cost();
 }
 
 // SPH: positions advance, passes with their updates, kick.
@@ -71,8 +82,9 @@ void Simulation::rebuild() {
   if (grains_) sent = ContactLists::census(particles_, contacts, grains_->lists().history());
   {
     const auto timing = timers_.time(decomp::Region::migrate);
-    distribution_.rebuild(particles_, timers_.take_cost(), is_wall_group_, moved_,
-                          grains_ ? &contacts : nullptr);
+    distribution_.rebuild(
+        particles_, timers_.take_cost(), [&] { return pairs_of_rows(); }, is_wall_group_, moved_,
+        grains_ ? &contacts : nullptr);
     if (decomp::census(comm_, particles_.table(), particles_.column(Field::id)) != census_)
       throw GuardError("step " + std::to_string(global_.step) +
                        ": a particle was lost or duplicated in migration; reduce time.dt");
@@ -87,6 +99,28 @@ void Simulation::rebuild() {
                  distribution_.ranges(), timers_);
   moved_ = 0;
   ++counters_.rebuilds;
+}
+
+// What the passes look at for each row, as far as the blocks of the lists tell.
+std::vector<std::uint32_t> Simulation::pairs_of_rows() const {
+  std::vector<std::uint32_t> pairs(particles_.owned(), 0);
+  const auto share = [&](std::size_t first, std::size_t last, std::size_t entries) {
+    for (std::size_t i = first; i < std::min(last, pairs.size()); ++i)
+      pairs[i] = static_cast<std::uint32_t>(entries / (last - first));
+  };
+  if (counters_.rebuilds == 0) return pairs;
+  if (grains_) {
+    const ContactLists& lists = grains_->lists();
+    for (const auto blocks : {lists.interior(), lists.boundary()})
+      for (const ContactBlock& b : blocks)
+        share(b.first, b.last, (b.pairs_end - b.pairs) * ContactGroups::lanes);
+    return pairs;
+  }
+  const auto lanes = static_cast<std::size_t>(lists_.lanes());
+  for (const RowRange& range : distribution_.ranges())
+    for (std::size_t first = range.first, b = range.first_block; first < range.last; first += lanes, ++b)
+      share(first, std::min<std::size_t>(first + lanes, range.last), lists_.block(b).size());
+  return pairs;
 }
 
 // No contact may be lost or doubled on its way: count and keys are those of the entries that set out.

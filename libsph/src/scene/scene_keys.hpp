@@ -56,8 +56,9 @@ inline constexpr auto region_list =
 inline constexpr auto terms_list =
     std::to_array<Word>({"density_diffusion", "artificial_viscosity", "shifting"});
 inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
-inline constexpr auto decomposition_list = std::to_array<Word>(
-    {"cut_axes", "skin", "rebuild_every", "overlap", "balance", "cost", "chaos_seed", "record", "replay"});
+inline constexpr auto decomposition_list =
+    std::to_array<Word>({"cut_axes", "skin", "rebuild_every", "overlap", "balance", "cost", "chaos_seed",
+                         "slow_rank", "slowness", "record", "replay"});
 inline constexpr auto output_list =
     std::to_array<Word>({"snapshot_interval", "series_interval", "checkpoint_interval", "status_interval",
                          "average_time", "average_space", "sort_limit", "checkpoint_files", "contacts"});

@@ -124,6 +124,12 @@ Decomposition read_decomposition(const TableReader& table, const Scene& scene) {
   d.cost = table.choice("cost", cost_words()).value_or(d.cost);
   d.chaos_seed = static_cast<std::uint64_t>(
       table.whole("chaos_seed", 0).value_or(static_cast<std::int64_t>(d.chaos_seed)));
+  d.slow_rank =
+      static_cast<int>(table.whole("slow_rank", 0, std::numeric_limits<int>::max()).value_or(d.slow_rank));
+  d.slowness = table.number("slowness", dimension::none, Bound::positive).value_or(d.slowness);
+  if (d.slowness < 1)
+    table.fail("slowness", fmt::format("is {}", d.slowness),
+               "it multiplies the time of one rank, at least 1");
   d.record = table.file_path("record", scene.file);
   d.replay = table.file_path("replay", scene.file);
   if (d.cuts == CutRule::replay && d.replay.empty())

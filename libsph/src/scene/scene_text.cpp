@@ -145,6 +145,8 @@ void write_decomposition(SceneWriter& out, const Decomposition& d) {
   out.text("balance", word(cut_rule_words(), d.cuts));
   out.text("cost", word(cost_words(), d.cost));
   out.whole("chaos_seed", d.chaos_seed);
+  out.whole("slow_rank", d.slow_rank);
+  out.number("slowness", d.slowness);
   if (!d.record.empty()) out.text("record", d.record);
   if (!d.replay.empty()) out.text("replay", d.replay);
 }

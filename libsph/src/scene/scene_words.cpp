@@ -40,10 +40,9 @@ const Choices<LatticeKind>& lattice_words() {
   return words;
 }
 const Choices<CutRule>& cut_rule_words() {
-  static const Choices<CutRule> words{{"fixed", CutRule::fixed},
-                                      {"literal", CutRule::literal},
-                                      {"chaos", CutRule::chaos},
-                                      {"replay", CutRule::replay}};
+  static const Choices<CutRule> words{
+      {"fixed", CutRule::fixed},   {"literal", CutRule::literal}, {"quasi_newton", CutRule::quasi_newton},
+      {"hybrid", CutRule::hybrid}, {"chaos", CutRule::chaos},     {"replay", CutRule::replay}};
   return words;
 }
 const Choices<CostSource>& cost_words() {
