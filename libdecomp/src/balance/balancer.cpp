@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t most_columns = 2'000'000;  // summed over all ranks in one message
 constexpr double share_of_deciding = 0.01;        // of the time that is balanced
+constexpr std::int64_t first_calls = 10;          // at every rebuild: from a poor start each of them pays
 constexpr std::int64_t longest_wait = 1000, calls_between_judgements = 20;  // rebuilds, calls
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -68,17 +69,19 @@ std::optional<Cuts> Balancer::next(const Comm& comm, const Cuts& now, double cos
   ++rebuilds_;
   if (--wait_ > 0) return {};
   const auto start = std::chrono::steady_clock::now();
-  std::array<double, 2> slowest{last_seconds_, migrating_};
+  // The rank that came last did not wait for others: what the others waited is imbalance, not deciding.
+  std::array<double, 2> largest{-last_seconds_, migrating_};
   std::array<std::int64_t, 2> rows{sent_, rows_};
-  comm.max_and_sum(slowest, rows);
+  comm.max_and_sum(largest, rows);
+  const double deciding = -largest[0], migrating = largest[1];
   const std::vector<double> costs = comm.all_gather(std::exchange(cost_, 0.0));
   const double mean = std::accumulate(costs.begin(), costs.end(), 0.0) / comm.size();
-  account_.seconds += slowest[0];
+  account_.seconds += deciding;
 
   Load load{costs, {}, 0};
   // Moving as many rows as a rank has, as it went so far; rows of all ranks move at once.
   if (costs_seconds_ && mean > 0 && rows[0] > 0)
-    load.price = slowest[1] * static_cast<double>(rows[1]) / static_cast<double>(rows[0]) / mean;
+    load.price = migrating * static_cast<double>(rows[1]) / static_cast<double>(rows[0]) / mean;
   std::vector<CellCosts> cells;
   const bool judging = account_.calls % calls_between_judgements == 0;
   if (policy_->uses_cells() || (costs_seconds_ && judging)) cells = sum_cells(comm, count);
@@ -89,8 +92,8 @@ std::optional<Cuts> Balancer::next(const Comm& comm, const Cuts& now, double cos
   ++account_.calls;
   const double per_rebuild = mean / static_cast<double>(std::exchange(rebuilds_, 0));
   wait_ = 1;
-  if (costs_seconds_ && per_rebuild > 0)
-    wait_ = std::clamp(static_cast<std::int64_t>(slowest[0] / (share_of_deciding * per_rebuild)),
+  if (costs_seconds_ && per_rebuild > 0 && account_.calls > first_calls)
+    wait_ = std::clamp(static_cast<std::int64_t>(deciding / (share_of_deciding * per_rebuild)),
                        std::int64_t{1}, longest_wait);
   last_seconds_ = seconds_since(start);
   if (moved == now) return {};

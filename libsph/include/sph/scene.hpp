@@ -102,7 +102,7 @@ struct Decomposition {
   double skin = 0.2;                  ///< of the kernel's radius
   int rebuild_every = 0;              ///< 0: when a particle may leave the skin; n: also every n steps
   bool overlap = true;                ///< compute the interior while halo messages travel
-  CutRule cuts = CutRule::literal;
+  CutRule cuts = CutRule::quasi_newton;
   CostSource cost = CostSource::time;
   std::uint64_t chaos_seed = 1;
   int slow_rank = 0;    ///< for tests of the balance: this rank ...
