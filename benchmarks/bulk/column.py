@@ -4,7 +4,7 @@ import numpy as np
 
 from runs import exponent, snapshots
 
-WIDTH, DIAMETER, DEPTH = 0.05, 2e-3, 0.011
+WIDTH, DIAMETER, DEPTH = 0.0506, 2e-3, 0.011
 RELEASE = 0.6  # [s]
 RATIOS = (0.4, 0.7, 1.1, 1.6, 2.3, 3.5, 5, 7.5)
 FILLED = 1.45  # height of the lattice that settles to 1

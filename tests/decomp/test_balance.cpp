@@ -77,6 +77,24 @@ TEST(BestCuts, AHalfSpeedRankGetsHalf) {
   EXPECT_NEAR(part_costs(costs, cuts)[27] / (costs.total() / 127), 1, 0.1);
 }
 
+TEST(CellCosts, AggregatedCellsSpreadTheirCostEvenly) {
+  const CellColumns grid{10, 7, 3};  // 4 x 3 columns, the last row and column of them one cell wide
+  ASSERT_EQ(grid.size(), 12);
+  EXPECT_EQ(grid.index(2, 2), 0u);
+  EXPECT_EQ(grid.index(9, 6), 11u);
+  std::vector<double> cost(12);
+  std::iota(cost.begin(), cost.end(), 1.0);
+  const CellCosts costs(grid, cost);
+  EXPECT_DOUBLE_EQ(costs.total(), 78);
+  EXPECT_DOUBLE_EQ(costs.sum(3, 6, 3, 6), 5);
+  EXPECT_DOUBLE_EQ(costs.sum(3, 4, 3, 5), 5.0 * 2 / 9);
+  EXPECT_DOUBLE_EQ(costs.sum(9, 10, 6, 7), 12);
+  EXPECT_DOUBLE_EQ(costs.sum(2, 4, 0, 1), 1.0 / 9 + 4.0 / 9);
+  const std::array<CellCosts, 2> two{costs, costs};
+  const std::array<double, 2> weight{2.0, 0.5};
+  EXPECT_DOUBLE_EQ(CellCosts(two, weight).sum(1, 8, 2, 6), 2.5 * costs.sum(1, 8, 2, 6));
+}
+
 TEST(GoodCuts, RowsWithTheirOwnColumnsAreNoWorse) {
   for (const auto& field : {fields::wedge(60, 120), fields::heap(60, 120), fields::dam(60, 120)})
     for (const int ranks : {7, 16, 37, 64}) {
