@@ -6,13 +6,12 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include <algorithm>
-#include <ctime>
 #include <functional>
 #include <vector>
 
 #include "sph/error.hpp"
 #include "sph/simulation.hpp"
+#include "timing.hpp"
 
 namespace {
 
@@ -31,17 +30,6 @@ struct Sweeps {
   ContactSweepFunction quanta = ContactPass<Normal, Coulomb, NoRolling, true, QuantumSums>::run,
                        doubles = ContactPass<Normal, Coulomb, NoRolling, true, DoubleSums>::run;
 };
-
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
 
 template <class Normal>
 void compare(Simulation& s) {

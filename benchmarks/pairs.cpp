@@ -5,29 +5,17 @@
 // lists left in the order they were found, which no application can choose.
 #include <mpi.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "sph/simd.hpp"
 #include "sph/simulation.hpp"
+#include "timing.hpp"
 
 namespace {
-
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
 
 /// Sixteen million lane-steps of the arithmetic a pair costs: sqrt, division, a chain of products and sums.
 double calibration_seconds() {
