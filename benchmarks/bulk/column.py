@@ -48,7 +48,7 @@ def settings(ratio):
     fall = np.sqrt(ratio * WIDTH / 9.81)
     until = RELEASE + max(0.6, 5.5 * fall)
     return [f"start.upper=[{WIDTH}, {DEPTH}, {high:.6g}]",
-            f"domain.upper=[{WIDTH * (3 + 3.2 * ratio**0.8):.6g}, {DEPTH}, {1.2 * high + 0.03:.6g}]",
+            f"domain.upper=[{WIDTH * (5 + 6 * ratio):.6g}, {DEPTH}, {1.2 * high + 0.03:.6g}]",
             f"time.until={until:.6g}"]
 
 
