@@ -14,6 +14,7 @@ namespace {
 constexpr std::int64_t most_columns = 2'000'000;  // summed over all ranks in one message
 constexpr double share_of_deciding = 0.01;        // of the time that is balanced
 constexpr std::int64_t first_calls = 10;          // at every rebuild: from a poor start each of them pays
+constexpr double least_cost = 0.25;  // [s] of a rank between calls: shorter times are mostly noise
 constexpr std::int64_t longest_wait = 1000, calls_between_judgements = 20;  // rebuilds, calls
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -93,8 +94,9 @@ std::optional<Cuts> Balancer::next(const Comm& comm, const Cuts& now, double cos
   const double per_rebuild = mean / static_cast<double>(std::exchange(rebuilds_, 0));
   wait_ = 1;
   if (costs_seconds_ && per_rebuild > 0 && account_.calls > first_calls)
-    wait_ = std::clamp(static_cast<std::int64_t>(deciding / (share_of_deciding * per_rebuild)),
-                       std::int64_t{1}, longest_wait);
+    wait_ = std::clamp(
+        static_cast<std::int64_t>(std::max(deciding / share_of_deciding, least_cost) / per_rebuild),
+        std::int64_t{1}, longest_wait);
   last_seconds_ = seconds_since(start);
   if (moved == now) return {};
   ++account_.moves;
