@@ -67,6 +67,8 @@ def measure(runner):
     for name, x, y, expected in (("run-out, a < 2.3", a[low], runout[low], "1, prefactor 1.2 (experiments) to 2.5"),
                                  ("run-out, a > 2.3", a[high], runout[high], "2/3, prefactor 1.9 to 3.25"),
                                  ("height, a > 0.7", a[a > 0.7], height[a > 0.7], "1/3")):
+        if len(x) < 3:
+            continue
         fits[name] = exponent(x, y)
         lines.append(f"{name}: exponent {fits[name][0]:.3f}, prefactor {fits[name][1]:.2f} (expected {expected})")
     return lines, (cases, a, runout, height, fits)
