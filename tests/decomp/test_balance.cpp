@@ -95,15 +95,16 @@ TEST(CellCosts, AggregatedCellsSpreadTheirCostEvenly) {
   EXPECT_DOUBLE_EQ(CellCosts(two, weight).sum(1, 8, 2, 6), 2.5 * costs.sum(1, 8, 2, 6));
 }
 
-TEST(GoodCuts, RowsWithTheirOwnColumnsAreNoWorse) {
-  for (const auto& field : {fields::wedge(60, 120), fields::heap(60, 120), fields::dam(60, 120)})
-    for (const int ranks : {7, 16, 37, 64}) {
-      const CellCosts costs(60, 120, field);
-      const double equal = largest_part(costs, best_cuts(costs, jagged_shape(ranks, 60, 120)));
-      const Cuts cuts = good_cuts(costs, ranks);
-      EXPECT_EQ(static_cast<int>(part_costs(costs, cuts).size()), ranks);
-      EXPECT_LE(largest_part(costs, cuts), equal);
-    }
+// They begin with the best equal columns, so the question is whether they find better ones where there are.
+TEST(GoodCuts, RowsWithTheirOwnColumnsPayOnAHeap) {
+  const CellCosts costs(field_rows, field_columns, fields::heap(field_rows, field_columns));
+  for (const int ranks : {256, 484}) {
+    const double equal =
+        largest_part(costs, best_cuts(costs, jagged_shape(ranks, field_rows, field_columns)));
+    const Cuts cuts = good_cuts(costs, ranks);
+    EXPECT_EQ(static_cast<int>(part_count(cuts)), ranks);
+    EXPECT_LT(largest_part(costs, cuts), 0.985 * equal) << ranks;
+  }
 }
 
 /// A policy in a loop of measuring and moving.
@@ -239,7 +240,6 @@ TEST(Balance, RestsWhereAMoveDoesNotPay) {
     Judge judge(fields::wedge(field_rows, field_columns));
     judge.noise = 0;
     const Cuts cuts = best_cuts(judge.costs, jagged_shape(64, field_rows, field_columns));
-    judge.costs = {field_rows, field_columns, fields::wedge(field_rows, field_columns)};
     std::vector<double> measured = part_costs(judge.costs, cuts);
     measured[20] *= 1.08;
     const Load dear{measured, {&judge.costs, 1}, 1e6}, cheap{measured, {&judge.costs, 1}, 1e-3};
