@@ -32,6 +32,8 @@ class Balancer {
   /// of them, and moves are weighed against the time of migration.
   Balancer(std::unique_ptr<CutPolicy> policy, const CutLimits& limits, bool costs_seconds);
 
+  [[nodiscard]] bool follows_load() const { return policy_->uses_costs(); }
+
   /// The best cuts for the numbers of particles, before any time was measured. Collective.
   [[nodiscard]] Cuts first(const Comm& comm, const CountCells& count) const;
 

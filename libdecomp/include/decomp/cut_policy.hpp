@@ -32,6 +32,7 @@ class CutPolicy {
   /// New cuts from the present ones. The number of parts stays the same; only a policy that uses cells may
   /// change the number of columns of a row.
   [[nodiscard]] virtual Cuts next(const Cuts& now, const Load& load, const CutLimits& limits) = 0;
+  [[nodiscard]] virtual bool uses_costs() const { return true; }  ///< else load may be empty
   [[nodiscard]] virtual bool uses_cells() const { return false; }
 };
 

@@ -66,6 +66,10 @@ void Balancer::judge(const Cuts& now, std::span<const CellCosts> cells) {
 }
 
 std::optional<Cuts> Balancer::next(const Comm& comm, const Cuts& now, double cost, const CountCells& count) {
+  if (!policy_->uses_costs()) {
+    Cuts moved = policy_->next(now, {}, limits_);
+    return moved == now ? std::nullopt : std::optional(std::move(moved));
+  }
   cost_ += cost;
   ++rebuilds_;
   if (--wait_ > 0) return {};

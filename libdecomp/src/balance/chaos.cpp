@@ -62,6 +62,7 @@ CutLine random_line(std::size_t parts, std::int64_t cells, std::uint64_t stream)
 class Chaos final : public CutPolicy {
  public:
   explicit Chaos(std::uint64_t seed) : seed_(seed) {}
+  [[nodiscard]] bool uses_costs() const override { return false; }
 
   Cuts next(const Cuts& now, const Load&, const CutLimits& limits) override {
     const std::uint64_t call = mix(mix(seed_) ^ calls_++);

@@ -10,6 +10,7 @@ namespace {
 
 class Fixed final : public CutPolicy {
  public:
+  [[nodiscard]] bool uses_costs() const override { return false; }
   Cuts next(const Cuts& now, const Load&, const CutLimits&) override { return now; }
 };
 
@@ -18,6 +19,7 @@ class Replay final : public CutPolicy {
   explicit Replay(std::vector<Cuts> recorded) : recorded_(std::move(recorded)) {
     if (recorded_.empty()) throw InputError("the recording of cuts is empty");
   }
+  [[nodiscard]] bool uses_costs() const override { return false; }
 
   Cuts next(const Cuts& now, const Load&, const CutLimits& limits) override {
     const Cuts& cuts = recorded_[position_];

@@ -51,11 +51,6 @@ std::unique_ptr<decomp::CutPolicy> make_policy(const Decomposition& d) {
   return decomp::make_fixed();
 }
 
-/// Whether cuts answer to what the particles cost.
-bool follows_load(const Decomposition& d) {
-  return d.cuts == CutRule::literal || d.cuts == CutRule::quasi_newton || d.cuts == CutRule::hybrid;
-}
-
 decomp::CutLimits limits_of(const decomp::CellGrid& grid, const Scene& scene) {
   const auto [row, column] = scene.decomposition.cut_axes;
   return {grid.cells()[static_cast<std::size_t>(row)], grid.cells()[static_cast<std::size_t>(column)]};
@@ -111,7 +106,7 @@ decomp::Balancer::CountCells Distribution::counts_of(const Particles& particles,
 }
 
 void Distribution::cut_by_counts(Particles& particles) {
-  if (!follows_load(scene_.decomposition) || comm_.size() == 1) return;
+  if (!balancer_.follows_load() || comm_.size() == 1) return;
   wrap_positions(particles);
   cut(balancer_.first(comm_, counts_of(particles, {})));
 }
