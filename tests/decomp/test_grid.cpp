@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "decomp/grid.hpp"
@@ -92,6 +94,24 @@ TEST(Hilbert, IsABijectionOfUnitSteps) {
         before = cell;
       }
     }
+}
+
+RC_GTEST_PROP(Hilbert, PlacesAreTheOrderOfTheKeys, ()) {
+  const int dim = *rc::gen::inRange(1, 4), bits = *rc::gen::inRange(0, dim == 3 ? 5 : 7);
+  decomp::Box box{{0, 0, 0}, {1, 1, 1}};
+  for (int a = 0; a < dim; ++a) {
+    box.lo[a] = *rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << bits);
+    box.hi[a] = *rc::gen::inRange<std::int64_t>(box.lo[a], std::int64_t{1} << bits) + 1;
+  }
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+  for (std::int64_t z = box.lo[2]; z < box.hi[2]; ++z)
+    for (std::int64_t y = box.lo[1]; y < box.hi[1]; ++y)
+      for (std::int64_t x = box.lo[0]; x < box.hi[0]; ++x)
+        keys.emplace_back(decomp::hilbert_key(dim, bits, {x, y, z}), static_cast<std::uint32_t>(keys.size()));
+  std::ranges::sort(keys);
+  const std::vector<std::uint32_t> places = decomp::hilbert_places(dim, bits, box);
+  RC_ASSERT(places.size() == keys.size());
+  for (std::uint32_t k = 0; k < keys.size(); ++k) RC_ASSERT(places[keys[k].second] == k);
 }
 
 RC_GTEST_PROP(Hilbert, RoundTripsAtFullWidth, (std::uint64_t word)) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "decomp/types.hpp"
 
@@ -44,5 +45,7 @@ class CellGrid {
 /// Bijective on [0, 2^bits)^dim, dim 1 to 3, dim * bits <= 64; consecutive keys are cells that share a face.
 [[nodiscard]] std::uint64_t hilbert_key(int dim, int bits, const Int3& cell);
 [[nodiscard]] Int3 hilbert_cell(int dim, int bits, std::uint64_t key);
+/// For each cell of `box` (x fastest), which lies in [0, 2^bits)^dim: its place among them along the curve.
+[[nodiscard]] std::vector<std::uint32_t> hilbert_places(int dim, int bits, const Box& box);
 
 }  // namespace decomp

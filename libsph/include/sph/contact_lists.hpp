@@ -71,10 +71,11 @@ class ContactLists {
 
   /// Histories of the contacts of owned rows, as entries { partner key, history as it acts on the row }.
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
-  /// Puts the entries back after build(); the rows of `payload` are the owned rows.
-  void unpack(const Particles& particles, const decomp::Payload& payload);
-  [[nodiscard]] ContactCensus census(const Particles& particles) const;  ///< of this rank
-  /// The same from entries: what was packed on all ranks must be found in all lists.
+  /// Puts the entries back after build(); those of owned row r are in row order[r] of `payload`. Returns what
+  /// was put back.
+  ContactCensus unpack(const Particles& particles, const decomp::Payload& payload,
+                       std::span<const std::uint32_t> order);
+  /// What was packed on all ranks, and must be put back on all.
   [[nodiscard]] static ContactCensus census(const Particles& particles, const decomp::Payload& payload,
                                             int history);
 

@@ -48,9 +48,11 @@ class Distribution {
 
   /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
   /// plans the halo. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
-  /// since the last call. `contacts`, if there are any, go with their rows.
-  void rebuild(Particles& particles, double cost_seconds, const PairCounts& pairs,
-               const std::vector<bool>& is_wall_group, double moved, decomp::Payload* contacts = nullptr);
+  /// since the last call. `contacts`, if there are any, migrate with their rows, but are not sorted (they may
+  /// be most of the memory): those of row r are then in row order[r], where `order` is returned.
+  std::vector<std::uint32_t> rebuild(Particles& particles, double cost_seconds, const PairCounts& pairs,
+                                     const std::vector<bool>& is_wall_group, double moved,
+                                     decomp::Payload* contacts = nullptr);
 
  private:
   void cut(decomp::Cuts cuts);
@@ -59,7 +61,7 @@ class Distribution {
                                                        const PairCounts& pairs) const;
   void wrap_positions(Particles& particles) const;
   [[nodiscard]] std::vector<decomp::Rank> owners(const Particles& particles) const;
-  void sort_rows(Particles& particles, const std::vector<bool>& is_wall_group, decomp::Payload* contacts);
+  std::vector<std::uint32_t> sort_rows(Particles& particles, const std::vector<bool>& is_wall_group);
   [[nodiscard]] std::vector<std::uint32_t> cells_along_curve() const;
 
   const decomp::Comm& comm_;
@@ -72,7 +74,7 @@ class Distribution {
   decomp::Balancer balancer_;
   decomp::HaloPlan plan_;
   RowRanges ranges_{};
-  std::vector<std::uint32_t> curve_;  ///< rank along the Hilbert curve of each own cell, x fastest
+  std::vector<std::uint32_t> curve_;  ///< place along the Hilbert curve of each own cell, x fastest
   std::int64_t migrated_ = 0;
   std::ofstream record_;
 };

@@ -53,10 +53,12 @@ class Grains {
   /// Takes the changes of the stages that begin at or before the present time; call before each step.
   void set_stage(GlobalState& global) const;
 
-  /// New lists after rows have moved; the histories in `payload` go back to their pairs.
-  void rebuild(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
-               std::int64_t reach, double skin, const RowRanges& ranges, const GlobalState& global,
-               const decomp::Payload& payload);
+  /// New lists after rows have moved; the histories in `payload`, those of row r in its row order[r], go
+  /// back to their pairs. Returns what found its pair again.
+  [[nodiscard]] ContactCensus rebuild(const Particles& particles, const decomp::CellGrid& grid,
+                                      const decomp::Box& own_cells, std::int64_t reach, double skin,
+                                      const RowRanges& ranges, const GlobalState& global,
+                                      const decomp::Payload& payload, std::span<const std::uint32_t> order);
 
   /// Contacts of the blocks, then kick and drift of their grains. begin_step() clears what a step sums.
   void begin_step(const GlobalState& global);

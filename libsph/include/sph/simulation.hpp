@@ -63,7 +63,8 @@ class Simulation {
   void step_in_passes();
   void step_in_a_sweep();
   void rebuild();
-  void rebuild_contacts(const decomp::Payload& contacts, const ContactCensus& sent);
+  void rebuild_contacts(const decomp::Payload& contacts, std::span<const std::uint32_t> order,
+                        const ContactCensus& sent);
   [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows() const;
   void dawdle();
   enum class Side { interior, boundary };

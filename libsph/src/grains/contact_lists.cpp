@@ -68,14 +68,41 @@ struct Candidates {
   }
 };
 
-void add_pair(ContactGroups& g, std::uint32_t i, std::uint32_t j) {
-  g.i.push_back(i);
-  g.j.push_back(j);
-}
+/// Appends to groups of contacts whose old entries are overwritten, not cleared.
+class Writer {
+ public:
+  explicit Writer(ContactGroups& g) : g_(g) {}
+  [[nodiscard]] std::size_t groups() const { return n_ / lanes; }
+  /// Where the next `room` partners may be written before add() says how many of them were.
+  [[nodiscard]] std::uint32_t* partners(std::size_t room) {
+    if (g_.j.size() < n_ + room) {
+      const std::size_t size = std::max(n_ + room, g_.j.size() + g_.j.size() / 2);
+      g_.i.resize(size);
+      g_.j.resize(size);
+    }
+    return g_.j.data() + n_;
+  }
+  void add(std::uint32_t i, std::size_t count) {
+    std::fill_n(g_.i.data() + n_, count, i);
+    n_ += count;
+  }
+  /// Fills the last group with pairs (i, j) that are none.
+  void pad(std::uint32_t i, std::uint32_t j) {
+    const std::size_t rest = (lanes - n_ % lanes) % lanes;
+    std::fill_n(partners(rest), rest, j);
+    add(i, rest);
+  }
+  void finish(std::size_t history) {
+    g_.i.resize(n_);
+    g_.j.resize(n_);
+    g_.touching.assign(groups(), 0);
+    g_.history.assign(n_ * history, 0.0);
+  }
 
-void pad(ContactGroups& g, std::uint32_t i, std::uint32_t j) {
-  while (g.i.size() % lanes != 0) add_pair(g, i, j);
-}
+ private:
+  ContactGroups& g_;
+  std::size_t n_ = 0;
+};
 
 constexpr std::uint32_t no_wall = ~std::uint32_t{0};
 
@@ -83,16 +110,6 @@ double distance(const PlaneNow& plane, const std::int64_t* x, double quantum) {
   double d = 0;
   for (std::size_t a = 0; a < 3; ++a) d += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
   return d * quantum;
-}
-
-void reset(ContactGroups& g) {
-  g.i.clear();
-  g.j.clear();
-}
-
-void allocate(ContactGroups& g, std::size_t history) {
-  g.touching.assign(g.i.size() / lanes, 0);
-  g.history.assign(g.touching.size() * history * lanes, 0.0);
 }
 
 /// splitmix64's finaliser: makes keys whose sum tells contacts apart.
@@ -118,49 +135,55 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   const auto* x = p.data<Field::position>();
   const double* radius = p.data<Field::radius>();
   blocks_.clear();
-  reset(pairs_);
-  reset(walls_);
+  Writer pairs(pairs_), walls(walls_);
   listed_ = 0;
-  std::vector<std::uint32_t> found(chunk);
+  std::uint32_t cell = ~std::uint32_t{0};
+  CellBins::Run runs[9];
+  int n_runs = 0;
+  std::size_t room = 0;  ///< for all candidates of the cell
   for (const RowRange& range : ranges) {
     if (&range == &ranges[static_cast<std::size_t>(RowClass::boundary_movers)])
       interior_blocks_ = blocks_.size();
     for (std::size_t first = range.first; first < range.last; first += ContactBlock::rows) {
       ContactBlock block{static_cast<std::uint32_t>(first),
                          static_cast<std::uint32_t>(std::min(first + ContactBlock::rows, range.last)),
-                         pairs_.i.size() / lanes,
+                         pairs.groups(),
                          0,
-                         walls_.i.size() / lanes,
+                         walls.groups(),
                          0};
       for (std::uint32_t row = block.first; row < block.last; ++row) {
         const bool is_fixed = fixed[group[row]];
-        CellBins::Run runs[9];
-        const int n_runs = bins.runs(bins.cell(row), runs);
+        if (bins.cell(row) != cell) {
+          n_runs = bins.runs(cell = bins.cell(row), runs);
+          room = chunk;
+          for (int r = 0; r < n_runs; ++r) room += runs[r].last - runs[r].first;
+        }
+        std::uint32_t* const partner = pairs.partners(room);
         std::size_t n = 0;
-        for (int r = 0; r < n_runs; ++r) {
-          if (found.size() < n + (runs[r].last - runs[r].first) + chunk)
-            found.resize(2 * (n + (runs[r].last - runs[r].first) + chunk));
+        for (int r = 0; r < n_runs; ++r)
           for (std::size_t k = runs[r].first; k < runs[r].last; k += chunk)
-            n += candidates.append(k, runs[r].last, bins.place(row), row, found.data() + n);
-        }
-        for (std::size_t k = 0; k < n; ++k) {
-          if (is_fixed && fixed[group[found[k]]]) continue;
-          add_pair(pairs_, row, found[k]);
-          ++listed_;
-        }
+            n += candidates.append(k, runs[r].last, bins.place(row), row, partner + n);
+        if (is_fixed)
+          n = static_cast<std::size_t>(
+              std::remove_if(partner, partner + n, [&](std::uint32_t j) { return fixed[group[j]]; }) -
+              partner);
+        pairs.add(row, n);
+        listed_ += n;
         for (std::uint32_t w = 0; w < planes.size() && !is_fixed; ++w)
-          if (planes[w].present && distance(planes[w], x + row * 3, quantum) < radius[row] + skin)
-            add_pair(walls_, row, w);
+          if (planes[w].present && distance(planes[w], x + row * 3, quantum) < radius[row] + skin) {
+            *walls.partners(1) = w;
+            walls.add(row, 1);
+          }
       }
-      pad(pairs_, block.first, block.first);
-      pad(walls_, block.first, no_wall);
-      block.pairs_end = pairs_.i.size() / lanes;
-      block.walls_end = walls_.i.size() / lanes;
+      pairs.pad(block.first, block.first);
+      walls.pad(block.first, no_wall);
+      block.pairs_end = pairs.groups();
+      block.walls_end = walls.groups();
       blocks_.push_back(block);
     }
   }
-  allocate(pairs_, history_);
-  allocate(walls_, history_);
+  pairs.finish(history_);
+  walls.finish(history_);
 }
 
 decomp::Payload ContactLists::pack(const Particles& p) const {
@@ -202,14 +225,18 @@ decomp::Payload ContactLists::pack(const Particles& p) const {
   return payload;
 }
 
-void ContactLists::unpack(const Particles& p, const decomp::Payload& payload) {
+ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& payload,
+                                   std::span<const std::uint32_t> order) {
+  ContactCensus found;
+  if (payload.bytes.empty()) return found;
   const std::uint64_t* id = p.data<Field::id>();
   for (ContactGroups* g : {&pairs_, &walls_})
     for (std::size_t k = 0; k < g->i.size(); ++k) {
       const std::uint32_t i = g->i[k], j = g->j[k];
       if (g == &walls_ ? j == no_wall : i == j) continue;
       const std::uint64_t wanted = g == &walls_ ? wall_key | j : id[j];
-      for (std::uint64_t at = payload.offset[i]; at < payload.offset[i + 1]; at += entry_bytes()) {
+      const std::uint64_t end = payload.offset[order[i] + 1];
+      for (std::uint64_t at = payload.offset[order[i]]; at < end; at += entry_bytes()) {
         std::uint64_t key;
         std::memcpy(&key, payload.bytes.data() + at, sizeof key);
         if (key != wanted) continue;
@@ -220,24 +247,12 @@ void ContactLists::unpack(const Particles& p, const decomp::Payload& payload) {
           std::memcpy(&value, payload.bytes.data() + at + 8 * (1 + c), sizeof value);
           history[c * lanes] = -value;
         }
+        count(found, id[i], wanted);
+        if (g == &pairs_ && j < p.owned()) count(found, wanted, id[i]);
         break;
       }
     }
-}
-
-ContactCensus ContactLists::census(const Particles& p) const {
-  ContactCensus census;
-  if (history_ == 0) return census;
-  const std::uint64_t* id = p.data<Field::id>();
-  for (const ContactGroups* g : {&pairs_, &walls_})
-    for (std::size_t k = 0; k < g->groups(); ++k)
-      for (unsigned bits = g->touching[k]; bits != 0; bits &= bits - 1) {
-        const std::size_t at = k * lanes + static_cast<std::size_t>(std::countr_zero(bits));
-        const std::uint32_t i = g->i[at], j = g->j[at];
-        count(census, id[i], g == &walls_ ? wall_key | j : id[j]);
-        if (g == &pairs_ && j < p.owned()) count(census, id[j], id[i]);
-      }
-  return census;
+  return found;
 }
 
 ContactCensus ContactLists::census(const Particles& p, const decomp::Payload& payload, int history) {

@@ -191,20 +191,22 @@ std::vector<PlaneNow> Grains::planes(const GlobalState& global, double time) con
   return out;
 }
 
-void Grains::rebuild(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
-                     std::int64_t reach, double skin, const RowRanges& ranges, const GlobalState& global,
-                     const decomp::Payload& payload) {
+ContactCensus Grains::rebuild(const Particles& particles, const decomp::CellGrid& grid,
+                              const decomp::Box& own_cells, std::int64_t reach, double skin,
+                              const RowRanges& ranges, const GlobalState& global,
+                              const decomp::Payload& payload, std::span<const std::uint32_t> order) {
   // A wall that a later stage brings near must be listed in time: walls are looked for where they are now.
   // One that a stage has just removed had contacts in the last step: the next sweep ends them.
   lists_.build(particles, grid, own_cells, reach, skin, scale_.quantum, ranges, fixed_,
                planes(global, global.time - 2 * global.dt));
-  lists_.unpack(particles, payload);
-  counters_.carried += static_cast<std::int64_t>(lists_.census(particles).count);
+  const ContactCensus found = lists_.unpack(particles, payload, order);
+  counters_.carried += static_cast<std::int64_t>(found.count);
   sums_.assign(particles.rows() * (fusion_.spins ? 8 : 4), 0);
   const std::int64_t* x = particles.data<Field::position>();
   reference_.assign(x, x + particles.owned() * 3);
   wall_reference_.clear();
   for (const WallState& w : global.walls) wall_reference_.push_back(w.offset);
+  return found;
 }
 
 void Grains::begin_step(const GlobalState& global) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "decomp/grid.hpp"
+#include "pairs/occupied.hpp"
 #include "sph/particles.hpp"
 
 namespace sph {
@@ -18,29 +19,31 @@ class CellBins {
   /// Positions are held relative to the corner of the bins in units of `radius` quanta.
   CellBins(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own,
            std::int64_t radius)
-      : grid_(grid), dim_(particles.dim()) {
+      : grid_(grid), dim_(particles.dim()), occupied_(0) {
     decomp::Int3 corner{};
     for (int a = 0; a < 3; ++a) {
       lo_[a] = a < dim_ ? own.lo[a] - 1 : 0;
       extent_[a] = a < dim_ ? own.hi[a] - own.lo[a] + 2 : 1;
       corner[a] = grid.origin()[a] + lo_[a] * grid.edge()[a];
     }
-    const std::size_t cells = static_cast<std::size_t>(extent_[0] * extent_[1] * extent_[2]);
+    occupied_ = Occupied(static_cast<std::size_t>(extent_[0] * extent_[1] * extent_[2]));
     const std::size_t rows = particles.rows(), d = static_cast<std::size_t>(dim_);
     const std::int64_t* x = particles.data<Field::position>();
     cell_.resize(rows);
-    start_.assign(cells + 1, 0);
     for (std::size_t i = 0; i < rows; ++i) {
       cell_[i] = static_cast<std::uint32_t>(index(x + i * d));
-      ++start_[cell_[i] + 1];
+      occupied_.mark(cell_[i]);
     }
-    for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
+    start_.assign(occupied_.number() + 1, 0);
+    std::vector<std::uint32_t> bin(rows);
+    for (std::size_t i = 0; i < rows; ++i) ++start_[(bin[i] = occupied_.before(cell_[i])) + 1];
+    for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
     row_.resize(rows + padding);
     for (std::size_t a = 0; a < d; ++a) x_[a].assign(rows + padding, 1e9f);
     std::vector<std::uint32_t> at(start_.begin(), start_.end() - 1);
     const double unit = 1 / static_cast<double>(radius);
     for (std::size_t i = 0; i < rows; ++i) {
-      const std::uint32_t k = at[cell_[i]]++;
+      const std::uint32_t k = at[bin[i]]++;
       row_[k] = static_cast<std::uint32_t>(i);
       for (std::size_t a = 0; a < d; ++a)
         x_[a][k] = static_cast<float>(static_cast<double>(x[i * d + a] - corner[a]) * unit);
@@ -76,7 +79,7 @@ class CellBins {
         const std::size_t line = static_cast<std::size_t>((k * extent_[1] + j) * extent_[0]);
         const std::size_t first = static_cast<std::size_t>(std::max<std::int64_t>(x - 1, 0));
         const std::size_t last = static_cast<std::size_t>(std::min(x + 1, extent_[0] - 1));
-        out[n++] = {start_[line + first], start_[line + last + 1]};
+        out[n++] = {start_[occupied_.before(line + first)], start_[occupied_.before(line + last + 1)]};
       }
     return n;
   }
@@ -98,7 +101,10 @@ class CellBins {
   const decomp::CellGrid& grid_;
   int dim_;
   decomp::Int3 lo_{}, extent_{1, 1, 1};
-  std::vector<std::uint32_t> cell_, start_, row_, position_;
+  Occupied occupied_;                 ///< cells that hold rows
+  std::vector<std::uint32_t> cell_;   ///< of a row
+  std::vector<std::uint32_t> start_;  ///< of the bin of each occupied cell, and the end
+  std::vector<std::uint32_t> row_, position_;
   std::vector<float> x_[3];
 };
 

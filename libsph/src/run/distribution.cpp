@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "pairs/occupied.hpp"
+
 namespace sph {
 namespace {
 
@@ -112,20 +114,10 @@ void Distribution::cut_by_counts(Particles& particles) {
 }
 
 std::vector<std::uint32_t> Distribution::cells_along_curve() const {
-  const decomp::Box own = own_cells();
   const decomp::Int3& cells = grid_.cells();
   const int bits =
       static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max({cells[0], cells[1], cells[2]}))));
-  std::vector<std::uint64_t> key;
-  for (std::int64_t z = own.lo[2]; z < own.hi[2]; ++z)
-    for (std::int64_t y = own.lo[1]; y < own.hi[1]; ++y)
-      for (std::int64_t x = own.lo[0]; x < own.hi[0]; ++x)
-        key.push_back(decomp::hilbert_key(grid_.dim(), bits, {x, y, z}));
-  std::vector<std::uint32_t> order(key.size()), rank(key.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
-  for (std::uint32_t k = 0; k < order.size(); ++k) rank[order[k]] = k;
-  return rank;
+  return decomp::hilbert_places(grid_.dim(), bits, own_cells());
 }
 
 void Distribution::wrap_positions(Particles& particles) const {
@@ -163,8 +155,10 @@ void Distribution::scatter(Particles& particles, decomp::Payload* contacts) {
   decomp::redistribute(comm_, owners(particles), particles.table(), contacts);
 }
 
-void Distribution::rebuild(Particles& particles, double cost_seconds, const PairCounts& pairs,
-                           const std::vector<bool>& is_wall_group, double moved, decomp::Payload* contacts) {
+std::vector<std::uint32_t> Distribution::rebuild(Particles& particles, double cost_seconds,
+                                                 const PairCounts& pairs,
+                                                 const std::vector<bool>& is_wall_group, double moved,
+                                                 decomp::Payload* contacts) {
   wrap_positions(particles);
   if (comm_.size() > 1) {
     const decomp::JaggedPartition before = partition_;
@@ -182,16 +176,17 @@ void Distribution::rebuild(Particles& particles, double cost_seconds, const Pair
     balancer_.migrated(sent, static_cast<std::int64_t>(particles.owned()),
                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  sort_rows(particles, is_wall_group, contacts);
+  std::vector<std::uint32_t> order = sort_rows(particles, is_wall_group);
   plan_ = decomp::HaloPlan(comm_, partition_, reach_, particles.dim(), particles.column(Field::position),
                            particles.table());
+  return order;
 }
 
 // Counting sort by (class, cell along the curve), then by id within a cell. The boundary is a layer one reach
 // deep inside the faces shared with anyone, this rank's own periodic images included: particles deeper in
 // have no partner in the halo.
-void Distribution::sort_rows(Particles& particles, const std::vector<bool>& is_wall_group,
-                             decomp::Payload* contacts) {
+std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
+                                                   const std::vector<bool>& is_wall_group) {
   const std::size_t d = static_cast<std::size_t>(particles.dim()), n = particles.owned();
   const std::int64_t* x = particles.data<Field::position>();
   const auto* group = particles.data<Field::group>();
@@ -202,7 +197,8 @@ void Distribution::sort_rows(Particles& particles, const std::vector<bool>& is_w
   const std::size_t cells = curve_.size();
   const std::int64_t nx = own.hi[0] - own.lo[0], ny = own.hi[1] - own.lo[1];
 
-  std::vector<std::uint32_t> bucket(n), start(4 * cells + 1, 0), order(n);
+  std::vector<std::size_t> bucket(n);
+  Occupied occupied(4 * cells);
   for (std::size_t i = 0; i < n; ++i) {
     decomp::Int3 p{};
     for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
@@ -212,20 +208,23 @@ void Distribution::sort_rows(Particles& particles, const std::vector<bool>& is_w
     bool interior = true;
     for (std::size_t a = 0; a < d; ++a) interior = interior && p[a] >= inner.lo[a] && p[a] < inner.hi[a];
     const std::size_t row_class = (interior ? 0u : 2u) + (is_wall_group[group[i]] ? 1u : 0u);
-    bucket[i] = static_cast<std::uint32_t>(row_class * cells + curve_[cell]);
-    ++start[bucket[i] + 1];
+    bucket[i] = row_class * cells + curve_[cell];
+    occupied.mark(bucket[i]);
   }
+  std::vector<std::uint32_t> start(occupied.number() + 1, 0), bin(n), order(n);
+  for (std::size_t i = 0; i < n; ++i) ++start[(bin[i] = occupied.before(bucket[i])) + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
-  for (std::size_t c = 0; c < 4; ++c) ranges_[c] = {start[c * cells], start[(c + 1) * cells], 0};
+  for (std::size_t c = 0; c < 4; ++c)
+    ranges_[c] = {start[occupied.before(c * cells)], start[occupied.before((c + 1) * cells)], 0};
   std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t first = start[bucket[i]];
-    std::uint32_t k = at[bucket[i]]++;
+    const std::uint32_t first = start[bin[i]];
+    std::uint32_t k = at[bin[i]]++;
     for (; k > first && id[order[k - 1]] > id[i]; --k) order[k] = order[k - 1];
     order[k] = static_cast<std::uint32_t>(i);
   }
   particles.table().reorder(order);
-  if (contacts != nullptr) contacts->reorder(order);
+  return order;
 }
 
 }  // namespace sph

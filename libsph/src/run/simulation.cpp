@@ -80,9 +80,10 @@ void Simulation::rebuild() {
   if (grains_ && contacts.rows() == 0) contacts = this->contacts();
   ContactCensus sent;
   if (grains_) sent = ContactLists::census(particles_, contacts, grains_->lists().history());
+  std::vector<std::uint32_t> order;
   {
     const auto timing = timers_.time(decomp::Region::migrate);
-    distribution_.rebuild(
+    order = distribution_.rebuild(
         particles_, timers_.take_cost(), [&] { return pairs_of_rows(); }, is_wall_group_, moved_,
         grains_ ? &contacts : nullptr);
     if (decomp::census(comm_, particles_.table(), particles_.column(Field::id)) != census_)
@@ -93,7 +94,7 @@ void Simulation::rebuild() {
   refresh_begin(grains_ ? Grains::constants() : FieldSet{Field::id, Field::position});
   refresh_end();
   if (grains_)
-    rebuild_contacts(contacts, sent);
+    rebuild_contacts(contacts, order, sent);
   else
     lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
                  distribution_.ranges(), timers_);
@@ -124,11 +125,12 @@ std::vector<std::uint32_t> Simulation::pairs_of_rows() const {
 }
 
 // No contact may be lost or doubled on its way: count and keys are those of the entries that set out.
-void Simulation::rebuild_contacts(const decomp::Payload& contacts, const ContactCensus& sent) {
+void Simulation::rebuild_contacts(const decomp::Payload& contacts, std::span<const std::uint32_t> order,
+                                  const ContactCensus& sent) {
   const auto timing = timers_.time(decomp::Region::lists);
-  grains_->rebuild(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
-                   distribution_.skin(), distribution_.ranges(), global_, contacts);
-  const ContactCensus found = grains_->lists().census(particles_);
+  const ContactCensus found = grains_->rebuild(particles_, distribution_.grid(), distribution_.own_cells(),
+                                               distribution_.list_radius(), distribution_.skin(),
+                                               distribution_.ranges(), global_, contacts, order);
   std::array<std::uint64_t, 4> all{sent.count, sent.keys, found.count, found.keys};
   comm_.sum(std::span<std::uint64_t>(all));
   if (all[0] != all[2] || all[1] != all[3])
