@@ -1,10 +1,17 @@
 #include "decomp/memory.hpp"
 
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <cstdlib>
 
 namespace decomp {
+
+void return_freed_memory() {
+#if defined(M_MMAP_THRESHOLD)
+  mallopt(M_MMAP_THRESHOLD, 16 << 20);  // setting it stops it from growing
+#endif
+}
 
 void* allocate_large(std::size_t bytes) {
   constexpr std::size_t huge_page = std::size_t{1} << 21;

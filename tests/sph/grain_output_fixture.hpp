@@ -104,10 +104,8 @@ inline void expect_share(double value, double expected) {
 }
 
 inline void write(Simulation& s, const std::filesystem::path& path) {
-  const std::vector<ExtraColumn> extra = extra_columns(s);
-  const ContactColumns contacts = contact_columns(s);
   write_snapshot(s.comm(), path, s.particles(), s.global(), s.scale(), s.wrap(), {"", s.fingerprint(), {}},
-                 extra, 1000000, &contacts);
+                 extra_columns(s), 1000000, contact_columns(s));
 }
 
 template <class T>

@@ -25,6 +25,14 @@ BUSY_GRAINS = ["--set", "output.series_interval=0", "--set", "output.snapshot_in
                "--set", "decomposition.balance=chaos"]
 
 
+def terminate_twice(process):
+    """As Slurm does where pre-empted jobs have no grace."""
+    rank = runner.descendants(process.pid)[-1]
+    os.kill(rank, signal.SIGTERM)
+    time.sleep(0.02)
+    os.kill(rank, signal.SIGTERM)
+
+
 class Cases:
     def __init__(self, run, source, kills, seed):
         self.run = run
@@ -153,6 +161,7 @@ class Cases:
         self.stop_and_resume("usr1", 3, lambda p: p.send_signal(signal.SIGUSR1), 2)
         self.stop_and_resume("one_rank", 2, lambda p: os.kill(runner.descendants(p.pid)[-1], signal.SIGUSR1), 1)
         self.stop_and_resume("term", 1, lambda p: p.send_signal(signal.SIGTERM), 3)
+        self.stop_and_resume("term_twice", 2, terminate_twice, 1)
         self.stop_and_resume("file", 2, lambda p: (self.run.folder / "file" / "stop").touch(), 2)
         assert not (self.run.folder / "file" / "stop").exists()
 

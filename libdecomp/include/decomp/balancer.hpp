@@ -16,6 +16,7 @@ namespace decomp {
 struct BalanceAccount {
   std::int64_t calls = 0, moves = 0;  ///< of the policy; those that moved cuts
   double seconds = 0;                 ///< spent on deciding, without waiting for others
+  double migrating = 0;               ///< seconds of this rank in migration, with waiting
   /// Largest part over that of the best cuts with equal numbers of columns, on the costs of cells; when it
   /// was last looked at. 0: never.
   double over_optimum = 0;

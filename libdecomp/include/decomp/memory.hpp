@@ -9,6 +9,10 @@
 
 namespace decomp {
 
+/// Lets large blocks go back to the system when they are freed, whatever their use before: what a rebuild
+/// takes for a moment must not stay beside what an output takes. Once, at the start of a program.
+void return_freed_memory();
+
 inline constexpr std::size_t cache_line = 64;
 
 /// Throws std::bad_alloc.

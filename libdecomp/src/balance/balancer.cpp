@@ -56,6 +56,7 @@ void Balancer::migrated(std::int64_t rows_sent, std::int64_t rows_kept, double s
   sent_ += rows_sent;
   rows_ = rows_kept;
   migrating_ += seconds;
+  account_.migrating += seconds;
 }
 
 void Balancer::judge(const Cuts& now, std::span<const CellCosts> cells) {

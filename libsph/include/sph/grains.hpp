@@ -53,6 +53,8 @@ class Grains {
   /// Takes the changes of the stages that begin at or before the present time; call before each step.
   void set_stage(GlobalState& global) const;
 
+  /// Gives back what the next rebuild makes anew: while contacts travel, memory is at its peak.
+  void release() { sums_ = {}; }
   /// New lists after rows have moved; the histories in `payload`, those of row r in its row order[r], go
   /// back to their pairs. Returns what found its pair again.
   [[nodiscard]] ContactCensus rebuild(const Particles& particles, const decomp::CellGrid& grid,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,8 @@ struct ContactColumns {
 /// sorted by (id, partner) under the same limit.
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
-                    const Provenance& provenance, const std::vector<ExtraColumn>& extra,
-                    std::int64_t sort_limit, const ContactColumns* contacts = nullptr);
+                    const Provenance& provenance, std::vector<ExtraColumn> extra, std::int64_t sort_limit,
+                    std::optional<ContactColumns> contacts = {});
 
 /// Rewrites the XDMF index for the snapshots of a run, atomically (rank 0 only): one entry per file name,
 /// time and row count. `fields` as in the files.

@@ -20,9 +20,9 @@ std::vector<Field> fields_of(const Particles& particles) {
 }
 
 /// The columns to write, in a table of their own: they are about to be sorted. Column k holds field k, the
-/// id first as in the field table, then follow the extra columns.
+/// id first as in the field table, then follow the extra columns, whose values are taken away.
 decomp::Table copy(const Particles& particles, const std::vector<Field>& fields, const Wrap& wrap,
-                   const std::vector<ExtraColumn>& extra) {
+                   std::vector<ExtraColumn>& extra) {
   decomp::Table table;
   for (Field f : fields) table.add_column(std::string(info(f).name), width(f, particles.dim()));
   for (const ExtraColumn& e : extra)
@@ -39,18 +39,19 @@ decomp::Table copy(const Particles& particles, const std::vector<Field>& fields,
     for (std::size_t row = 0; row < particles.owned(); ++row)
       for (int a = 0; a < particles.dim(); ++a, ++x) *x = wrap(a, *x);
   }
-  for (const ExtraColumn& e : extra) {
+  for (ExtraColumn& e : extra) {
     decomp::Column& column = table.column(to++);
     const std::span<const std::byte> from = std::as_bytes(std::span(e.values));
     if (from.size() != particles.owned() * column.width())
       throw std::logic_error("column " + e.name + " of the snapshot does not have one value per owned row");
     if (!from.empty()) std::memcpy(column.data(), from.data(), from.size());
+    e.values = {};
   }
   return table;
 }
 
 /// Contacts as a table; id and partner come first, for the sort.
-decomp::Table copy(const ContactColumns& contacts) {
+decomp::Table table_of(ContactColumns contacts) {
   decomp::Table table;
   const std::size_t rows = contacts.id.size();
   const auto add = [&](const std::string& name, const auto& values, std::size_t components) {
@@ -65,9 +66,10 @@ decomp::Table copy(const ContactColumns& contacts) {
   add("overlap", contacts.overlap, 1);
   table.resize(rows, 0);
   int to = 0;
-  const auto fill = [&](const auto& values) {
+  const auto fill = [&](auto& values) {
     decomp::Column& column = table.column(to++);
     if (!values.empty()) std::memcpy(column.data(), values.data(), rows * column.width());
+    values = {};
   };
   fill(contacts.id);
   fill(contacts.partner);
@@ -162,20 +164,20 @@ void write_metres(SharedHdf5File& file, const DataSet& set, std::uint64_t first,
 
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
-                    const Provenance& provenance, const std::vector<ExtraColumn>& extra,
-                    std::int64_t sort_limit, const ContactColumns* contacts) {
+                    const Provenance& provenance, std::vector<ExtraColumn> extra, std::int64_t sort_limit,
+                    std::optional<ContactColumns> contacts) {
   const std::string what = "cannot write " + path.string();
   const std::vector<Field> fields = fields_of(particles);
   Placed rows, touching;
   all_or_none(comm, what, [&] {
     rows.table = copy(particles, fields, wrap, extra);
-    if (contacts != nullptr) touching.table = copy(*contacts);
+    if (contacts) touching.table = table_of(std::move(*contacts));
   });
   rows.place(comm, sort_limit, 1);
   const std::vector<DataSet> sets =
       data_sets_of(particles.dim(), static_cast<std::uint64_t>(rows.all_rows), fields, extra);
   std::vector<DataSet> all_sets = sets, sets_of_contacts;
-  if (contacts != nullptr) {
+  if (contacts) {
     touching.place(comm, sort_limit, 2);
     sets_of_contacts = contact_sets(static_cast<std::uint64_t>(touching.all_rows));
     all_sets.insert(all_sets.end(), sets_of_contacts.begin(), sets_of_contacts.end());

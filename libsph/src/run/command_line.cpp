@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "decomp/memory.hpp"
 #include "sph/report.hpp"
 #include "sph/run.hpp"
 #include "sph/self_check.hpp"
@@ -111,6 +112,7 @@ std::string case_file(const std::string& asked, const Application& application) 
 
 template <class Work>
 int run_program(int argc, char** argv, Work&& work) {
+  decomp::return_freed_memory();
   const Mpi mpi(argc, argv);
   const decomp::Comm comm(MPI_COMM_WORLD);
   Failure failure(comm);

@@ -1,5 +1,11 @@
 #include "run/cost.hpp"
 
+#include <sys/resource.h>
+
+#include <array>
+
+#include "decomp/cut_policy.hpp"
+
 namespace sph {
 namespace {
 
@@ -26,6 +32,21 @@ std::int64_t pairs_within_support(const Simulation& s) {
       }
     }
   return pairs;
+}
+
+CellLayout layout_of(const Simulation& s) {
+  const decomp::JaggedPartition& partition = s.distribution().partition();
+  const decomp::CellGrid& grid = partition.grid();
+  CellLayout out;
+  for (std::size_t a = 0; a < 3; ++a) {
+    out.origin[a] = s.scale().metres(grid.origin()[a]);
+    out.edge[a] = s.scale().metres(grid.edge()[a]);
+    out.cells[a] = grid.cells()[a];
+    out.periodic[a] = grid.periodic()[a];
+  }
+  out.cut_axes = {partition.row_axis(), partition.column_axis()};
+  out.cuts = decomp::to_text(partition.cuts());
+  return out;
 }
 
 }  // namespace
@@ -83,6 +104,7 @@ Performance performance_of(Simulation& s) {
   p.neighbours_per_particle = static_cast<double>(sums[0]) / particles;
   p.pairs_per_particle = static_cast<double>(sums[1]) / particles;
   p.halo_per_particle = static_cast<double>(sums[2]) / particles;
+  p.refresh_bytes = static_cast<double>(sent);
   p.halo_bytes_per_step = static_cast<double>(sums[3]) * static_cast<double>(sent);
   p.migrated = sums[4];
   p.state_bytes_per_particle = static_cast<double>(bytes_of(state_of(s.physics().fields()), dim));
@@ -92,6 +114,12 @@ Performance performance_of(Simulation& s) {
   p.refreshes = s.counters().refreshes;
   p.balance = s.distribution().balance();
   p.regions = s.timers().summary(comm);
+  p.layout = layout_of(s);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::array<double, 1> peak{1024.0 * static_cast<double>(usage.ru_maxrss)};
+  comm.max(peak);
+  p.peak_rank_bytes = peak[0];
   return p;
 }
 

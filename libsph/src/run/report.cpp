@@ -79,11 +79,12 @@ std::string final_table(const Performance& p) {
   fmt::format_to(to, "list rebuilds {} ({} late)  migrated {}  halo refreshes {}\n", p.rebuilds,
                  p.late_rebuilds, p.migrated, p.refreshes);
   if (p.balance.calls > 0)
-    fmt::format_to(to, "balance asked {} times, cuts moved {} times, {:.3f} s of deciding; {}\n",
-                   p.balance.calls, p.balance.moves, p.balance.seconds,
-                   p.balance.over_optimum > 0
-                       ? fmt::format("largest part {:.2f} of the best cuts'", p.balance.over_optimum)
-                       : "not compared with the best cuts");
+    fmt::format_to(
+        to, "balance asked {} times, cuts moved {} times, {:.3f} s of deciding, {:.3f} of migrating; {}\n",
+        p.balance.calls, p.balance.moves, p.balance.seconds, p.balance.migrating,
+        p.balance.over_optimum > 0
+            ? fmt::format("largest part {:.2f} of the best cuts'", p.balance.over_optimum)
+            : "not compared with the best cuts");
   return out;
 }
 

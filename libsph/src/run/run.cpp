@@ -23,7 +23,7 @@ class Run {
                             : RunFiles(simulation_, start.dir)),
         control_(simulation_.comm().rank(), begin, simulation_.scene().output, start.dir / "stop",
                  options.max_seconds),
-        screen_(simulation_),
+        screen_(simulation_, begin),
         failure_(failure),
         start_(std::move(start)) {
     if (start_.memory) {

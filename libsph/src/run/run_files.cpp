@@ -152,16 +152,19 @@ void RunFiles::check(const Simulation& s) const {
 void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
   const GlobalState& g = s.global();
   const SnapshotEntry entry{fmt::format("snapshot_{:09}.h5", g.step), g.step, g.time, s.particle_count()};
-  const std::vector<ExtraColumn> extra = extra_columns(s);
   const OutputControl& output = s.scene().output;
-  const ContactColumns contacts = output.contacts ? contact_columns(s) : ContactColumns{};
-  write_snapshot(s.comm(), dir_ / entry.file, s.particles(), g, s.scale(), s.wrap(), provenance(s), extra,
-                 output.sort_limit, output.contacts ? &contacts : nullptr);
+  // In this order, since each needs memory: the fingerprint frees its own before the columns are there.
+  const Provenance from = provenance(s);
+  std::vector<ExtraColumn> extra = extra_columns(s);
+  std::optional<ContactColumns> contacts;
+  if (output.contacts) contacts = contact_columns(s);
+  write_snapshot(s.comm(), dir_ / entry.file, s.particles(), g, s.scale(), s.wrap(), from, std::move(extra),
+                 output.sort_limit, std::move(contacts));
   std::vector<SnapshotEntry> listed = snapshots_;
   listed.push_back(entry);
   if (scheduled) snapshots_ = listed;
   on_root(s.comm(), "particles.xdmf",
-          [&] { write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra); });
+          [&] { write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra_columns(s.scene())); });
 }
 
 void RunFiles::write_checkpoint(const Simulation& s) {
@@ -169,9 +172,10 @@ void RunFiles::write_checkpoint(const Simulation& s) {
   on_root(s.comm(), "series.csv", [&] { sync_to_disk(dir_ / "series.csv"); });
   const RunRecord record{s.global(), s.scale(), to_toml(s.scene()),
                          to_json({monitors_.ids(), series_bytes_, snapshots_})};
+  const Provenance from = provenance(s);  // before the contacts: it packs them too
   const decomp::Payload contacts = s.contacts();
   sph::write_checkpoint(s.comm(), dir_, s.particles(), s.has_history() ? &contacts : nullptr, record,
-                        s.wrap(), provenance(s), s.scene().output.checkpoint_files);
+                        s.wrap(), from, s.scene().output.checkpoint_files);
 }
 
 fs::path RunFiles::keep_crashed_state(const Simulation& s, bool together) const {

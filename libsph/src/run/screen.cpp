@@ -15,14 +15,17 @@ namespace {
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-/// Largest over mean.
-double imbalance_of(const decomp::Comm& comm, double seconds_here) {
+/// Of all ranks together, and the largest over the mean.
+struct Work {
+  double sum = 0, imbalance = 1;
+};
+Work work_of(const decomp::Comm& comm, double seconds_here) {
   double sum = 0, largest = 0;
   for (double s : comm.all_gather(seconds_here)) {
     sum += s;
     largest = std::max(largest, s);
   }
-  return sum > 0 ? largest * comm.size() / sum : 1;
+  return {sum, sum > 0 ? largest * comm.size() / sum : 1};
 }
 
 const char* name_of(Formulation f) { return f == Formulation::ida ? "ida" : "conservative"; }
@@ -42,9 +45,10 @@ void print(const decomp::Comm& comm, const std::string& text) {
 
 }  // namespace
 
-Screen::Screen(Simulation& simulation)
+Screen::Screen(Simulation& simulation, Clock::time_point launched)
     : simulation_(simulation),
       first_(simulation.global()),
+      setup_seconds_(seconds(begin_ - launched)),
       last_(first_),
       last_computation_(simulation.timers().cost()) {}
 
@@ -89,7 +93,7 @@ void Screen::status() {
   status.global = now;
   status.particle_steps_per_second = static_cast<double>(simulation_.particle_count()) *
                                      static_cast<double>(now.step - last_.step) / std::max(wall, 1e-9);
-  status.imbalance = imbalance_of(simulation_.comm(), work - last_computation_);
+  status.imbalance = work_of(simulation_.comm(), work - last_computation_).imbalance;
   status.kinetic_energy = kinetic_energy(simulation_);
   status.seconds_left = seconds_left();
   print(simulation_.comm(), status_line(status) + "\n");
@@ -101,10 +105,13 @@ void Screen::status() {
 void Screen::final_report(const std::filesystem::path& dir) {
   Performance p = performance_of(simulation_);
   p.wall_seconds = seconds(Clock::now() - begin_);
+  p.setup_seconds = setup_seconds_;
   p.steps = simulation_.global().step - first_.step;
   p.formulation = simulation_.scene().of_grains() ? "grains" : name_of(simulation_.scene().formulation);
   p.precision = name_of(simulation_.scene().precision);
-  p.imbalance = imbalance_of(simulation_.comm(), simulation_.timers().cost());
+  const Work work = work_of(simulation_.comm(), simulation_.timers().cost());
+  p.cost_seconds = work.sum;
+  p.imbalance = work.imbalance;
   all_or_none(simulation_.comm(), "report", [&] {
     if (simulation_.comm().rank() == 0) write_perf_json(dir / "perf.json", p);
   });

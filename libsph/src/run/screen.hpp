@@ -10,7 +10,8 @@ namespace sph {
 
 class Screen {
  public:
-  explicit Screen(Simulation& simulation);
+  /// `launched`: when setting up began.
+  Screen(Simulation& simulation, std::chrono::steady_clock::time_point launched);
 
   void banner() const;
   void status();  ///< collective
@@ -24,6 +25,7 @@ class Screen {
   Simulation& simulation_;
   GlobalState first_;  ///< when this run began
   Clock::time_point begin_ = Clock::now();
+  double setup_seconds_;
   GlobalState last_;  ///< at the last status line
   Clock::time_point last_time_ = begin_;
   double last_computation_ = 0;

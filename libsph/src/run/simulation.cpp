@@ -77,6 +77,7 @@ void Simulation::step_in_a_sweep() {
 // Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plan -> neighbour lists.
 void Simulation::rebuild() {
   decomp::Payload contacts = std::exchange(arrived_, {});
+  if (grains_) grains_->release();
   if (grains_ && contacts.rows() == 0) contacts = this->contacts();
   ContactCensus sent;
   if (grains_) sent = ContactLists::census(particles_, contacts, grains_->lists().history());
