@@ -14,6 +14,7 @@ import argparse
 import csv
 import json
 import shlex
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -24,7 +25,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from speed import environment  # noqa: E402
+from speed import environment, finished  # noqa: E402
 
 here = Path(__file__).resolve().parent
 WAITING = ("halo wait", "reduce")
@@ -67,8 +68,9 @@ def commands(given):
 
 
 def run(folder, command):
-    if (folder / "perf.json").exists():
+    if finished(folder):
         return
+    shutil.rmtree(folder, ignore_errors=True)
     print(shlex.join(command), flush=True)
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
     if done.returncode != 0:

@@ -12,6 +12,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 here = Path(__file__).resolve().parent
@@ -39,6 +40,16 @@ def ours(build, scene, ranks, steps, settings=()):
         run(["mpirun", "-np", str(ranks), build / "bin/peperite", "run", here / "scenes" / scene, "--steps", str(steps),
              "--out", f"{directory}/run", *sets])
         return json.loads(Path(directory, "run/perf.json").read_text())
+
+
+def finished(folder):
+    """Whether the run in it has come to its end: one that was stopped has a perf.json too."""
+    try:
+        end = json.loads((folder / "perf.json").read_text())["end"]
+        asked = tomllib.loads((folder / "scene.toml").read_text())["time"]
+    except FileNotFoundError:
+        return False
+    return end["step"] >= asked.get("steps", 0) and end["time"] >= asked.get("until", 0)
 
 
 def loop_seconds(perf):

@@ -13,7 +13,7 @@ here = Path(__file__).resolve().parent
 source = here.parent.parent
 sys.path[:0] = [str(source / "apps/sandbox"), str(source / "benchmarks")]
 from grain_run import Snapshot  # noqa: E402
-from speed import environment  # noqa: E402
+from speed import environment, finished  # noqa: E402
 
 
 class Runner:
@@ -31,7 +31,7 @@ class Runner:
 
     def folder(self, name, scene, settings):
         folder = self.work / name
-        if (folder / "perf.json").exists():
+        if finished(folder):
             return folder
         shutil.rmtree(folder, ignore_errors=True)
         sets = [word for setting in settings for word in ("--set", setting)]

@@ -21,6 +21,8 @@ constexpr std::size_t index_of(Region r) { return static_cast<std::size_t>(r); }
 
 }  // namespace
 
+double thread_seconds() { return in_seconds(thread_time()); }
+
 std::string_view name_of(Region r) {
   static constexpr std::array<std::string_view, region_count> names{
       "pairs",     "update",  "contacts", "lists",  "order", "pack",

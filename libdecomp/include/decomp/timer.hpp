@@ -29,6 +29,8 @@ enum class Region : std::uint8_t {
 };
 inline constexpr int region_count = static_cast<int>(Region::count_);
 [[nodiscard]] std::string_view name_of(Region r);
+/// CPU time of this thread: what others take of a shared core is not in it.
+[[nodiscard]] double thread_seconds();
 [[nodiscard]] bool is_computation(Region r);  ///< counts towards the cost that moves the cuts
 
 class Timers {

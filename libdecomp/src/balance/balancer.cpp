@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "decomp/timer.hpp"
 
 namespace decomp {
 
@@ -14,12 +15,8 @@ namespace {
 constexpr std::int64_t most_columns = 2'000'000;  // summed over all ranks in one message
 constexpr double share_of_deciding = 0.01;        // of the time that is balanced
 constexpr std::int64_t first_calls = 10;          // at every rebuild: from a poor start each of them pays
-constexpr double least_cost = 0.25;  // [s] of a rank between calls: shorter times are mostly noise
+constexpr double least_cost = 0.05;  // [s] of a rank between calls: shorter times are mostly noise
 constexpr std::int64_t longest_wait = 1000, calls_between_judgements = 20;  // rebuilds, calls
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -74,7 +71,7 @@ std::optional<Cuts> Balancer::next(const Comm& comm, const Cuts& now, double cos
   cost_ += cost;
   ++rebuilds_;
   if (--wait_ > 0) return {};
-  const auto start = std::chrono::steady_clock::now();
+  const double start = thread_seconds();
   // The rank that came last did not wait for others: what the others waited is imbalance, not work.
   std::array<double, 2> largest{-last_seconds_, -migrating_};
   std::array<std::int64_t, 2> rows{sent_, rows_};
@@ -102,7 +99,7 @@ std::optional<Cuts> Balancer::next(const Comm& comm, const Cuts& now, double cos
     wait_ = std::clamp(
         static_cast<std::int64_t>(std::max(deciding / share_of_deciding, least_cost) / per_rebuild),
         std::int64_t{1}, longest_wait);
-  last_seconds_ = seconds_since(start);
+  last_seconds_ = thread_seconds() - start;
   if (moved == now) return {};
   ++account_.moves;
   return moved;

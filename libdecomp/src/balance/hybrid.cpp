@@ -14,27 +14,30 @@ namespace {
 constexpr double horizon = 20;       // calls over which a move should pay
 constexpr double dead_band = 0.004;  // of the mean cost
 
-/// Seconds of a unit of cells' cost on each rank over the mean, smoothed; a rank that has hardly anything
-/// keeps what it had.
+/// Seconds of a unit of cells' cost on each rank over the mean, smoothed: a call counts by the seconds it
+/// covers, since short ones are noise, and by a tenth at least where it is the longest so far. A rank that
+/// has hardly anything keeps what it had.
 class SmoothedSlowness {
  public:
   std::span<const double> update(std::span<const double> seconds, std::span<const double> units) {
     const double all = std::accumulate(units.begin(), units.end(), 0.0);
-    const double mean = std::accumulate(seconds.begin(), seconds.end(), 0.0) / all;
+    const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0), mean = sum / all;
     if (factor_.size() != seconds.size())
-      factor_.assign(seconds.size(), 1.0), seen_.assign(seconds.size(), 0);
+      factor_.assign(seconds.size(), 1.0), covered_.assign(seconds.size(), 0.0);
     if (!(mean > 0)) return factor_;
+    longest_ = std::max(longest_, sum);
     for (std::size_t k = 0; k < seconds.size(); ++k) {
       if (!(units[k] > 0.01 * all / static_cast<double>(units.size()))) continue;
       const double now = std::clamp(seconds[k] / units[k] / mean, 0.1, 10.0);
-      factor_[k] += std::max(0.1, 1.0 / ++seen_[k]) * (now - factor_[k]);
+      covered_[k] = std::min(covered_[k] + sum, 10 * longest_);
+      factor_[k] += sum / covered_[k] * (now - factor_[k]);
     }
     return factor_;
   }
 
  private:
-  std::vector<double> factor_;
-  std::vector<int> seen_;
+  std::vector<double> factor_, covered_;  ///< covered: seconds of all ranks that the factor stands for
+  double longest_ = 0;
 };
 
 /// What one particle, and one pair, costs: weights of the counts by least squares over the ranks, drawn
