@@ -1,13 +1,13 @@
 #!/bin/sh
 # Installs what is missing, builds, and runs the buoyant fluid cylinder and the sandbox until its first thrust on
-# two ranks: about a quarter of an hour on a fresh machine with two cores, most of it for packages and compiler.
+# two ranks: five to ten minutes on a fresh machine with two cores, half of it for packages and compiler.
 #
 #     sh cmake/demo.sh [UNTIL [UNTIL_SAND]]     seconds of the cylinder and of the sandbox, default: 10 2
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/environment.sh
-until=${1:-10}      # of the scene's 20: half a minute of run
-until_sand=${2:-2}  # of the scene's 6.75, 2.4 cm of shortening: three minutes of run
+until=${1:-10}      # of the scene's 20: ten seconds of run
+until_sand=${2:-2}  # of the scene's 6.75, 2.4 cm of shortening: two minutes of run
 
 sh cmake/packages.sh
 configure -DPEPERITE_TESTS=OFF -DPEPERITE_BENCHMARKS=OFF
