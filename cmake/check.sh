@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what is missing, builds everything and runs all tests: at most 15 minutes on two cores.
+# Installs what is missing, builds everything and runs all tests: 15 to 20 minutes on two cores.
 # Arguments go to ctest, for example: sh cmake/check.sh -R lint
 set -eu
 cd "$(dirname "$0")/.."
