@@ -30,7 +30,7 @@ from matplotlib.collections import EllipseCollection  # noqa: E402
 from matplotlib.colors import to_rgb  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from speed import environment  # noqa: E402
+from speed import environment, finished  # noqa: E402
 
 here = Path(__file__).resolve().parent
 BALANCERS = {"fixed": "#888888", "literal": "#c1272d", "quasi_newton": "#1b6ca8", "hybrid": "#3a7d44"}
@@ -152,8 +152,7 @@ class Run:
 
 
 def run(build, folder, ranks, case, settings):
-    # A run that was stopped has a perf.json too.
-    if (folder / "perf.json").exists() and Run(folder).perf["end"]["time"] >= case.times[-1]:
+    if finished(folder):
         return Run(folder)
     shutil.rmtree(folder, ignore_errors=True)
     settings = (*case.settings, *settings, f"decomposition.record={folder.with_suffix('.cuts')}", "output.sort_limit=0",

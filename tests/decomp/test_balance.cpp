@@ -52,6 +52,18 @@ double brute_force(const CellCosts& costs, const std::vector<int>& shape) {
   return best;
 }
 
+// Filled from the left alone, lines end in parts of one cell, which have more halo than grains.
+TEST(BestCuts, LeaveNoThinParts) {
+  for (const std::int64_t side : {133, 154, 211}) {
+    const CellCosts flat(side, side, std::vector<double>(static_cast<std::size_t>(side * side), 1.0));
+    for (const int ranks : {64, 100, 144}) {
+      const double mean = static_cast<double>(side * side) / ranks;
+      for (const Cuts& cuts : {best_cuts(flat, jagged_shape(ranks, side, side)), good_cuts(flat, ranks)})
+        EXPECT_GE(std::ranges::min(part_costs(flat, cuts)), 0.5 * mean) << side << ' ' << ranks;
+    }
+  }
+}
+
 RC_GTEST_PROP(BestCuts, AreThoseOfBruteForce, (std::uint32_t seed)) {
   std::mt19937 bits(seed);
   const auto one_of = [&](int low, int high) {
