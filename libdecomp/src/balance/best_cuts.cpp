@@ -115,7 +115,6 @@ struct Stripe {
           return last_that(0, cells,
                            [&](std::int64_t c) { return problem.costs.sum(r0, r1, 0, c) <= before; });
         });
-    return line;
   }
 
   /// How many parts of at most `most` it takes; more than `limit` counts as limit + 1.

@@ -77,10 +77,13 @@ void Simulation::step_in_a_sweep() {
 // Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plan -> neighbour lists.
 void Simulation::rebuild() {
   decomp::Payload contacts = std::exchange(arrived_, {});
-  if (grains_) grains_->release();
-  if (grains_ && contacts.rows() == 0) contacts = this->contacts();
   ContactCensus sent;
-  if (grains_) sent = ContactLists::census(particles_, contacts, grains_->lists().history());
+  if (grains_) {
+    const auto timing = timers_.time(decomp::Region::lists);
+    grains_->release();
+    if (contacts.rows() == 0) contacts = this->contacts();
+    sent = ContactLists::census(particles_, contacts, grains_->lists().history());
+  }
   std::vector<std::uint32_t> order;
   {
     const auto timing = timers_.time(decomp::Region::migrate);
