@@ -15,7 +15,7 @@ class Bed:
     diameter: np.ndarray
     x: np.ndarray
     v: np.ndarray  # nothing spins
-    size: tuple  # of the box, whose lower corner is the origin
+    size: tuple  # upper corner of the box, whose lower corner is the origin
 
     def __len__(self):
         return len(self.diameter)
@@ -66,13 +66,13 @@ def drifted(bed, time):
     return Bed(bed.diameter, bed.x + time * bed.v, bed.v, bed.size)
 
 
-def write_data(bed, path):
+def write_data(bed, path, lower=(0, 0, 0)):
     number = np.arange(1, len(bed) + 1)
     one = np.ones(len(bed))
     with open(path, "w") as out:
         out.write(f"bed\n\n{len(bed)} atoms\n1 atom types\n\n")
-        for axis, length in zip("xyz", bed.size):
-            out.write(f"0 {length:.17g} {axis}lo {axis}hi\n")
+        for axis, low, high in zip("xyz", lower, bed.size):
+            out.write(f"{low:.17g} {high:.17g} {axis}lo {axis}hi\n")
         out.write("\nAtoms\n\n")
         np.savetxt(out, np.column_stack([number, one, bed.diameter, DENSITY * one, bed.x]), "%d %d" + " %.17g" * 5)
         out.write("\nVelocities\n\n")

@@ -33,7 +33,7 @@ template <class Exact>
 double worst_error(const char* scene, const std::vector<std::string>& overrides,
                    const std::vector<double>& times, Exact exact) {
   const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(comm, sph::read_scene(std::string(PEPERITE_TEST_DIR "/scenes/") + scene, overrides));
+  sph::Simulation s(comm, sph::read_scene(std::string(PEPERITE_ACCURACY_DIR "/") + scene, overrides));
   double worst = 0;
   for (double t : times) {
     measure::run_until(s, t);

@@ -31,7 +31,7 @@ Tank measure_tank(const sph::Simulation& s) {
 }
 
 sph::Scene tank(const std::vector<std::string>& overrides) {
-  return sph::read_scene(PEPERITE_TEST_DIR "/scenes/hydrostatic.toml", overrides);
+  return sph::read_scene(PEPERITE_ACCURACY_DIR "/hydrostatic.toml", overrides);
 }
 
 TEST(HydrostaticTank, StaysAtRest) {

@@ -12,7 +12,7 @@ struct Worst {
 
 Worst run(const std::vector<std::string>& overrides, const char* label) {
   const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(comm, sph::read_scene(PEPERITE_TEST_DIR "/scenes/taylor_green.toml", overrides));
+  sph::Simulation s(comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/taylor_green.toml", overrides));
   Worst worst;
   for (double t : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0}) {
     measure::run_until(s, t);
@@ -49,7 +49,7 @@ TEST(AcousticWave, DecaysAtTheRateOfTheDensityDiffusion) {
   for (const double delta : {0.0, 0.1, 0.2}) {
     const decomp::Comm comm(MPI_COMM_SELF);
     sph::Scene scene =
-        sph::read_scene(PEPERITE_TEST_DIR "/scenes/taylor_green.toml",
+        sph::read_scene(PEPERITE_ACCURACY_DIR "/taylor_green.toml",
                         {"terms.shifting=false", "start.jitter=0", "group.fluid.viscosity=1e-9",
                          "terms.density_diffusion=" + std::to_string(delta)});
     scene.start.velocity = sph::InitialVelocity::rest;  // the pressure field alone: two standing waves
@@ -78,7 +78,7 @@ TEST(AcousticWave, DecaysAtTheRateOfTheDensityDiffusion) {
 // Pair forces are antisymmetric to the bit, so only the rounding of sums moves the total momentum.
 TEST(TaylorGreen, MomentumIsConserved) {
   const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(comm, sph::read_scene(PEPERITE_TEST_DIR "/scenes/taylor_green.toml", {}));
+  sph::Simulation s(comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/taylor_green.toml", {}));
   const auto momentum = [&s](int axis) {
     double sum = 0;
     for (const measure::Sample& q : measure::samples(s)) sum += q.mass * q.v[axis];

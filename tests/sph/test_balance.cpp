@@ -16,7 +16,7 @@ struct Outcome {
 
 Outcome run(const std::string& balance, double slowness) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  Scene scene = read_scene(PEPERITE_TEST_DIR "/scenes/taylor_green.toml", {});
+  Scene scene = read_scene(PEPERITE_ACCURACY_DIR "/taylor_green.toml", {});
   scene.decomposition.rebuild_every = 1;
   scene.decomposition.slowness = slowness;
   scene.decomposition.cuts = balance == "hybrid"    ? CutRule::hybrid

@@ -34,6 +34,7 @@ RunRecord record_of(std::int64_t step) {
   RunRecord record{make_global(), make_scale(), "name = \"t\\\"est\"\n", R"({"series_bytes": 17})"};
   record.global.step = step;
   record.global.max_speed = -0.0;
+  record.global.fluid_volume = {std::int64_t{1} << 62, -7};
   record.global.max_acceleration = std::bit_cast<double>(std::uint64_t{0x7ff8dead0000beef});
   return record;
 }

@@ -77,6 +77,9 @@ TEST(Fingerprint, ChangesWithEveryGlobalValue) {
     g.*member = std::nextafter(g.*member, 1e9);
     EXPECT_NE(print_of(comm, p, g), before);
   }
+  g = make_global();
+  g.fluid_volume.start = 1;
+  EXPECT_NE(print_of(comm, p, g), before);
   PositionScale scale = make_scale();
   scale.quantum /= 2;
   EXPECT_NE(fingerprint(comm, p, make_global(), scale, make_wrap()), before);

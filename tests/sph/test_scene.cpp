@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Options = std::vector<std::string>;
 
-const fs::path tests_dir = PEPERITE_TEST_DIR;
+const fs::path tests_dir = PEPERITE_TEST_DIR, accuracy_dir = PEPERITE_ACCURACY_DIR;
 const fs::path apps_dir = tests_dir.parent_path() / "apps";
 
 const std::string small = R"(
@@ -274,11 +274,11 @@ TEST(Scene, RoundTripKeepsEveryBitOfDoubles) {
 }
 
 TEST(Scene, ShiftingNeedsAConfinedFlow) {
-  const std::string tank = (tests_dir / "scenes" / "hydrostatic.toml").string();
+  const std::string tank = (accuracy_dir / "hydrostatic.toml").string();
   EXPECT_THROW((void)sph::read_scene(tank, {"terms.shifting=true"}), sph::InputError);
   // Without the empty region on top the walls close the tank.
   EXPECT_NO_THROW((void)sph::read_scene(tank, {"terms.shifting=true", "start.region.2.group=wall"}));
-  EXPECT_TRUE(sph::read_scene((tests_dir / "scenes" / "poiseuille.toml").string(), {}).terms.shifting);
+  EXPECT_TRUE(sph::read_scene((accuracy_dir / "poiseuille.toml").string(), {}).terms.shifting);
 }
 
 TEST(Scene, ReferenceMentionsEveryKey) {

@@ -5,7 +5,8 @@
 //   equivalence --array SEED                    a 3-way covering array of the factors
 //   equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run again
 //   equivalence --row "scene=... ranks=..."     one row, as printed
-// with --grains (scenes of grains instead of SPH), --seed S (of the order, the cuts and the restarts: 1),
+// with --grains or --sph (the default; scenes of which), --seed S (of the order, the cuts and the restarts:
+// 1),
 // --steps N (the last that is compared: 300), --long N (of every eighth row of an array: 2000), --every
 // (compare at every step), --limit SECONDS (start no row after that long). The last line is "N passed, M
 // failed"; exit status 1 if any failed.
@@ -58,6 +59,8 @@ Options parse(int argc, char** argv) {
       o.mode = Options::Mode::full;
     else if (key == "--grains")
       o.family = Family::grains;
+    else if (key == "--sph")
+      o.family = Family::sph;
     else if (key == "--row")
       o.mode = Options::Mode::row, o.row = value();
     else if (key == "--seed")

@@ -35,7 +35,7 @@ const std::vector<Source>& sources() {
         "start.velocity=[2, -1]"}},
       // shifting, doubly periodic, not square, so that 16 cells fit with few particles
       {"flow2d",
-       "tests/scenes/taylor_green.toml",
+       "benchmarks/accuracy/taylor_green.toml",
        {"domain.upper=[2, 0.5]", "start.flow_length=0.5", "time.until=", "time.steps=1"}},
       {"fluid3d", "tests/scenes/box3d_fluid.toml", {}},
       // smaller balls: those of the file fill the channel and push melt through its walls
@@ -137,7 +137,9 @@ void check_shared_out(const sph::Simulation& simulation, std::int64_t shared) {
   const bool random = d.cuts == sph::CutRule::chaos || d.cuts == sph::CutRule::replay;
   const std::int64_t owners = comm.sum(std::int64_t{simulation.particles().owned() > 0});
   if (!random && 2 * owners <= comm.size()) fail("most ranks are without particles");
-  if (random && comm.sum(simulation.distribution().migrated()) == 0) fail("no particle migrated");
+  // Few are asked for by large lists between two restarts.
+  const bool often = simulation.counters().rebuilds > 3;
+  if (random && often && comm.sum(simulation.distribution().migrated()) == 0) fail("no particle migrated");
 }
 
 }  // namespace equivalence

@@ -342,6 +342,19 @@ class Cases:
             self.run.refused(ranks, "buoyant_cylinder", "--steps", 5, "--out", "used", says="--out")
         assert self.run.files("used") == before
 
+    def test_scale_sim(self):
+        """The simulator's halos are those of real runs, and it predicts from a run's costs."""
+        for n in (1, 3, 6):
+            self.run.run(n, "peperite", "run", self.grain_scene, "--steps", 3000, "--out", f"scaling{n}",
+                         "--set", "decomposition.balance=fixed")
+        out = self.run.run(1, "scale_sim", "check", "scaling1", "scaling3", "scaling6").out
+        _, one, three, six = (line.split() for line in out.splitlines()[1:])
+        assert float(one[1]) == 0, out
+        for row in (three, six):  # the measured ones are the mean over a run in which grains move
+            assert abs(float(row[1]) / float(row[2]) - 1) < 0.1, out
+        out = self.run.run(1, "scale_sim", "scaling", "scaling1", "--ranks", 10, 100).out
+        assert out.count("bytes for each rank of the run") == 6, out
+
     def test_tool(self):
         for program in (["peperite"], ["peperite", "run"], ["buoyant_cylinder"]):
             text = self.run.run(1, *program, "--help").out

@@ -69,6 +69,13 @@ struct WallState {
 };
 
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
+/// Volume of all particles that move, mass / density in units of spacing^D 2^-26, in scenes that shift
+/// particles, which are closed; else 0. Integers, so that ranks may add in any order.
+struct FluidVolume {
+  std::int64_t start = 0, now = 0;
+  friend bool operator==(const FluidVolume&, const FluidVolume&) = default;
+};
+
 struct GlobalState {
   std::int64_t step = 0;
   double time = 0;              ///< [s]
@@ -76,6 +83,7 @@ struct GlobalState {
   double max_speed = 0;         ///< of all particles after the last step [m/s]
   double max_acceleration = 0;  ///< [m/s^2]
   std::vector<WallState> walls;
+  FluidVolume fluid_volume;
   friend bool operator==(const GlobalState&, const GlobalState&) = default;
 };
 

@@ -17,6 +17,7 @@ namespace sph {
 struct StepMaxima {
   double speed = 0;         ///< [m/s]
   double acceleration = 0;  ///< [m/s^2]
+  std::int64_t volume = 0;  ///< of this rank's fluid, see FluidVolume; a sum
 };
 
 /// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
@@ -29,7 +30,7 @@ struct Pass {
   const Fusion* fusion;
   bool movers, walls;  ///< rows it runs over
   FieldSet reads;      ///< of neighbours, so needed in the halo
-  std::function<void(Particles&, const RowRanges&, double dt)>
+  std::function<void(Particles&, const RowRanges&, const GlobalState&)>
       update;        ///< local update after it; may be empty
   FieldSet changes;  ///< fields the update changes
 };
@@ -63,6 +64,8 @@ class Physics {
   [[nodiscard]] double longest_advance(const GlobalState& global) const;
   [[nodiscard]] double longest_shift(const GlobalState& global) const;
   [[nodiscard]] double largest_speed(const Particles& particles) const;  ///< of this rank's particles [m/s]
+  /// Of this rank's particles that move, where the scene shifts them; see FluidVolume.
+  [[nodiscard]] std::int64_t fluid_volume(const Particles& particles) const;
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
   [[nodiscard]] double courant_number(double dt) const;
 
@@ -74,7 +77,8 @@ class Physics {
   void set_sph_constants();
   void build_conservative();
   void build_ida();
-  void update_movers(Particles&, std::size_t first, std::size_t last, double dt) const;
+  void update_movers(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
+  static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;

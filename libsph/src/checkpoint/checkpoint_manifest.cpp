@@ -99,6 +99,7 @@ std::string to_text(const Manifest& m) {
                   {"max_speed", exact(g.max_speed)},
                   {"max_acceleration", exact(g.max_acceleration)},
                   {"walls", walls},
+                  {"fluid_volume", {g.fluid_volume.start, g.fluid_volume.now}},
                   {"quantum", exact(m.record.scale.quantum)},
                   {"origin", m.record.scale.origin},
                   {"dim", m.dim},
@@ -130,7 +131,8 @@ Manifest manifest_from_text(const std::string& text) {
                      exact(json.at("dt")),
                      exact(json.at("max_speed")),
                      exact(json.at("max_acceleration")),
-                     {}};
+                     {},
+                     {json.at("fluid_volume").at(0), json.at("fluid_volume").at(1)}};
   for (const Json& wall : json.at("walls")) m.record.global.walls.push_back(wall_of(wall));
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();

@@ -120,6 +120,8 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
   if (differ(g.max_speed, h.max_speed)) return unequal("max_speed", g.max_speed, h.max_speed);
   if (differ(g.max_acceleration, h.max_acceleration))
     return unequal("max_acceleration", g.max_acceleration, h.max_acceleration);
+  if (a.kind == b.kind && g.fluid_volume != h.fluid_volume)
+    return unequal("fluid_volume", g.fluid_volume.now, h.fluid_volume.now);
   if (a.kind == b.kind)  // a snapshot does not have the walls
     if (std::string text = wall_difference(g.walls, h.walls); !text.empty()) return text;
   if (a.fingerprint != b.fingerprint)

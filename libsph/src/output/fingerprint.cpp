@@ -94,8 +94,11 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
                                             std::bit_cast<std::uint64_t>(global.max_speed),
                                             std::bit_cast<std::uint64_t>(global.max_acceleration),
                                             std::bit_cast<std::uint64_t>(scale.quantum)};
-  if (global.walls.empty()) return XXH3_128bits(record.data(), sizeof record);
   std::vector<std::uint64_t> words(record.begin(), record.end());
+  if (global.fluid_volume != FluidVolume{}) {
+    words.push_back(static_cast<std::uint64_t>(global.fluid_volume.start));
+    words.push_back(static_cast<std::uint64_t>(global.fluid_volume.now));
+  }
   for (const WallState& wall : global.walls)
     for (std::size_t a = 0; a < 3; ++a) {
       words.push_back(std::bit_cast<std::uint64_t>(wall.offset[a]));

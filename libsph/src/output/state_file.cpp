@@ -82,6 +82,7 @@ class SnapshotFile : public StateFile {
                 file.real("dt"),
                 file.real("max_speed"),
                 file.real("max_acceleration"),
+                {},
                 {}};
     s.scale.quantum = file.real("quantum");
     for (const FieldInfo& i : field_table) {

@@ -148,17 +148,17 @@ void Physics::build_conservative() {
                                single && !solid ? Term::uniform_density_diffusion : Term::density_diffusion};
   if (s.terms.shifting) kinematics.push_back(Term::shifting);
   add_pass("kinematics", kinematics, true, false);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, double dt) {
+  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
     for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
       const RowRange& r = ranges[static_cast<std::size_t>(c)];
-      update_movers(p, r.first, r.last, dt);
+      update_movers(p, r.first, r.last, global);
     }
   };
   passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
 
   if (walls) {
     add_pass("walls", {Term::wall_extrapolation}, false, true);
-    passes_.back().update = [this](Particles& p, const RowRanges& ranges, double) {
+    passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState&) {
       update_walls(p, ranges);
     };
     passes_.back().changes = {Field::pressure, Field::velocity};
@@ -174,8 +174,8 @@ void Physics::build_conservative() {
 // walls included; then the force (6) on those that move.
 void Physics::build_ida() {
   add_pass("gradient", {Term::ida_gradient}, true, true);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, double dt) {
-    for (const RowRange& r : ranges) update_ida(p, r.first, r.last, dt);
+  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+    for (const RowRange& r : ranges) update_ida(p, r.first, r.last, global.dt);
   };
   passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
   std::vector<Term> forces{Term::ida_stress};

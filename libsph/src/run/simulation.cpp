@@ -47,7 +47,7 @@ void Simulation::step_in_passes() {
     run(pass, context, Side::boundary);
     if (pass.update) {
       const auto timing = timers_.time(decomp::Region::update);
-      pass.update(particles_, distribution_.ranges(), global_.dt);
+      pass.update(particles_, distribution_.ranges(), global_);
       changed(pass.changes);
     }
   }
@@ -198,27 +198,30 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
   std::array<double, 6> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
                             static_cast<double>(request)};
-  std::vector<std::int64_t> wall_force;
+  std::vector<std::int64_t> sums;
   if (grains_) {
     all[4] = grains_->swept().force;
     all[5] = grains_->swept().overlap;
-    wall_force = grains_->wall_force();
+    sums = grains_->wall_force();
+  } else if (scene_.terms.shifting) {
+    sums = {maxima_.volume};
   }
   {
     const auto timing = timers_.time(decomp::Region::reduce);
-    if (wall_force.empty())
+    if (sums.empty())
       comm_.max(all);
     else
-      comm_.max_and_sum(all, wall_force);
+      comm_.max_and_sum(all, sums);
   }
   if (all[2] > 0) stop_at_bad_particle();
   if (grains_) {
     guard_sweep(all);
     // Walls drift before servos change their speeds.
     moved_ += 1.0001 * std::max(all[0], grains_->fastest_wall(global_)) * global_.dt;
-    grains_->move_walls(global_, wall_force);
+    grains_->move_walls(global_, sums);
   } else {
     moved_ += physics_.longest_shift(global_);
+    if (scene_.terms.shifting) global_.fluid_volume.now = sums[0];
   }
   ++global_.step;
   global_.time += global_.dt;
@@ -282,6 +285,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   comm_.max(fastest);
   global_.max_speed = fastest[0];
   global_.dt = physics_.time_step({global_.max_speed, 0});
+  global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(physics_.fluid_volume(particles_));
   begin();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/random.hpp"
 #include "sph/eos.hpp"
 #include "sph/exact_math.hpp"
 #include "sph/grain_mass.hpp"
@@ -12,17 +13,6 @@ namespace sph {
 namespace {
 
 constexpr std::uint64_t radius_stream = 3;  // 0 to 2: jitter in x, y, z
-
-/// splitmix64 (Steele et al. 2014) as a counter-based generator: a hash of (seed, id, stream).
-double uniform_minus_one_to_one(std::uint64_t seed, std::uint64_t id, std::uint64_t stream) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15u * (id * 4 + stream + 1);
-  for (int round = 0; round < 2; ++round) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-  }
-  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
-}
 
 const Group& first_fluid(const Scene& scene) {
   for (const Group& g : scene.groups)

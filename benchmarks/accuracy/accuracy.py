@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+"""Speed against error: each case at several resolutions and with several formulations.
+
+    accuracy.py [BUILD] [--cases taylor_green ...] [--sizes 25 50] [--formulations default ida] [--work DIR] [--out DIR]
+
+Prints a table for each case; writes report.md and a chart of CPU seconds against error for each case to OUT. One rank;
+CPU seconds are those of computation. Runs that have come to their end in the work folder are only measured again.
+"""
+
+import argparse
+import importlib
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+from runs import Runner, source  # noqa: E402
+
+CASES = ("taylor_green", "taylor_green_1000", "cavity", "cavity_1000")
+
+
+def order(sizes, errors):
+    """Of convergence, between the two finest."""
+    if len(sizes) < 2 or not all(np.isfinite(errors[-2:])) or min(errors[-2:]) <= 0:
+        return float("nan")
+    return np.log(errors[-2] / errors[-1]) / np.log(sizes[-1] / sizes[-2])
+
+
+def seconds_to(error, errors, seconds):
+    """CPU seconds to an error, by straight lines between runs in the logarithms; NaN where no run is as good."""
+    for k in range(len(errors)):
+        if not errors[k] <= error:
+            continue
+        if k == 0 or not np.isfinite(errors[k - 1]):
+            return seconds[k]
+        return float(np.exp(np.interp(np.log(error), np.log([errors[k], errors[k - 1]]),
+                                      np.log([seconds[k], seconds[k - 1]]))))
+    return float("nan")
+
+
+def number(value):
+    return "-" if value is None or not np.isfinite(value) else f"{value:.3g}"
+
+
+class Table:
+    """One case: runs by formulation and size."""
+
+    def __init__(self, case, runner, sizes, formulations):
+        self.case = case
+        self.name = case.__name__
+        self.sizes = [n for n in case.SIZES if not sizes or n in sizes]
+        chosen = {name: sets for name, sets in case.FORMULATIONS.items() if not formulations or name in formulations}
+        futures = {(name, n): runner.start(f"{self.name}_{name.replace(' ', '_')}_{n}", case.SCENE,
+                                           (*case.settings(n), *sets))
+                   for name, sets in chosen.items() for n in self.sizes}
+        self.formulations = list(chosen)
+        self.runs = {key: future.result() for key, future in futures.items()}
+        self.values = {key: {} if run.failure else case.measure(run) for key, run in self.runs.items()}
+
+    def errors(self, name):
+        return np.array([self.values[name, n].get(self.case.ERROR) or np.nan for n in self.sizes], dtype=float)
+
+    def seconds(self, name):
+        return np.array([np.nan if self.runs[name, n].failure else self.runs[name, n].cpu for n in self.sizes])
+
+    def lines(self):
+        columns = list(dict.fromkeys(key for values in self.values.values() for key in values))
+        yield f"## {self.case.__doc__.strip()}\n"
+        yield "| formulation | size | " + " | ".join(columns) + " | CPU s | M particle-steps/s |"
+        yield "|" + "---|" * (len(columns) + 4)
+        for (name, n), run in self.runs.items():
+            if run.failure:
+                yield f"| {name} | {n} | stopped: {run.failure} |" + " |" * (len(columns) + 1)
+                continue
+            cells = [number(self.values[name, n].get(column)) for column in columns]
+            yield (f"| {name} | {n} | " + " | ".join(cells) +
+                   f" | {run.cpu:.2f} | {run.particle_steps_per_second / 1e6:.2f} |")
+        yield f"\n| formulation | order | CPU s to 5 % | to 1 % |\n|---|---|---|---|"
+        for name in self.formulations:
+            errors, seconds = self.errors(name), self.seconds(name)
+            yield (f"| {name} | {number(order(self.sizes, errors))} | {number(seconds_to(0.05, errors, seconds))} | "
+                   f"{number(seconds_to(0.01, errors, seconds))} |")
+        yield ""
+
+    def draw(self, path):
+        figure, axes = plt.subplots(figsize=(5, 3.6), layout="constrained")
+        for name in self.formulations:
+            axes.loglog(self.seconds(name), self.errors(name), "o-", lw=1.2, ms=4, label=name)
+        axes.set(xlabel="CPU seconds", ylabel=self.case.ERROR, title=self.case.__doc__.strip().split(":")[0])
+        axes.grid(True, which="both", color="#dddddd", lw=0.5)
+        axes.legend()
+        figure.savefig(path)
+        plt.close(figure)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("build", type=Path, nargs="?", default=source / "build")
+    arguments.add_argument("--cases", nargs="+", choices=CASES, default=CASES)
+    arguments.add_argument("--sizes", nargs="+", type=int)
+    arguments.add_argument("--formulations", nargs="+")
+    arguments.add_argument("--work", type=Path, default=source / "build/accuracy")
+    arguments.add_argument("--out", type=Path, default=source / "build/accuracy")
+    arguments.add_argument("--jobs", type=int, default=2)
+    given = arguments.parse_args()
+    for folder in (given.work, given.out):
+        folder.mkdir(parents=True, exist_ok=True)
+    runner = Runner(given.build.resolve(), given.work.resolve(), given.jobs)
+    plt.rcParams.update({"font.size": 8, "legend.frameon": False, "legend.fontsize": 7, "figure.dpi": 110})
+    report = ["# Speed against error\n"]
+    for name in given.cases:
+        table = Table(importlib.import_module(name), runner, given.sizes, given.formulations)
+        lines = list(table.lines())
+        print("\n".join(lines), flush=True)
+        table.draw(given.out / f"{name}.png")
+        report += [*lines, f"![{name}]({name}.png)\n"]
+    (given.out / "report.md").write_text("\n".join(report))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

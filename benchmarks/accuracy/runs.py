@@ -1,0 +1,96 @@
+"""Runs of the accuracy cases on one rank; what has come to its end in the work folder stays."""
+
+import json
+import shutil
+import subprocess
+import sys
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+here = Path(__file__).resolve().parent
+source = here.parent.parent
+sys.path.append(str(source / "benchmarks"))
+from speed import environment, finished  # noqa: E402
+
+
+class Snapshot:
+    """The particles at one time; walls are left out."""
+
+    def __init__(self, path):
+        with h5py.File(path) as file:
+            self.time = float(file.attrs["time"])
+            particles = file["particles"]
+            names = ("position", "velocity", "density", "pressure", "mass", "group")
+            position, velocity, density, pressure, mass, group = (particles[name][()] for name in names)
+            kinds = [g["kind"] for g in tomllib.loads(file.attrs["scene"])["group"]]
+            stress = particles["stress"][()] if "stress" in particles else None
+        moves = np.array([kind != "wall" for kind in kinds])[group]
+        self.position, self.velocity, self.density = position[moves], velocity[moves], density[moves]
+        self.pressure, self.mass, self.group = pressure[moves], mass[moves], group[moves]
+        self.stress = None if stress is None else stress[moves]
+
+    @property
+    def kinetic(self):
+        return 0.5 * float(np.sum(self.mass * np.sum(self.velocity**2, axis=1)))
+
+
+class Run:
+    """What a run left in its folder."""
+
+    def __init__(self, folder, failure=""):
+        self.folder = folder
+        self.failure = failure  # the last line of a run that a guard stopped
+        self.perf = None if failure else json.loads((folder / "perf.json").read_text())
+
+    @property
+    def cpu(self):
+        """Seconds of computation."""
+        return self.perf["cost_seconds"]
+
+    @property
+    def particle_steps_per_second(self):
+        return self.perf["particles"] * self.perf["steps"] / self.cpu
+
+    def snapshots(self):
+        """In the order of their times."""
+        return sorted((Snapshot(path) for path in self.folder.glob("snapshot_*.h5")), key=lambda s: s.time)
+
+    def series(self):
+        """Columns of series.csv by name."""
+        return np.genfromtxt(self.folder / "series.csv", delimiter=",", names=True)
+
+
+class Runner:
+    def __init__(self, build, work, jobs):
+        self.program = build / "bin/peperite"
+        self.work = work
+        self.pool = ThreadPoolExecutor(jobs)
+
+    def start(self, name, scene, settings):
+        """A future of a Run."""
+        return self.pool.submit(self.run, name, scene, settings)
+
+    def run(self, name, scene, settings):
+        folder = self.work / name
+        failed = self.work / f"{name}.failed"
+        if failed.exists():
+            return Run(folder, failed.read_text())
+        if finished(folder):
+            return Run(folder)
+        shutil.rmtree(folder, ignore_errors=True)
+        sets = [word for setting in settings for word in ("--set", setting)]
+        log = self.work / f"{name}.log"
+        with open(log, "w") as out:
+            code = subprocess.call(["mpirun", "-np", "1", self.program, "run", here / scene, "--out", folder, *sets],
+                                   env=environment, stdout=out, stderr=subprocess.STDOUT)
+        if code == 3:  # a physics guard: a result too
+            lines = [line for line in log.read_text().splitlines() if line.startswith("peperite:")]
+            failed.write_text(lines[-1])
+            return Run(folder, lines[-1])
+        if code != 0:
+            raise RuntimeError(f"{name}: exit code {code}\n{log.read_text()[-2000:]}")
+        return Run(folder)
