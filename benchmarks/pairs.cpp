@@ -103,7 +103,7 @@ double pass_seconds(sph::Simulation& s, sph::Particles& particles, const sph::Ne
   static decomp::LargeVector<std::byte> rows;
   const double start = cpu_seconds();
   for (const sph::Pass& pass : s.physics().passes()) {
-    const sph::PassContext context = s.physics().context(particles, lists, rows);
+    const sph::PassContext context = s.physics().context(particles, lists, rows, s.global().dt);
     pass.fusion->pack(context, 0, particles.rows());
     for (const sph::RowRange& r : ranges) pass.fusion->run(context, r);
   }

@@ -1,5 +1,5 @@
-// Taylor-Green vortices, Re = 100 at 50 x 50 (accuracy.md A3, C2): L1 <= 1.5 %, kinetic energy within 2 % to
-// t = 2 from a jittered start; the exact-lattice start is measured and printed beside it.
+// Taylor-Green vortices at 50 x 50 to t = 2 (accuracy.md A3, C2), from a jittered start and from an exact
+// lattice.
 #include <gtest/gtest.h>
 
 #include "accuracy/measure.hpp"
@@ -8,6 +8,7 @@ namespace {
 
 struct Worst {
   double l1 = 0, energy = 0;  ///< largest L1 error, largest |kinetic energy / exact - 1|
+  double l2 = 0;              ///< at t = 1
 };
 
 Worst run(const std::vector<std::string>& overrides, const char* label) {
@@ -19,28 +20,61 @@ Worst run(const std::vector<std::string>& overrides, const char* label) {
     const measure::TaylorGreen m = measure::taylor_green(s);
     worst.l1 = std::max(worst.l1, m.l1);
     worst.energy = std::max(worst.energy, std::abs(m.kinetic - 1));
+    if (t == 1) worst.l2 = m.l2;
   }
   std::printf(
-      "Taylor-Green Re 100, 50 x 50, %s: L1 <= %.2f %%, kinetic energy within %.2f %% of exact to t = 2\n",
-      label, 100 * worst.l1, 100 * worst.energy);
+      "Taylor-Green, %s: L2 at t = 1 %.2f %%, L1 <= %.2f %%, kinetic energy within %.2f %% to t = 2\n", label,
+      100 * worst.l2, 100 * worst.l1, 100 * worst.energy);
   return worst;
 }
 
 TEST(TaylorGreen, JitteredStart) {
-  const Worst worst = run({}, "jittered, double");
-  EXPECT_LE(worst.l1, 0.015);
-  EXPECT_LE(worst.energy, 0.02);
+  const Worst worst = run({}, "Re 100, 50 x 50, jittered");
+  EXPECT_LE(worst.l2, 0.010);
+  EXPECT_LE(worst.l1, 0.010);
+  EXPECT_LE(worst.energy, 0.015);
 }
 
 TEST(TaylorGreen, MixedPrecisionIsAsAccurate) {
-  const Worst worst = run({"precision=mixed"}, "jittered, mixed");
-  EXPECT_LE(worst.l1, 0.015);
-  EXPECT_LE(worst.energy, 0.02);
+  const Worst worst = run({"precision=mixed"}, "the same, mixed precision");
+  EXPECT_LE(worst.l2, 0.010);
+  EXPECT_LE(worst.l1, 0.010);
+  EXPECT_LE(worst.energy, 0.015);
 }
 
-TEST(TaylorGreen, LatticeStartIsPrintedBesideIt) {
-  const Worst worst = run({"start.jitter=0"}, "exact lattice");
-  EXPECT_TRUE(std::isfinite(worst.l1));
+// Rows of particles run along the stagnation lines until something tears them apart: rounding, too late,
+// costs a third of the kinetic energy.
+TEST(TaylorGreen, ExactLattice) {
+  const Worst worst = run({"start.jitter=0"}, "Re 100, 50 x 50, exact lattice");
+  EXPECT_LE(worst.l2, 0.02);
+  EXPECT_LE(worst.l1, 0.03);
+  EXPECT_LE(worst.energy, 0.03);
+}
+
+TEST(TaylorGreen, Coarse) {
+  const Worst worst = run({"start.spacing=0.04"}, "Re 100, 25 x 25, jittered");
+  EXPECT_LE(worst.l1, 0.035);
+  EXPECT_LE(worst.energy, 0.03);
+}
+
+TEST(TaylorGreen, Reynolds1000) {
+  const Worst worst = run({"group.fluid.viscosity=0.001"}, "Re 1000, 50 x 50, jittered");
+  EXPECT_LE(worst.l1, 0.05);
+  EXPECT_LE(worst.energy, 0.05);
+}
+
+// The flow disorders the particles, the shifting orders them: unseen by the continuity equation, so that the
+// mean pressure of a closed box would climb, here by 2.9 rho U^2 while the lattice breaks.
+TEST(TaylorGreen, MeanPressureStays) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s(comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/taylor_green.toml", {"start.jitter=0"}));
+  for (double t : {0.1, 0.2, 0.5, 1.0}) {
+    measure::run_until(s, t);
+    double sum = 0;
+    const std::vector<measure::Sample> all = measure::samples(s);
+    for (const measure::Sample& q : all) sum += q.p;
+    EXPECT_LE(std::abs(sum / static_cast<double>(all.size())), 0.05) << t;
+  }
 }
 
 // Density diffusion damps a standing pressure wave of wave number k at delta h c k^2 / 2 and nothing else

@@ -20,7 +20,7 @@ HIDDEN = {
     r"fmt/.*": r"(libsph/src|apps|benchmarks)/.*\.cpp",
     r"mpi\.h": r"libdecomp/.*|libsph/src/.*|apps/.*|benchmarks/.*",
     r"immintrin\.h": r"libsph/include/sph/simd\.hpp|benchmarks/.*",
-    r"Eigen/.*": r"libsph/.*|apps/.*|benchmarks/.*",
+    r"Eigen/.*": r"libsph/.*|apps/.*|benchmarks/.*|tests/accuracy/.*",
     r"benchmark/.*": r"benchmarks/.*",
 }
 # folder, longest first: what else it may include

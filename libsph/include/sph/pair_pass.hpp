@@ -26,6 +26,7 @@ struct TermConstants {
   T inverse_sound_speed;   ///< where there is one fluid [s/m]
   T artificial_viscosity;  ///< alpha
   T inverse_w_spacing;     ///< 1 / w(spacing/h), unnormalised kernel
+  T half_step;             ///< dt / 2h [s/m]
 };
 
 /// Everything a compiled pass needs besides its terms.
@@ -85,12 +86,21 @@ struct Sums {
   }
 };
 
+template <class Term>
+inline constexpr bool goes_half_a_step_back = requires {
+  Term::half_step_back;
+};
+
 template <class T, int D, class Kernel, class... Terms>
 struct PairPass {
   static constexpr ValueSet values = (Terms::reads | ...);
   static constexpr FieldSet writes = (FieldSet{Terms::writes} | ...);
   using Layout = RowLayout<D, values>;
   using V = Simd<T>;
+  // Velocities are those of half a step ago. With them a density would grow thinner in every rotation, by
+  // (omega dt)^2 a step, were the pairs not taken where they were then.
+  static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
+  static constexpr int v = half_step_back ? Layout::offset(Value::velocity) : 0;
 
   static void pack(const PassContext& c, std::size_t first, std::size_t last) {
     pack_rows<T, D, values>(*c.particles, *c.groups, c.scale, first, last, rows_of(c));
@@ -119,6 +129,7 @@ struct PairPass {
         pair.r2 = V::zero();
         for (int a = 0; a < D; ++a) {
           pair.e[a] = coordinate_difference(own[a], other[a]) * unit;
+          if constexpr (half_step_back) pair.e[a] -= (other[v + a] - own[v + a]) * V(constants.half_step);
           pair.r2 += pair.e[a] * pair.e[a];
         }
         pair.r = sqrt(pair.r2);
@@ -143,6 +154,7 @@ struct PairPass {
     c.inverse_sound_speed = static_cast<T>(d.inverse_sound_speed);
     c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
     c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
+    c.half_step = static_cast<T>(d.half_step);
     return c;
   }
 

@@ -42,7 +42,7 @@ class Physics {
   [[nodiscard]] FieldSet fields() const { return fields_; }
   [[nodiscard]] const std::vector<Pass>& passes() const { return passes_; }
   [[nodiscard]] PassContext context(Particles& particles, const NeighbourLists& lists,
-                                    decomp::LargeVector<std::byte>& rows) const;
+                                    decomp::LargeVector<std::byte>& rows, double dt) const;
 
   /// Pressure and what else follows from the state of a particle alone.
   void derive(Particles& particles, std::size_t first, std::size_t last) const;

@@ -192,8 +192,10 @@ FieldSet Physics::integrated() const {
 }
 
 PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
-                             decomp::LargeVector<std::byte>& rows) const {
-  return {&particles,       &lists,        &groups_,          row_scale_, constants_,
+                             decomp::LargeVector<std::byte>& rows, double dt) const {
+  TermConstants<double> constants = constants_;
+  constants.half_step = 0.5 * dt / scene_->smoothing_length;
+  return {&particles,       &lists,        &groups_,          row_scale_, constants,
           gradient_factor_, force_factor_, diffusion_factor_, &rows};
 }
 

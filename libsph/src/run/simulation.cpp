@@ -40,7 +40,7 @@ void Simulation::step_in_passes() {
   if (stale_) rebuild();
 
   for (const Pass& pass : physics_.passes()) {
-    const PassContext context = physics_.context(particles_, lists_, rows_);
+    const PassContext context = physics_.context(particles_, lists_, rows_, global_.dt);
     refresh_begin(pass.reads);
     run(pass, context, Side::interior);
     refresh_end();

@@ -10,6 +10,7 @@ struct Divergence {
   static constexpr Term term = Term::divergence;
   static constexpr ValueSet reads{Value::volume, Value::velocity};
   static constexpr Field writes = Field::divergence;
+  static constexpr bool half_step_back = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;
@@ -24,6 +25,7 @@ struct VelocityGradient {
   static constexpr Term term = Term::velocity_gradient;
   static constexpr ValueSet reads{Value::volume, Value::velocity};
   static constexpr Field writes = Field::velocity_gradient;
+  static constexpr bool half_step_back = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     const auto s = p.template j<Value::volume>() * p.f;
