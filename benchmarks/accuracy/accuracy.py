@@ -18,9 +18,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from runs import Runner, source  # noqa: E402
+from runs import Runner, source, write_start  # noqa: E402
 
-CASES = ("taylor_green", "taylor_green_1000", "cavity", "cavity_1000")
+CASES = ("taylor_green", "taylor_green_1000", "cavity", "cavity_1000", "rotating_patch")
 
 
 def order(sizes, errors):
@@ -55,11 +55,19 @@ class Table:
         self.sizes = [n for n in case.SIZES if not sizes or n in sizes]
         chosen = {name: sets for name, sets in case.FORMULATIONS.items() if not formulations or name in formulations}
         futures = {(name, n): runner.start(f"{self.name}_{name.replace(' ', '_')}_{n}", case.SCENE,
-                                           (*case.settings(n), *sets))
+                                           (*case.settings(n), *sets, *self.start_file(runner.work, n)))
                    for name, sets in chosen.items() for n in self.sizes}
         self.formulations = list(chosen)
         self.runs = {key: future.result() for key, future in futures.items()}
         self.values = {key: {} if run.failure else case.measure(run) for key, run in self.runs.items()}
+
+    def start_file(self, work, n):
+        """Where the case has a start() of its own, a file of it."""
+        if not hasattr(self.case, "start"):
+            return ()
+        path = work / f"{self.name}_{n}.h5"
+        write_start(path, **self.case.start(n))
+        return (f"start.file={path}",)
 
     def errors(self, name):
         return np.array([self.values[name, n].get(self.case.ERROR) or np.nan for n in self.sizes], dtype=float)

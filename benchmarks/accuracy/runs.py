@@ -38,6 +38,15 @@ class Snapshot:
         return 0.5 * float(np.sum(self.mass * np.sum(self.velocity**2, axis=1)))
 
 
+def write_start(path, x, v, rho, group=0):
+    """A start file; ids in the order of the rows."""
+    n = len(x)
+    with h5py.File(path, "w") as file:
+        file["id"] = np.arange(1, n + 1, dtype=np.uint64)
+        file["x"], file["v"], file["rho"], file["m"] = x, v, rho, np.zeros(n)
+        file["group"] = np.broadcast_to(np.asarray(group, dtype=np.uint32), n)
+
+
 class Run:
     """What a run left in its folder."""
 
