@@ -13,9 +13,10 @@ A0, DENSITY, SOUND = 100, 1000, 1400
 FORMULATIONS = {
     "default": (),
     "mixed": ("precision=mixed",),
+    "no shifting": ("terms.shifting=false",),
     "no diffusion": ("terms.density_diffusion=0",),
     "seed's kernel": ("kernel.h_over_dx=0.8333333333333334",),
-    "ida": ("formulation=ida", "terms.density_diffusion="),
+    "ida": ("formulation=ida", "terms.shifting=", "terms.density_diffusion="),
 }
 
 

@@ -10,8 +10,9 @@ ERROR = "angular momentum lost"
 FORMULATIONS = {
     "default": (),
     "mixed": ("precision=mixed",),
+    "no shifting": ("terms.shifting=false",),
     "artificial viscosity": ("terms.artificial_viscosity=0.02",),
-    "ida": ("formulation=ida", "terms.density_diffusion="),
+    "ida": ("formulation=ida", "terms.shifting=", "terms.density_diffusion="),
 }
 C = 7
 

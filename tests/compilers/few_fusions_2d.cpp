@@ -9,6 +9,7 @@ std::vector<Fusion> few() {
   using List = FusionList<T, 2>;
   return {
       List::template fuse<Quintic, Divergence, DensityDiffusion>(),
+      List::template fuse<Quintic, Divergence, DensityDiffusion, Shifting>(),
       List::template fuse<Quintic, VelocityGradient, DensityDiffusion>(),
       List::template fuse<Quintic, WallExtrapolation>(),
       List::template fuse<Quintic, Pressure, Viscosity>(),

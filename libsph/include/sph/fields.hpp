@@ -37,8 +37,8 @@ enum class Field : std::uint8_t {
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
 
-/// 1, D, D(D+1)/2, D*D, 2+D components
-enum class Shape : std::uint8_t { scalar, vector, symmetric, matrix, wall };
+/// 1, D, D(D+1)/2, D*D, 1+D, 2+D components
+enum class Shape : std::uint8_t { scalar, vector, symmetric, matrix, spread, wall };
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
 
 /// state: its bits at the start of a step determine the next step, so it is migrated, checkpointed and
@@ -84,8 +84,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "density diffusion: its part of d rho/dt"},
     {Field::velocity_gradient, "velocity_gradient", "1/s", Type::f64, Shape::matrix, false, false,
      "d v_i/d x_j"},
-    {Field::spread, "spread", "1/m", Type::f64, Shape::vector, false, false,
-     "gradient of the particle concentration, against which particles are shifted"},
+    {Field::spread, "spread", "1/m", Type::f64, Shape::spread, false, false,
+     "gradient of the particle concentration, against which particles are shifted, and it itself over h"},
     {Field::wall_sums, "wall_sums", "1", Type::f64, Shape::wall, false, false,
      "kernel sums over the fluid near a wall particle: weight, pressure, velocity"},
     {Field::velocity_mean, "velocity_mean", "m/s", Type::f64, Shape::vector, true, true,
@@ -105,6 +105,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
       return dim * (dim + 1) / 2;
     case Shape::matrix:
       return dim * dim;
+    case Shape::spread:
+      return 1 + dim;
     case Shape::wall:
       return 2 + dim;
   }

@@ -10,6 +10,7 @@
 #include "sph/fusions.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
+#include "sph/surface_gradient.hpp"
 
 namespace sph {
 
@@ -78,6 +79,8 @@ class Physics {
   void build_conservative();
   void build_ida();
   void update_movers(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
+  [[nodiscard]] double disordered_share(const Particles&, std::size_t row) const;
+  [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
@@ -95,8 +98,10 @@ class Physics {
   bool bulk_viscous_ = false;
   std::vector<int> transitions_;  ///< groups whose particles may change group
   RowScale row_scale_;
+  SurfaceGradient surface_;
   TermConstants<double> constants_;
   double gradient_factor_, force_factor_, diffusion_factor_;
+  double own_concentration_;  ///< V W(0) of a particle of volume spacing^D
 };
 
 /// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and

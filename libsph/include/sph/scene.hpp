@@ -82,7 +82,7 @@ struct Start {
 struct Terms {
   double density_diffusion = 0.1;   ///< delta
   double artificial_viscosity = 0;  ///< alpha
-  bool shifting = false;            ///< confined flow only (no free surface)
+  bool shifting = false;
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 
@@ -157,6 +157,7 @@ struct Scene {
   std::vector<Wall> walls;
   std::vector<Stage> stages;
   Start start;
+  bool open = false;  ///< particles are shifted and there is a free surface; follows from the start
   Terms terms;
   TimeControl time;
   Decomposition decomposition;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "sph/grains.hpp"
 #include "sph/kernels.hpp"
@@ -13,13 +14,16 @@ struct KernelNumbers {
   double radius;         ///< support / h
   double normalisation;  ///< alpha_D
   double w_spacing;      ///< unnormalised w(spacing / h)
+  double w_zero;         ///< unnormalised w(0)
 };
 
 template <class Kernel>
 KernelNumbers numbers(int dim, double q) {
-  return dim == 2
-             ? KernelNumbers{Kernel::radius, Kernel::template normalisation<2>, Kernel::template value<2>(q)}
-             : KernelNumbers{Kernel::radius, Kernel::template normalisation<3>, Kernel::template value<3>(q)};
+  const auto in = [q]<int D>(std::integral_constant<int, D>) {
+    return KernelNumbers{Kernel::radius, Kernel::template normalisation<D>, Kernel::template value<D>(q),
+                         Kernel::template value<D>(0.0)};
+  };
+  return dim == 2 ? in(std::integral_constant<int, 2>{}) : in(std::integral_constant<int, 3>{});
 }
 
 KernelNumbers numbers(const Scene& scene) {
@@ -61,7 +65,8 @@ std::int64_t PositionScale::quanta(double metres) const {
   return static_cast<std::int64_t>(std::nearbyint(metres / quantum));
 }
 
-Physics::Physics(const Scene& scene, const PositionScale& scale) : scene_(&scene), scale_(scale) {
+Physics::Physics(const Scene& scene, const PositionScale& scale)
+    : scene_(&scene), scale_(scale), surface_(scene.kernel, scene.dim) {
   if (scene.of_grains()) {
     fields_ = grain_fields(scene);  // no passes: Grains has the rest
     return;
@@ -81,6 +86,7 @@ void Physics::set_sph_constants() {
   const double slope = kernel.normalisation / power(h, scene.dim + 1);
   gradient_factor_ = volume * slope;
   force_factor_ = volume * volume * slope;
+  own_concentration_ = kernel.w_zero * gradient_factor_ * h;
   diffusion_factor_ = 2 * scene.terms.density_diffusion * h * (volume * slope / h);
 
   // Float rows: 2^29 units across the support, so that its square and the skin stay within 31 bits.

@@ -61,7 +61,7 @@ double Physics::filling(const GlobalState& global) {
 }
 
 std::int64_t Physics::fluid_volume(const Particles& p) const {
-  if (!scene_->terms.shifting) return 0;
+  if (!scene_->terms.shifting || scene_->open) return 0;
   const double* mass = p.data<Field::mass>();
   const double* rho = p.data<Field::density>();
   const auto* group = p.data<Field::group>();
@@ -188,9 +188,11 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   double speed2 = 0, acceleration2 = 0;
   for_movers(ranges, [&](std::size_t i) {
     const double inverse_mass = 1 / mass[i];
+    const double control = tension_control(p, i);
     double v2 = 0, a2 = 0;
     for (std::size_t a = 0; a < d; ++a) {
-      const double acceleration = force[i * d + a] * inverse_mass + scene_->gravity[a];
+      double acceleration = force[i * d + a] * inverse_mass + scene_->gravity[a];
+      if (control != 0) acceleration += control * p.data<Field::spread>()[i * (d + 1) + a];
       v[i * d + a] += acceleration * dt;
       a2 += acceleration * acceleration;
       v2 += v[i * d + a] * v[i * d + a];
@@ -236,16 +238,43 @@ void Physics::shift(Particles& p, const RowRanges& ranges, const GlobalState& gl
   const double scale = -2 * scene_->smoothing_length * reach;
   const auto* id = p.data<Field::id>();
   for_movers(ranges, [&](std::size_t i) {
+    const double share = scene_->open ? disordered_share(p, i) : 1.0;
     Double3 way{};
     double length2 = 0;
     for (std::size_t a = 0; a < d; ++a) {
-      way[a] = scale * spread[i * d + a] + 2e-4 * reach * uniform_minus_one_to_one(0, id[i], a);
+      way[a] =
+          share * (scale * spread[i * (d + 1) + a] + 2e-4 * reach * uniform_minus_one_to_one(0, id[i], a));
       length2 += way[a] * way[a];
     }
     const double length = std::sqrt(length2);
     const double cap = length > 0.5 * reach ? 0.5 * reach / length : 1.0;
     for (std::size_t a = 0; a < d; ++a) x[i * d + a] += round_to_quanta(way[a] * cap / scale_.quantum);
   });
+}
+
+// How much of a particle's S is not that of the surface near it: 1 - |grad C| / |S| with the gradient that
+// belongs to its C. Inside C is 1 +- 0.01 and all of S is disorder, hence the margin; spray is left alone.
+double Physics::disordered_share(const Particles& p, std::size_t i) const {
+  constexpr double margin = 0.01, spray = 0.6;
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double h = scene_->smoothing_length;
+  const double* spread = p.data<Field::spread>() + i * (d + 1);
+  const double volume = p.data<Field::mass>()[i] / p.data<Field::density>()[i] * row_scale_.inverse_volume;
+  const double concentration = h * spread[d] + volume * own_concentration_;
+  double square = 0;
+  for (std::size_t a = 0; a < d; ++a) square += spread[a] * spread[a];
+  if (square == 0 || concentration < spray) return 0;
+  return std::fmax(0.0, 1 - surface_(concentration + margin) / (h * std::sqrt(square)));
+}
+
+// Under tension particles draw together and leave voids. In the form -(p_j - p_i) instead of -(p_j + p_i) the
+// force of a constant pressure on disordered particles pushes them apart (Sun et al. 2018, tensile
+// instability control): the difference to the pair force is 2 p_i V_i S_i. Not antisymmetric, so only where a
+// free surface leaves no other way.
+double Physics::tension_control(const Particles& p, std::size_t i) const {
+  const double pressure = p.data<Field::pressure>()[i];
+  if (!scene_->terms.shifting || !scene_->open || pressure >= 0) return 0;
+  return 2 * pressure / p.data<Field::density>()[i] * disordered_share(p, i);
 }
 
 // Fragmentation (paper, 4.3): a bubbly particle whose gas fraction exceeds psi_f joins the spray, for good.

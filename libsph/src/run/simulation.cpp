@@ -203,7 +203,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
     all[4] = grains_->swept().force;
     all[5] = grains_->swept().overlap;
     sums = grains_->wall_force();
-  } else if (scene_.terms.shifting) {
+  } else if (scene_.terms.shifting && !scene_.open) {
     sums = {maxima_.volume};
   }
   {
@@ -221,7 +221,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
     grains_->move_walls(global_, sums);
   } else {
     moved_ += physics_.longest_shift(global_);
-    if (scene_.terms.shifting) global_.fluid_volume.now = sums[0];
+    if (scene_.terms.shifting && !scene_.open) global_.fluid_volume.now = sums[0];
   }
   ++global_.step;
   global_.time += global_.dt;

@@ -1,4 +1,4 @@
-// Is there a free surface? Shifting is valid only where there is none.
+// Is there a free surface? Shifting spares it; where there is none the volume of the fluid is known.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -135,13 +135,6 @@ void check_periods(const Tables& tables, const Scene& scene) {
   }
 }
 
-void check_shifting(const Tables& tables, const Scene& scene) {
-  if (scene.terms.shifting && has_free_surface(scene))
-    tables.terms.fail(
-        "shifting", "is on, but the start has a free surface",
-        "shifting is for confined flow: fill the domain between walls or periods, or turn it off");
-}
-
 void check_file(const TableReader& table, std::string_view key, const std::string& path) {
   if (path.empty()) return;
   std::error_code error;
@@ -200,7 +193,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
   check_periods(tables, scene);
-  check_shifting(tables, scene);
+  scene.open = scene.terms.shifting && has_free_surface(scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);
     check_file(tables.start.table("tile", scene_keys::tile), "file", scene.start.tile.file);

@@ -13,10 +13,14 @@ struct Shifting {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V w = Kernel::template value<P::dim>(p.r) * V(c.inverse_w_spacing);
+    const V value = Kernel::template value<P::dim>(p.r);
+    const V w = value * V(c.inverse_w_spacing);
     const V w2 = w * w;
     const V s = p.template j<Value::volume>() * p.f * (V(1) + V(typename P::Scalar(0.2)) * (w2 * w2));
     for (int a = 0; a < P::dim; ++a) sums.template add<Field::spread>(a, -(s * p.e[a]));
+    // Lists are padded with the particle itself.
+    const V share = p.template j<Value::volume>() * value;
+    sums.template add<Field::spread>(P::dim, share - where_equal(p.r2, V::zero(), share));
   }
 };
 
