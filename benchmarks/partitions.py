@@ -52,7 +52,7 @@ class Case:
 
 
 CASES = {
-    # To where the water reaches the far wall: single particles that it throws up there run away at 0.5 s.
+    # To where the water reaches the far wall.
     "dam": Case("Dam break from above", here / "scenes/dam_break.toml", "m", (0.04, 0.16, 0.28, 0.44), 0.04,
                 ("precision=mixed",)),
     "heap": Case("Pile from above", here / "scenes/pile.toml", "cm", (0.02, 0.1, 0.2, 0.5), 0.02),
