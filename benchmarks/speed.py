@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -50,6 +51,22 @@ def finished(folder):
     except FileNotFoundError:
         return False
     return end["step"] >= asked.get("steps", 0) and end["time"] >= asked.get("until", 0)
+
+
+def run_scene(program, scene, folder, settings):
+    """Exit code of a run on one rank; one that has come to its end in the folder stays. Its screen is in a log beside
+    it."""
+    if finished(folder):
+        return 0
+    shutil.rmtree(folder, ignore_errors=True)
+    sets = [word for setting in settings for word in ("--set", setting)]
+    with open(log_of(folder), "w") as out:
+        return subprocess.call(["mpirun", "-np", "1", program, "run", scene, "--out", folder, *sets], env=environment,
+                               stdout=out, stderr=subprocess.STDOUT)
+
+
+def log_of(folder):
+    return folder.parent / f"{folder.name}.log"
 
 
 def loop_seconds(perf):

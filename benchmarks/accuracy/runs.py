@@ -1,8 +1,6 @@
 """Runs of the accuracy cases on one rank; what has come to its end in the work folder stays."""
 
 import json
-import shutil
-import subprocess
 import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +12,7 @@ import numpy as np
 here = Path(__file__).resolve().parent
 source = here.parent.parent
 sys.path.append(str(source / "benchmarks"))
-from speed import environment, finished  # noqa: E402
+from speed import log_of, run_scene  # noqa: E402
 
 
 class Snapshot:
@@ -88,14 +86,8 @@ class Runner:
         failed = self.work / f"{name}.failed"
         if failed.exists():
             return Run(folder, failed.read_text())
-        if finished(folder):
-            return Run(folder)
-        shutil.rmtree(folder, ignore_errors=True)
-        sets = [word for setting in settings for word in ("--set", setting)]
-        log = self.work / f"{name}.log"
-        with open(log, "w") as out:
-            code = subprocess.call(["mpirun", "-np", "1", self.program, "run", here / scene, "--out", folder, *sets],
-                                   env=environment, stdout=out, stderr=subprocess.STDOUT)
+        code = run_scene(self.program, here / scene, folder, settings)
+        log = log_of(folder)
         if code == 3:  # a physics guard: a result too
             lines = [line for line in log.read_text().splitlines() if line.startswith("peperite:")]
             failed.write_text(lines[-1])

@@ -1,7 +1,5 @@
 """Runs of the bulk cases, several at a time, one rank each; what has come to its end in the work folder stays."""
 
-import shutil
-import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -13,7 +11,7 @@ here = Path(__file__).resolve().parent
 source = here.parent.parent
 sys.path[:0] = [str(source / "apps/sandbox"), str(source / "benchmarks")]
 from grain_run import Snapshot  # noqa: E402
-from speed import environment, finished  # noqa: E402
+from speed import log_of, run_scene  # noqa: E402
 
 
 class Runner:
@@ -31,16 +29,9 @@ class Runner:
 
     def folder(self, name, scene, settings):
         folder = self.work / name
-        if finished(folder):
-            return folder
-        shutil.rmtree(folder, ignore_errors=True)
-        sets = [word for setting in settings for word in ("--set", setting)]
-        log = self.work / f"{name}.log"
-        with open(log, "w") as out:
-            code = subprocess.call(["mpirun", "-np", "1", self.program, "run", here / scene, "--out", folder, *sets],
-                                   env=environment, stdout=out, stderr=subprocess.STDOUT)
+        code = run_scene(self.program, here / scene, folder, settings)
         if code != 0:
-            raise RuntimeError(f"{name}: exit code {code}\n{log.read_text()[-2000:]}")
+            raise RuntimeError(f"{name}: exit code {code}\n{log_of(folder).read_text()[-2000:]}")
         return folder
 
 

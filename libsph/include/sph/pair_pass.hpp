@@ -100,7 +100,7 @@ struct PairPass {
   // Velocities are those of half a step ago. With them a density would grow thinner in every rotation, by
   // (omega dt)^2 a step, were the pairs not taken where they were then.
   static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
-  static constexpr int v = half_step_back ? Layout::offset(Value::velocity) : 0;
+  static constexpr int velocity = half_step_back ? Layout::offset(Value::velocity) : 0;
 
   static void pack(const PassContext& c, std::size_t first, std::size_t last) {
     pack_rows<T, D, values>(*c.particles, *c.groups, c.scale, first, last, rows_of(c));
@@ -129,7 +129,8 @@ struct PairPass {
         pair.r2 = V::zero();
         for (int a = 0; a < D; ++a) {
           pair.e[a] = coordinate_difference(own[a], other[a]) * unit;
-          if constexpr (half_step_back) pair.e[a] -= (other[v + a] - own[v + a]) * V(constants.half_step);
+          if constexpr (half_step_back)
+            pair.e[a] -= (other[velocity + a] - own[velocity + a]) * V(constants.half_step);
           pair.r2 += pair.e[a] * pair.e[a];
         }
         pair.r = sqrt(pair.r2);

@@ -68,14 +68,14 @@ struct WallState {
   friend bool operator==(const WallState&, const WallState&) = default;
 };
 
-/// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 /// Volume of all particles that move, mass / density in units of spacing^D 2^-26, in scenes that shift
-/// particles, which are closed; else 0. Integers, so that ranks may add in any order.
+/// particles and have no free surface; else 0. Integers, so that ranks may add in any order.
 struct FluidVolume {
   std::int64_t start = 0, now = 0;
   friend bool operator==(const FluidVolume&, const FluidVolume&) = default;
 };
 
+/// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {
   std::int64_t step = 0;
   double time = 0;              ///< [s]
