@@ -9,10 +9,12 @@ std::vector<Fusion> few() {
   using List = FusionList<T, 2>;
   return {
       List::template fuse<Quintic, Divergence, DensityDiffusion>(),
-      List::template fuse<Quintic, Divergence, DensityDiffusion, Shifting>(),
+      List::template fuse<Quintic, WeightedDivergence, DensityDiffusion, Shifting, ColourGradient>(),
       List::template fuse<Quintic, VelocityGradient, DensityDiffusion>(),
       List::template fuse<Quintic, WallExtrapolation>(),
-      List::template fuse<Quintic, Pressure, Viscosity>(),
+      List::template fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
+      List::template fuse<Quintic, WeightedPressure, SymmetricViscosity, SurfaceTension>(),
+      List::template fuse<Quintic, Pressure, SymmetricViscosity>(),
       List::template fuse<Quintic, StressDivergence, Viscosity, ArtificialViscosity>(),
       List::template fuse<Quintic, IdaGradient>(),
       List::template fuse<Quintic, IdaStress>(),

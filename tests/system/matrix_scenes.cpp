@@ -37,6 +37,10 @@ const std::vector<Source>& sources() {
       {"flow2d",
        "benchmarks/accuracy/taylor_green.toml",
        {"domain.upper=[2, 0.5]", "start.flow_length=0.5", "time.until=", "time.steps=1"}},
+      // tension between fluids of different density and viscosity
+      {"bubble2d",
+       "benchmarks/accuracy/rising_bubble.toml",
+       {"start.velocity=[2, 0.3]", "time.until=", "time.steps=1"}},
       // shifting beside a free surface
       {"fluid3d", "tests/scenes/box3d_fluid.toml", {"terms.shifting=true"}},
       // smaller balls: those of the file fill the channel and push melt through its walls

@@ -30,15 +30,18 @@ enum class Field : std::uint8_t {
   diffusion,
   velocity_gradient,
   spread,
+  colour_gradient,
   wall_sums,
+  wall_sums_by_density,
+  wall_pressures,
   velocity_mean,
   pressure_mean,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
 
-/// 1, D, D(D+1)/2, D*D, 1+D, 2+D components
-enum class Shape : std::uint8_t { scalar, vector, symmetric, matrix, spread, wall };
+/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+D components
+enum class Shape : std::uint8_t { scalar, two, four, vector, symmetric, matrix, spread, wall };
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
 
 /// state: its bits at the start of a step determine the next step, so it is migrated, checkpointed and
@@ -86,8 +89,14 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "d v_i/d x_j"},
     {Field::spread, "spread", "1/m", Type::f64, Shape::spread, false, false,
      "gradient of the particle concentration, against which particles are shifted, and it itself over h"},
+    {Field::colour_gradient, "colour_gradient", "1/m", Type::f64, Shape::vector, false, false,
+     "near an interface with tension: gradient of the other fluid's share of the volume"},
     {Field::wall_sums, "wall_sums", "1", Type::f64, Shape::wall, false, false,
      "kernel sums over the fluid near a wall particle: weight, pressure, velocity"},
+    {Field::wall_sums_by_density, "wall_sums_by_density", "1", Type::f64, Shape::four, false, false,
+     "the first two of wall_sums over lighter fluids, then over heavier ones"},
+    {Field::wall_pressures, "wall_pressures", "Pa", Type::f64, Shape::two, false, false,
+     "of a wall particle for lighter and for heavier fluids"},
     {Field::velocity_mean, "velocity_mean", "m/s", Type::f64, Shape::vector, true, true,
      "running average over output.average_time"},
     {Field::pressure_mean, "pressure_mean", "Pa", Type::f64, Shape::scalar, true, true,
@@ -99,6 +108,10 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
   switch (s) {
     case Shape::scalar:
       return 1;
+    case Shape::two:
+      return 2;
+    case Shape::four:
+      return 4;
     case Shape::vector:
       return dim;
     case Shape::symmetric:

@@ -164,10 +164,10 @@ struct PairPass {
                           const Sums<T, D, writes>& sums) {
     if constexpr (writes.has(F)) {
       constexpr int n = components(info(F).shape, D);
-      const double factor = F == Field::force       ? c.force_factor
-                            : F == Field::diffusion ? c.diffusion_factor
-                            : F == Field::wall_sums ? 1.0
-                                                    : c.gradient_factor;
+      const double factor = F == Field::force                                           ? c.force_factor
+                            : F == Field::diffusion                                     ? c.diffusion_factor
+                            : F == Field::wall_sums || F == Field::wall_sums_by_density ? 1.0
+                                                                                        : c.gradient_factor;
       double* out = c.particles->template data<F>() + first * n;
       for (std::size_t l = 0; l < count; ++l)
         for (int k = 0; k < n; ++k)
@@ -182,7 +182,9 @@ struct PairPass {
     store_field<Field::diffusion>(c, first, count, sums);
     store_field<Field::velocity_gradient>(c, first, count, sums);
     store_field<Field::spread>(c, first, count, sums);
+    store_field<Field::colour_gradient>(c, first, count, sums);
     store_field<Field::wall_sums>(c, first, count, sums);
+    store_field<Field::wall_sums_by_density>(c, first, count, sums);
   }
 };
 

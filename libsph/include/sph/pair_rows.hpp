@@ -5,6 +5,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
@@ -17,16 +18,22 @@ namespace sph {
 /// The pair terms; each is a struct of the same name in terms/.
 enum class Term : std::uint8_t {
   pressure,
+  weighted_pressure,
   viscosity,
+  symmetric_viscosity,
   uniform_viscosity,
   stress_divergence,
   artificial_viscosity,
   divergence,
+  weighted_divergence,
   velocity_gradient,
   density_diffusion,
   uniform_density_diffusion,
   shifting,
+  colour_gradient,
+  surface_tension,
   wall_extrapolation,
+  wall_extrapolation_by_density,
   ida_gradient,
   ida_stress,
 };
@@ -42,6 +49,10 @@ enum class Value : std::uint8_t {
   phase,        ///< index of the group
   mover,        ///< 1, or 0 for walls
   stress,       ///< total: -pressure delta + stress field [Pa]
+  heavy,        ///< 1 for the heavier fluids of the scene, 0 for all others
+  pressures,    ///< for lighter and for heavier partners: of walls they differ [Pa]
+  side,         ///< of the interface with tension: 1 or -1, 0 elsewhere
+  capillary,    ///< surface stress sigma (I - n n) |grad C| [Pa]
   count_
 };
 
@@ -62,8 +73,12 @@ class ValueSet {
 };
 
 [[nodiscard]] constexpr int components(Value v, int dim) {
-  return v == Value::velocity ? dim : v == Value::stress ? dim * (dim + 1) / 2 : 1;
+  const bool tensor = v == Value::stress || v == Value::capillary;
+  return v == Value::velocity ? dim : v == Value::pressures ? 2 : tensor ? dim * (dim + 1) / 2 : 1;
 }
+
+/// Component (a, b) of a symmetric tensor stored xx yy xy or xx yy zz xy xz yz.
+[[nodiscard]] constexpr int symmetric_index(int a, int b, int dim) { return a == b ? a : dim + a + b - 1; }
 
 /// The fields a halo copy needs so that its row can be packed.
 [[nodiscard]] constexpr FieldSet fields_behind(ValueSet values) {
@@ -77,6 +92,10 @@ class ValueSet {
   if (values.has(Value::phase)) f |= FieldSet{Field::group};
   if (values.has(Value::mover)) f |= FieldSet{Field::group};
   if (values.has(Value::stress)) f |= FieldSet{Field::pressure, Field::stress};
+  if (values.has(Value::heavy)) f |= FieldSet{Field::group};
+  if (values.has(Value::pressures)) f |= FieldSet{Field::group, Field::pressure, Field::wall_pressures};
+  if (values.has(Value::side)) f |= FieldSet{Field::group};
+  if (values.has(Value::capillary)) f |= FieldSet{Field::colour_gradient};
   return f;
 }
 
@@ -99,6 +118,9 @@ struct GroupTable {
   std::vector<double> viscosity;    ///< [Pa s]
   std::vector<double> sound_speed;  ///< [m/s]
   std::vector<double> mover;        ///< 1 or 0
+  std::vector<double> heavy;        ///< 1 or 0
+  std::vector<double> side;         ///< 1, -1 or 0
+  double surface_tension = 0;       ///< [N/m]
 };
 
 /// Scales of the rows; see the head of this file.
@@ -122,6 +144,8 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* stress = p.data<Field::stress>();
   const auto* sound = p.data<Field::sound_speed>();
   const auto* group = p.data<Field::group>();
+  const auto* walls = p.data<Field::wall_pressures>();
+  const auto* colour = p.data<Field::colour_gradient>();
   for (std::size_t i = first; i < last; ++i) {
     T* row = rows + i * Layout::stride;
     for (int k = 0; k < D; ++k) {
@@ -147,6 +171,21 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     if constexpr (S.has(Value::stress)) {
       constexpr int n = components(Value::stress, D);
       for (int k = 0; k < n; ++k) put(Value::stress, k, stress[i * n + k] - (k < D ? pressure[i] : 0.0));
+    }
+    if constexpr (S.has(Value::heavy)) put(Value::heavy, 0, groups.heavy[group[i]]);
+    if constexpr (S.has(Value::pressures))
+      for (int k = 0; k < 2; ++k)
+        put(Value::pressures, k, groups.mover[group[i]] == 0 ? walls[2 * i + k] : pressure[i]);
+    if constexpr (S.has(Value::side)) put(Value::side, 0, groups.side[group[i]]);
+    if constexpr (S.has(Value::capillary)) {
+      const double* g = colour + i * D;
+      double square = 0;
+      for (int a = 0; a < D; ++a) square += g[a] * g[a];
+      const double length = std::sqrt(square), inverse = length > 0 ? 1 / length : 0.0;
+      for (int a = 0; a < D; ++a)
+        for (int b = a; b < D; ++b)
+          put(Value::capillary, symmetric_index(a, b, D),
+              groups.surface_tension * ((a == b ? length : 0.0) - g[a] * g[b] * inverse));
     }
   }
 }

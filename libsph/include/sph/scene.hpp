@@ -58,6 +58,13 @@ enum class LatticeKind { square, hexagonal };
 enum class InitialVelocity { rest, uniform, taylor_green };
 enum class InitialPressure { zero, hydrostatic, taylor_green };
 
+/// One of the still fluids on top of each other under which a hydrostatic pressure builds up.
+struct Layer {
+  int group = -1;
+  double top = 0;  ///< height against gravity [m]; of the first that of zero pressure
+  friend bool operator==(const Layer&, const Layer&) = default;
+};
+
 struct Start {
   // Either a lattice painted by regions ...
   LatticeKind lattice = LatticeKind::square;
@@ -68,21 +75,37 @@ struct Start {
   std::uint64_t seed = 0;
   // ... or a file with columns id, x, v, group, rho, m (HDF5 or CSV).
   std::string file;
-  Tile tile;  ///< ... or, grains only, a packing repeated side by side
+  std::optional<bool> free_surface;  ///< file: is there one? Default: unless all axes are periodic
+  Tile tile;                         ///< ... or, grains only, a packing repeated side by side
 
   InitialVelocity velocity = InitialVelocity::rest;
   Double3 uniform_velocity{};  ///< [m/s]
   double flow_speed = 1;       ///< U of the Taylor-Green flow [m/s]
   double flow_length = 1;      ///< its period [m]
   InitialPressure pressure = InitialPressure::zero;
-  double surface_height = 0;  ///< hydrostatic: height of zero pressure along -gravity [m]
+  std::vector<Layer> layers;  ///< hydrostatic: from the surface downwards
   friend bool operator==(const Start&, const Start&) = default;
 };
+
+/// Between the particles of two groups of fluid.
+struct InterfaceTension {
+  std::array<int, 2> between{-1, -1};  ///< groups; -1: there is none
+  double coefficient = 0;              ///< sigma [N/m]
+  friend bool operator==(const InterfaceTension&, const InterfaceTension&) = default;
+};
+
+/// How the pressures of a pair are summed: p_i + p_j, or each weighted by the other's density.
+enum class PressureWeights { volume, density };
+/// See sph/terms/viscosity.hpp.
+enum class ViscousForm { laplacian, symmetric };
 
 struct Terms {
   double density_diffusion = 0.1;   ///< delta
   double artificial_viscosity = 0;  ///< alpha
   bool shifting = false;
+  ViscousForm viscosity = ViscousForm::laplacian;
+  PressureWeights pressure_weights = PressureWeights::volume;
+  InterfaceTension surface_tension;
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 

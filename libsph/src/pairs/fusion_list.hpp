@@ -10,6 +10,7 @@
 #include "sph/terms/pressure.hpp"
 #include "sph/terms/shifting.hpp"
 #include "sph/terms/stress.hpp"
+#include "sph/terms/surface_tension.hpp"
 #include "sph/terms/viscosity.hpp"
 #include "sph/terms/wall.hpp"
 
@@ -47,6 +48,7 @@ struct FusionList {
         fuse<Kernel, Divergence, DensityDiffusion, Shifting>(),
         fuse<Kernel, Pressure, UniformViscosity>(),
         fuse<Kernel, Pressure, Viscosity>(),
+        fuse<Kernel, Pressure, SymmetricViscosity>(),
         fuse<Kernel, Pressure, UniformViscosity, ArtificialViscosity>(),
         fuse<Kernel, WallExtrapolation>(),
     };
@@ -57,16 +59,36 @@ struct FusionList {
     for (auto& more : {fluids<WendlandC2>(), fluids<WendlandC4>()})
       list.insert(list.end(), more.begin(), more.end());
     for (Fusion f : {
+             fuse<Quintic, Divergence, DensityDiffusion, ColourGradient>(),
+             fuse<Quintic, Divergence, DensityDiffusion, Shifting, ColourGradient>(),
+             fuse<Quintic, WeightedDivergence, DensityDiffusion>(),
+             fuse<Quintic, WeightedDivergence, DensityDiffusion, Shifting>(),
+             fuse<Quintic, WeightedDivergence, DensityDiffusion, ColourGradient>(),
+             fuse<Quintic, WeightedDivergence, DensityDiffusion, Shifting, ColourGradient>(),
+             fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
-             fuse<Quintic, StressDivergence, Viscosity>(),
-             fuse<Quintic, StressDivergence, Viscosity, ArtificialViscosity>(),
-             fuse<Quintic, Pressure, Viscosity, ArtificialViscosity>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),
              fuse<Quintic, IdaStress, ArtificialViscosity>(),
          })
       list.push_back(std::move(f));
+    for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>()})
+      list.insert(list.end(), more.begin(), more.end());
     return list;
+  }
+
+  /// Fluids of different viscosity or density, and solids.
+  template <class Viscous>
+  static std::vector<Fusion> forces() {
+    return {
+        fuse<Quintic, Pressure, Viscous, ArtificialViscosity>(),
+        fuse<Quintic, Pressure, Viscous, SurfaceTension>(),
+        fuse<Quintic, WeightedPressure, Viscous>(),
+        fuse<Quintic, WeightedPressure, Viscous, ArtificialViscosity>(),
+        fuse<Quintic, WeightedPressure, Viscous, SurfaceTension>(),
+        fuse<Quintic, StressDivergence, Viscous>(),
+        fuse<Quintic, StressDivergence, Viscous, ArtificialViscosity>(),
+    };
   }
 };
 

@@ -24,8 +24,12 @@ std::string name_of(Term term) {
   switch (term) {
     case Term::pressure:
       return "Pressure";
+    case Term::weighted_pressure:
+      return "WeightedPressure";
     case Term::viscosity:
       return "Viscosity";
+    case Term::symmetric_viscosity:
+      return "SymmetricViscosity";
     case Term::uniform_viscosity:
       return "UniformViscosity";
     case Term::stress_divergence:
@@ -34,6 +38,8 @@ std::string name_of(Term term) {
       return "ArtificialViscosity";
     case Term::divergence:
       return "Divergence";
+    case Term::weighted_divergence:
+      return "WeightedDivergence";
     case Term::velocity_gradient:
       return "VelocityGradient";
     case Term::density_diffusion:
@@ -42,8 +48,14 @@ std::string name_of(Term term) {
       return "UniformDensityDiffusion";
     case Term::shifting:
       return "Shifting";
+    case Term::colour_gradient:
+      return "ColourGradient";
+    case Term::surface_tension:
+      return "SurfaceTension";
     case Term::wall_extrapolation:
       return "WallExtrapolation";
+    case Term::wall_extrapolation_by_density:
+      return "WallExtrapolationByDensity";
     case Term::ida_gradient:
       return "IdaGradient";
     case Term::ida_stress:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 
 #include "sph/grains.hpp"
@@ -37,6 +38,27 @@ KernelNumbers numbers(const Scene& scene) {
       break;
   }
   return numbers<Quintic>(scene.dim, q);
+}
+
+/// Of the interface with tension; fragments stay on the side of what they broke from.
+double side_of(const Scene& scene, int group) {
+  const auto on = [&](int of) {
+    return group == of || (of >= 0 && group == scene.groups[static_cast<std::size_t>(of)].fragments_to);
+  };
+  const std::array<int, 2>& between = scene.terms.surface_tension.between;
+  return on(between[0]) ? 1 : on(between[1]) ? -1 : 0;
+}
+
+/// The density that parts lighter fluids from heavier ones: the lower end of the largest gap.
+double density_divide(const Scene& scene) {
+  std::vector<double> densities;
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::fluid) densities.push_back(g.density);
+  std::sort(densities.begin(), densities.end());
+  std::size_t at = 0;
+  for (std::size_t k = 0; k + 1 < densities.size(); ++k)
+    if (densities[k + 1] * densities[at] > densities[k] * densities[at + 1]) at = k;
+  return densities.empty() ? 0.0 : densities[at];
 }
 
 double power(double x, int n) {
@@ -99,11 +121,14 @@ void Physics::set_sph_constants() {
   row_scale_.inverse_volume = 1 / volume;
   row_scale_.inverse_h = 1 / h;
 
+  const double divide = density_divide(scene);
   for (const Group& g : scene.groups) {
     groups_.viscosity.push_back(g.viscosity);
     // p-waves are the fastest in a solid
     const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
     groups_.sound_speed.push_back(std::sqrt(modulus / g.density));
+    groups_.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
+    groups_.side.push_back(side_of(scene, static_cast<int>(&g - scene.groups.data())));
     groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
     bulk_viscous_ = bulk_viscous_ || g.bulk_viscosity > 0;
     if (g.fragments_to >= 0) transitions_.push_back(static_cast<int>(&g - scene.groups.data()));
@@ -111,6 +136,7 @@ void Physics::set_sph_constants() {
   }
   const auto fluid = std::find_if(scene.groups.begin(), scene.groups.end(),
                                   [](const Group& g) { return g.kind != GroupKind::wall; });
+  groups_.surface_tension = scene.terms.surface_tension.coefficient;
   constants_ = {};
   // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
   for (std::size_t a = 0; a < 3; ++a) constants_.gravity[a] = scene.periodic[a] ? 0.0 : scene.gravity[a] * h;
@@ -150,9 +176,15 @@ void Physics::build_conservative() {
   const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
   const bool single = movers == 1 && !walls && !s.has_bubbly();
 
-  std::vector<Term> kinematics{solid ? Term::velocity_gradient : Term::divergence,
-                               single && !solid ? Term::uniform_density_diffusion : Term::density_diffusion};
+  const bool weighted = s.terms.pressure_weights == PressureWeights::density;
+  std::vector<Term> kinematics{
+      solid      ? Term::velocity_gradient
+      : weighted ? Term::weighted_divergence
+                 : Term::divergence,
+      single && !solid && !weighted ? Term::uniform_density_diffusion : Term::density_diffusion};
   if (s.terms.shifting) kinematics.push_back(Term::shifting);
+  const bool tension = s.terms.surface_tension.coefficient > 0;
+  if (tension) kinematics.push_back(Term::colour_gradient);
   add_pass("kinematics", kinematics, true, false);
   passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
     for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
@@ -162,16 +194,26 @@ void Physics::build_conservative() {
   };
   passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
 
+  if (weighted) fields_ |= FieldSet{Field::wall_pressures};
   if (walls) {
-    add_pass("walls", {Term::wall_extrapolation}, false, true);
+    std::vector<Term> terms{Term::wall_extrapolation};
+    if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
+    add_pass("walls", terms, false, true);
     passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState&) {
       update_walls(p, ranges);
     };
-    passes_.back().changes = {Field::pressure, Field::velocity};
+    passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures};
   }
 
-  std::vector<Term> forces{solid ? Term::stress_divergence : Term::pressure,
-                           uniform_viscosity && !solid ? Term::uniform_viscosity : Term::viscosity};
+  const bool symmetric = s.terms.viscosity == ViscousForm::symmetric;
+  const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
+  std::vector<Term> forces{solid      ? Term::stress_divergence
+                           : weighted ? Term::weighted_pressure
+                                      : Term::pressure,
+                           uniform     ? Term::uniform_viscosity
+                           : symmetric ? Term::symmetric_viscosity
+                                       : Term::viscosity};
+  if (tension) forces.push_back(Term::surface_tension);
   if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
   add_pass("forces", forces, true, false);
 }
@@ -215,6 +257,12 @@ double Physics::time_step(const StepMaxima& maxima) const {
   }
   double dt = scene_->time.cfl * h / (fastest + maxima.speed);
   if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
+  // Capillary waves as long as the layer is thick (Brackbill et al. 1992, eq. 61).
+  if (const InterfaceTension& t = scene_->terms.surface_tension; t.coefficient > 0) {
+    double density = 0;
+    for (int k : t.between) density += 0.5 * scene_->groups[static_cast<std::size_t>(k)].density;
+    dt = std::min(dt, 0.25 * std::sqrt(density * h * h * h / (2 * std::numbers::pi * t.coefficient)));
+  }
   if (maxima.acceleration > 0) dt = std::min(dt, 0.25 * std::sqrt(h / maxima.acceleration));
   return dt;
 }

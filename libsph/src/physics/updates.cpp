@@ -110,6 +110,8 @@ void Physics::update_movers(Particles& p, std::size_t first, std::size_t last,
 void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   const double* sums = p.data<Field::wall_sums>();
+  const double* by_density = p.data<Field::wall_sums_by_density>();
+  double* pressures = p.data<Field::wall_pressures>();
   double* pressure = p.data<Field::pressure>();
   double* v = p.data<Field::velocity>();
   const auto* group = p.data<Field::group>();
@@ -120,6 +122,11 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
       const Double3& own = scene_->groups[group[i]].wall_velocity;
       const bool wet = s[0] > 0;
       pressure[i] = wet ? s[1] / s[0] : 0.0;
+      if (pressures != nullptr)
+        for (std::size_t k = 0; k < 2; ++k) {
+          const double* of = by_density + 4 * i + 2 * k;
+          pressures[2 * i + k] = of[0] > 0 ? of[1] / of[0] : 0.0;
+        }
       for (std::size_t a = 0; a < d; ++a) v[i * d + a] = wet ? 2 * own[a] - s[2 + a] / s[0] : own[a];
     }
   }

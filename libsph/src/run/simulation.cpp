@@ -45,6 +45,7 @@ void Simulation::step_in_passes() {
     run(pass, context, Side::interior);
     refresh_end();
     run(pass, context, Side::boundary);
+    changed(pass.fusion->writes);
     if (pass.update) {
       const auto timing = timers_.time(decomp::Region::update);
       pass.update(particles_, distribution_.ranges(), global_);

@@ -117,7 +117,7 @@ void refuse_foreign_keys(const SharedTables& t, bool grains) {
   t.top.only_if(!grains, "terms", "they are of SPH; grains follow from [contact]");
   t.domain.only_if(!grains, "surface_pressure", "grains have no equation of state");
   t.time.only_if(!grains, "cfl", "grains have no speed of sound; give dt, or neither");
-  for (const std::string_view key : {"pressure", "surface_height", "flow_speed", "flow_length"})
+  for (const std::string_view key : {"pressure", "surface_height", "layer", "flow_speed", "flow_length"})
     t.start.only_if(!grains, key, "it is of fluids");
   t.output.only_if(!grains, "average_space", "it averages with the kernel, and grains have none");
   for (const std::string_view key : {"contact", "wall", "stage"}) t.top.only_if(grains, key, only_grains);

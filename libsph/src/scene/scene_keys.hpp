@@ -48,13 +48,16 @@ inline constexpr auto group_list = std::to_array<Word>({"name",
                                                         "rolling_friction",
                                                         "fixed"});
 inline constexpr auto fragmentation_list = std::to_array<Word>({"void_fraction", "group"});
-inline constexpr auto start_list =
-    std::to_array<Word>({"lattice", "spacing", "origin", "lower", "upper", "region", "jitter", "seed", "file",
-                         "velocity", "flow_speed", "flow_length", "pressure", "surface_height", "tile"});
+inline constexpr auto start_list = std::to_array<Word>(
+    {"lattice", "spacing", "origin", "lower", "upper", "region", "jitter", "seed", "file", "velocity",
+     "flow_speed", "flow_length", "pressure", "surface_height", "layer", "free_surface", "tile"});
+inline constexpr auto layer_list = std::to_array<Word>({"group", "top"});
 inline constexpr auto region_list =
     std::to_array<Word>({"group", "shape", "lower", "upper", "centre", "radius"});
 inline constexpr auto terms_list =
-    std::to_array<Word>({"density_diffusion", "artificial_viscosity", "shifting"});
+    std::to_array<Word>({"density_diffusion", "artificial_viscosity", "shifting", "viscosity",
+                         "pressure_weights", "surface_tension"});
+inline constexpr auto surface_tension_list = std::to_array<Word>({"between", "coefficient"});
 inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
 inline constexpr auto decomposition_list =
     std::to_array<Word>({"cut_axes", "skin", "rebuild_every", "overlap", "balance", "cost", "chaos_seed",
@@ -81,8 +84,10 @@ inline constexpr KeyTable domain{"domain", domain_list};
 inline constexpr KeyTable group{"group", group_list};
 inline constexpr KeyTable fragmentation{"group.fragmentation", fragmentation_list};
 inline constexpr KeyTable start{"start", start_list};
+inline constexpr KeyTable layer{"start.layer", layer_list};
 inline constexpr KeyTable region{"start.region", region_list};
 inline constexpr KeyTable terms{"terms", terms_list};
+inline constexpr KeyTable surface_tension{"terms.surface_tension", surface_tension_list};
 inline constexpr KeyTable time{"time", time_list};
 inline constexpr KeyTable decomposition{"decomposition", decomposition_list};
 inline constexpr KeyTable output{"output", output_list};
@@ -94,9 +99,9 @@ inline constexpr KeyTable stage{"stage", stage_list};
 inline constexpr KeyTable stage_wall{"stage.wall", stage_wall_list};
 inline constexpr KeyTable tile{"start.tile", tile_list};
 
-inline constexpr std::array all{top,     kernel,       domain, group,         fragmentation, start,
-                                region,  terms,        time,   decomposition, output,        monitor,
-                                contact, contact_pair, wall,   stage,         stage_wall,    tile};
+inline constexpr std::array all{top,   kernel, domain,        group,  fragmentation,   start,   region,
+                                terms, time,   decomposition, output, monitor,         contact, contact_pair,
+                                wall,  stage,  stage_wall,    tile,   surface_tension, layer};
 
 }  // namespace scene_keys
 }  // namespace sph

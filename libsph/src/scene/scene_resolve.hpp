@@ -65,6 +65,8 @@ void read_grain_velocity(const TableReader& table, Start& start);
 /// Words of enumerations, shared by the reader and to_toml.
 [[nodiscard]] const Choices<Formulation>& formulation_words();
 [[nodiscard]] const Choices<Precision>& precision_words();
+[[nodiscard]] const Choices<PressureWeights>& pressure_weights_words();
+[[nodiscard]] const Choices<ViscousForm>& viscous_words();
 [[nodiscard]] const Choices<KernelShape>& kernel_words();
 [[nodiscard]] const Choices<GroupKind>& group_kind_words();
 [[nodiscard]] const Choices<EosKind>& eos_words();

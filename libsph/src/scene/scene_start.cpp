@@ -1,6 +1,7 @@
 // [start]: the lattice and its painted regions, or a particle file; initial velocity and pressure.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -150,18 +151,46 @@ void read_velocity(const TableReader& table, const Scene& scene, Start& start) {
   }
 }
 
+/// surface_height is short for one layer of the first fluid, or solid where there is none.
+std::vector<Layer> read_layers(const TableReader& table, const Scene& scene,
+                               const std::optional<double>& surface_height) {
+  table.not_both("surface_height", "layer");
+  std::vector<Layer> layers;
+  for (const TableReader& t : table.tables("layer", scene_keys::layer)) {
+    (void)t.required_text("group");
+    Layer layer;
+    layer.group = read_group_name(t, "group", scene.groups);
+    if (scene.groups[static_cast<std::size_t>(layer.group)].kind != GroupKind::fluid)
+      t.fail("group", "names no fluid", "the layers are fluids on top of each other");
+    layer.top = t.required_number("top", dimension::length, Bound::any);
+    if (!layers.empty() && layer.top >= layers.back().top)
+      t.fail("top", fmt::format("is {}, not below that of the layer before", layer.top),
+             "give the layers from the surface downwards");
+    t.finish();
+    layers.push_back(layer);
+  }
+  if (surface_height) {
+    const auto first = std::find_if(scene.groups.begin(), scene.groups.end(),
+                                    [](const Group& g) { return g.kind == GroupKind::fluid; });
+    layers.push_back(
+        {first == scene.groups.end() ? 0 : static_cast<int>(first - scene.groups.begin()), *surface_height});
+  }
+  return layers;
+}
+
 void read_pressure(const TableReader& table, const Scene& scene, Start& start) {
   const Choices<InitialPressure> words{{"zero", InitialPressure::zero},
                                        {"hydrostatic", InitialPressure::hydrostatic},
                                        {"taylor_green", InitialPressure::taylor_green}};
   start.pressure = table.choice("pressure", words).value_or(InitialPressure::zero);
   const std::optional<double> height = table.number("surface_height", dimension::length, Bound::any);
-  start.surface_height = height.value_or(0);
+  start.layers = read_layers(table, scene, height);
   if (start.pressure == InitialPressure::taylor_green && start.velocity != InitialVelocity::taylor_green)
     table.fail("pressure", "is \"taylor_green\" without that velocity",
                "set velocity = \"taylor_green\" too");
   if (start.pressure != InitialPressure::hydrostatic) return;
-  if (!height) table.fail_missing("surface_height", "give the height where the hydrostatic pressure is zero");
+  if (start.layers.empty())
+    table.fail_missing("surface_height", "give the height where the hydrostatic pressure is zero");
   double weight = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     weight += std::fabs(scene.gravity[a]);
@@ -184,6 +213,7 @@ Start read_start(const TableReader& table, const Scene& scene) {
   table.not_both("file", "tile");
   const bool from_file = table.has("file") || table.has("tile");
   if (from_file) {
+    if (!grains && table.has("file")) start.free_surface = table.flag("free_surface");
     for (const std::string_view key : {"lattice", "origin", "lower", "upper", "region", "jitter"})
       table.only_if(false, key,
                     fmt::format("the particles come from start.{}", table.has("file") ? "file" : "tile"));
@@ -191,6 +221,8 @@ Start read_start(const TableReader& table, const Scene& scene) {
   } else {
     read_lattice(table, scene, start);
   }
+  table.only_if(start.free_surface.has_value(), "free_surface",
+                "it is for start.file; of a lattice it is known");
   start.seed = static_cast<std::uint64_t>(table.whole("seed", 0).value_or(0));
   if (grains) {
     read_grain_velocity(table, start);

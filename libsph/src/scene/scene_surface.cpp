@@ -44,7 +44,7 @@ bool has_free_surface(const Scene& scene) {
   const auto axes = static_cast<std::size_t>(scene.dim);
   bool all_periodic = true;
   for (std::size_t a = 0; a < axes; ++a) all_periodic = all_periodic && scene.periodic[a];
-  if (!start.file.empty()) return !all_periodic;
+  if (!start.file.empty()) return start.free_surface.value_or(!all_periodic);
 
   const std::int64_t most = scene.dim == 2 ? samples_2d : samples_3d;
   std::array<std::int64_t, 3> points{1, 1, 1}, samples{1, 1, 1};

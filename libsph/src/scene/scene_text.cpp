@@ -72,7 +72,6 @@ void write_flow(SceneWriter& out, const Start& s) {
       out.text("pressure", "taylor_green");
       break;
   }
-  out.number("surface_height", s.surface_height);
 }
 
 void write_start(SceneWriter& out, const Scene& scene) {
@@ -91,11 +90,17 @@ void write_start(SceneWriter& out, const Scene& scene) {
     out.number("jitter", s.jitter);
   } else {
     out.text("file", s.file);
+    if (s.free_surface) out.flag("free_surface", *s.free_surface);
   }
   out.whole("seed", s.seed);
   const bool velocity_of_file = scene.of_grains() && (!s.file.empty() || !s.tile.file.empty());
   if (!velocity_of_file) write_velocity(out, s);
   if (!scene.of_grains()) write_flow(out, s);
+  for (const Layer& layer : s.layers) {
+    out.header("[[start.layer]]");
+    out.text("group", scene.groups[static_cast<std::size_t>(layer.group)].name);
+    out.number("top", layer.top);
+  }
   for (const Region& r : s.regions) write_region(out, scene, r);
 }
 
@@ -110,6 +115,17 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
   out.number("density_diffusion", scene.terms.density_diffusion);
   out.number("artificial_viscosity", scene.terms.artificial_viscosity);
   out.flag("shifting", scene.terms.shifting);
+  if (scene.formulation == Formulation::ida) return;
+  out.text("viscosity", word(viscous_words(), scene.terms.viscosity));
+  if (scene.has_kind(GroupKind::solid)) return;
+  out.text("pressure_weights", word(pressure_weights_words(), scene.terms.pressure_weights));
+  if (const InterfaceTension& t = scene.terms.surface_tension; t.between[0] >= 0) {
+    const auto name = [&](int k) {
+      return SceneWriter::quoted(scene.groups[static_cast<std::size_t>(k)].name);
+    };
+    out.raw("surface_tension", fmt::format("{{ between = [{}, {}], coefficient = {} }}", name(t.between[0]),
+                                           name(t.between[1]), SceneWriter::real(t.coefficient)));
+  }
 }
 
 void write_physics(SceneWriter& out, const Scene& scene) {

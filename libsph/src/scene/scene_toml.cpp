@@ -1,6 +1,7 @@
 // From TOML to a resolved Scene: top level, kernel, domain, terms, time, and the checks between tables.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -86,6 +87,26 @@ void read_kernel(const TableReader& table, Scene& scene) {
   table.finish();
 }
 
+InterfaceTension read_surface_tension(const TableReader& table, const std::vector<Group>& groups) {
+  const std::string_view right = "name two groups of fluid, for example [\"melt\", \"gas\"]";
+  InterfaceTension tension;
+  const toml_tree::Node* value = table.find("between");
+  if (value == nullptr) table.fail_missing("between", right);
+  const toml_tree::Array* names = value->array();
+  if (names == nullptr || names->size() != 2) table.fail("between", "is no array of two names", right);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto* name = std::get_if<std::string>(&(*names)[k].value);
+    if (name == nullptr) table.fail("between", "holds something else than a name", right);
+    tension.between[k] = group_of_name(table, "between", *name, groups);
+    if (groups[static_cast<std::size_t>(tension.between[k])].kind != GroupKind::fluid)
+      table.fail("between", fmt::format("names \"{}\", which is no fluid", *name), right);
+  }
+  if (tension.between[0] == tension.between[1]) table.fail("between", "names one group twice", right);
+  tension.coefficient = table.required_number("coefficient", dimension::stiffness, Bound::not_negative);
+  table.finish();
+  return tension;
+}
+
 void read_terms(const TableReader& table, Scene& scene) {
   const bool ida = scene.formulation == Formulation::ida;
   Terms& terms = scene.terms;
@@ -95,10 +116,26 @@ void read_terms(const TableReader& table, Scene& scene) {
   terms.artificial_viscosity =
       table.number("artificial_viscosity", dimension::none, Bound::not_negative).value_or(0);
   terms.shifting = table.flag("shifting").value_or(false);
+  const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
+    return g.viscosity == scene.groups.front().viscosity;
+  });
+  terms.viscosity = table.choice("viscosity", viscous_words())
+                        .value_or(uniform || ida ? ViscousForm::laplacian : ViscousForm::symmetric);
+  terms.pressure_weights =
+      table.choice("pressure_weights", pressure_weights_words()).value_or(terms.pressure_weights);
+  if (table.has("surface_tension"))
+    terms.surface_tension =
+        read_surface_tension(table.table("surface_tension", scene_keys::surface_tension), scene.groups);
   if (ida && terms.density_diffusion != 0)
     table.fail("density_diffusion", fmt::format("is {}", terms.density_diffusion),
                "formulation = \"ida\" has none: remove it");
   if (ida && terms.shifting) table.fail("shifting", "is on", "formulation = \"ida\" has none: remove it");
+  const bool solid = scene.has_kind(GroupKind::solid);
+  for (const std::string_view key : {"viscosity", "pressure_weights", "surface_tension"}) {
+    if (ida && table.has(key)) table.fail(key, "is given", "formulation = \"ida\" has none: remove it");
+    if (solid && key != "viscosity" && table.has(key))
+      table.fail(key, "is given", "it is for scenes without solids: remove it");
+  }
   table.finish();
 }
 

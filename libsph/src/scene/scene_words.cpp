@@ -12,6 +12,16 @@ const Choices<Precision>& precision_words() {
   static const Choices<Precision> words{{"double", Precision::double_}, {"mixed", Precision::mixed}};
   return words;
 }
+const Choices<PressureWeights>& pressure_weights_words() {
+  static const Choices<PressureWeights> words{{"volume", PressureWeights::volume},
+                                              {"density", PressureWeights::density}};
+  return words;
+}
+const Choices<ViscousForm>& viscous_words() {
+  static const Choices<ViscousForm> words{{"laplacian", ViscousForm::laplacian},
+                                          {"symmetric", ViscousForm::symmetric}};
+  return words;
+}
 const Choices<KernelShape>& kernel_words() {
   static const Choices<KernelShape> words{{"quintic", KernelShape::quintic},
                                           {"wendland_c2", KernelShape::wendland_c2},

@@ -20,23 +20,35 @@ const Group& first_fluid(const Scene& scene) {
   return scene.groups.front();
 }
 
-/// Pressure above the surface pressure. Hydrostatic: of the first fluid at depth d below the surface,
-/// dp/dd = rho g with rho = rho_0 (1 + p/K): p = (K + p_surface) (exp(rho_0 g d / K) - 1).
+/// Of still layers, above the surface pressure: in each dp/dd = rho g along the depth d with
+/// rho = rho_0 (1 + p/K), hence p = (K + p_top) (exp(rho_0 g (d - d_top) / K) - 1) + p_top.
+double hydrostatic_pressure(const Scene& scene, const Double3& x) {
+  double g2 = 0, height = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    g2 += scene.gravity[a] * scene.gravity[a];
+    height -= scene.gravity[a] * x[a];
+  }
+  const double g = std::sqrt(g2);
+  if (g == 0) return 0;
+  height /= g;
+  const std::vector<Layer>& layers = scene.start.layers;
+  double top = 0;  // pressure
+  for (std::size_t k = 0;; ++k) {
+    const bool within = k + 1 == layers.size() || height >= layers[k + 1].top;
+    const Group& fluid = scene.groups[static_cast<std::size_t>(layers[k].group)];
+    const double depth = layers[k].top - (within ? height : layers[k + 1].top);
+    const double grown = (fluid.bulk_modulus + scene.surface_pressure + top) *
+                         (exact_exp(fluid.density * g * depth / fluid.bulk_modulus) - 1);
+    if (within) return top + grown;
+    top += grown;
+  }
+}
+
+/// Pressure above the surface pressure.
 double initial_pressure(const Scene& scene, const Double3& x) {
   switch (scene.start.pressure) {
-    case InitialPressure::hydrostatic: {
-      double g2 = 0, height = 0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        g2 += scene.gravity[a] * scene.gravity[a];
-        height -= scene.gravity[a] * x[a];
-      }
-      const double g = std::sqrt(g2);
-      if (g == 0) return 0;
-      const double depth = scene.start.surface_height - height / g;
-      const Group& fluid = first_fluid(scene);
-      return (fluid.bulk_modulus + scene.surface_pressure) *
-             (exact_exp(fluid.density * g * depth / fluid.bulk_modulus) - 1);
-    }
+    case InitialPressure::hydrostatic:
+      return hydrostatic_pressure(scene, x);
     case InitialPressure::taylor_green: {
       const double k = 4 * std::numbers::pi / scene.start.flow_length;
       const double u = scene.start.flow_speed;

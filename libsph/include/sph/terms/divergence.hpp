@@ -21,6 +21,26 @@ struct Divergence {
   }
 };
 
+/// The adjoint of WeightedPressure, so that pressure does the work that compression takes: each partner
+/// counts 2 rho_j / (rho_i + rho_j) times. Without it an interface of 1:1000 at rest gains energy.
+struct WeightedDivergence {
+  static constexpr Term term = Term::weighted_divergence;
+  static constexpr ValueSet reads{Value::volume, Value::velocity, Value::density, Value::mover};
+  static constexpr Field writes = Field::divergence;
+  static constexpr bool half_step_back = true;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    V t = V::zero();
+    for (int k = 0; k < P::dim; ++k)
+      t += (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)) * p.e[k];
+    const V mover = p.template j<Value::mover>(), rho_j = p.template j<Value::density>();
+    const V weight = where_equal(mover, V(1), (rho_j + rho_j) / (p.template i<Value::density>() + rho_j)) +
+                     where_equal(mover, V::zero(), V(1));
+    sums.template add<Field::divergence>(0, weight * p.template j<Value::volume>() * p.f * t);
+  }
+};
+
 struct VelocityGradient {
   static constexpr Term term = Term::velocity_gradient;
   static constexpr ValueSet reads{Value::volume, Value::velocity};

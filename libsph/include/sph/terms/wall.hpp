@@ -25,4 +25,27 @@ struct WallExtrapolation {
   }
 };
 
+/// Where fluids of two densities meet at a wall there is no one pressure to extrapolate: a head of the
+/// heavier fluid would throw the lighter away. Lighter and heavier ones each have their own.
+struct WallExtrapolationByDensity {
+  static constexpr Term term = Term::wall_extrapolation_by_density;
+  static constexpr ValueSet reads{Value::pressure, Value::density, Value::mover, Value::heavy};
+  static constexpr Field writes = Field::wall_sums_by_density;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
+    V head = V::zero();
+    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
+    const V wp = w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head);
+    for (int k = 0; k < 2; ++k) {
+      const V wanted(static_cast<typename P::Scalar>(k));
+      sums.template add<Field::wall_sums_by_density>(2 * k,
+                                                     where_equal(p.template j<Value::heavy>(), wanted, w));
+      sums.template add<Field::wall_sums_by_density>(2 * k + 1,
+                                                     where_equal(p.template j<Value::heavy>(), wanted, wp));
+    }
+  }
+};
+
 }  // namespace sph
