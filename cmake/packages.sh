@@ -8,7 +8,7 @@ packages="g++ cmake ninja-build pkg-config git
   libfmt-dev nlohmann-json3-dev libxxhash-dev libsleef-dev
   python3 python3-h5py python3-matplotlib python3-numpy python3-pil"
 if [ "${1-}" = tests ]; then
-  packages="$packages clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev"
+  packages="$packages clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy"
 fi
 
 missing=

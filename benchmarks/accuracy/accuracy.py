@@ -20,7 +20,7 @@ import numpy as np  # noqa: E402
 
 from runs import Runner, source, write_start  # noqa: E402
 
-CASES = ("taylor_green", "taylor_green_1000", "poiseuille", "cavity", "cavity_1000", "hydrostatic", "two_layers",
+CASES = ("taylor_green", "taylor_green_1000", "poiseuille", "cavity", "cavity_1000", "hydrostatic", "two_layers", "rayleigh_taylor",
          "rising_bubble", "rising_bubble_2", "elliptic_drop", "dam_break",
          "rotating_patch")
 

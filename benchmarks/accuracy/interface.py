@@ -2,7 +2,8 @@
 
 The shares of the two fluids, smoothed with the kernel and divided by their sum, are 1/2 on the interface. It is drawn on
 a grid of half a spacing. A lattice cut by a circle makes steps, which are measured as 1 % more length; on particles
-that have moved into place the circle's length is length of a circle is met to 0.1 % at 20 along the radius, its area to 0.2 % (tests/accuracy/test_interface.py).
+that follow the interface the length of a circle of 20 spacings is met to 0.1 %, its area to 0.2 %
+(tests/accuracy/test_interface.py).
 """
 
 import contourpy
