@@ -40,6 +40,8 @@ std::string name_of(Term term) {
       return "DensityDiffusion";
     case Term::uniform_density_diffusion:
       return "UniformDensityDiffusion";
+    case Term::pulled_density_diffusion:
+      return "PulledDensityDiffusion";
     case Term::shifting:
       return "Shifting";
     case Term::wall_extrapolation:

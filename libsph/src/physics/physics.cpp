@@ -98,6 +98,9 @@ void Physics::set_sph_constants() {
   row_scale_.position_unit = unit / h;
   row_scale_.inverse_volume = 1 / volume;
   row_scale_.inverse_h = 1 / h;
+  row_scale_.quantum = scale_.quantum;
+  row_scale_.pull = scene.central_pull;
+  for (std::size_t a = 0; a < 3; ++a) row_scale_.pull_centre[a] = scene.pull_centre[a];
 
   for (const Group& g : scene.groups) {
     groups_.viscosity.push_back(g.viscosity);
@@ -150,8 +153,10 @@ void Physics::build_conservative() {
   const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
   const bool single = movers == 1 && !walls && !s.has_bubbly();
 
-  std::vector<Term> kinematics{solid ? Term::velocity_gradient : Term::divergence,
-                               single && !solid ? Term::uniform_density_diffusion : Term::density_diffusion};
+  const Term diffusion = s.central_pull > 0 ? Term::pulled_density_diffusion
+                         : single && !solid ? Term::uniform_density_diffusion
+                                            : Term::density_diffusion;
+  std::vector<Term> kinematics{solid ? Term::velocity_gradient : Term::divergence, diffusion};
   if (s.terms.shifting) kinematics.push_back(Term::shifting);
   add_pass("kinematics", kinematics, true, false);
   passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {

@@ -18,7 +18,10 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
   out.number("viscosity", g.viscosity);
   out.number("bulk_viscosity", g.bulk_viscosity);
   if (g.kind == GroupKind::solid) out.number("shear_modulus", g.shear_modulus);
-  if (g.kind == GroupKind::wall) out.vector("velocity", g.wall_velocity);
+  if (g.kind == GroupKind::wall && g.slip)
+    out.flag("slip", true);
+  else if (g.kind == GroupKind::wall)
+    out.vector("velocity", g.wall_velocity);
   if (g.eos != EosKind::bubbly) return;
   out.number("gas_content", g.gas_content);
   out.number("gas_rt", g.gas_rt);
@@ -100,6 +103,10 @@ void write_start(SceneWriter& out, const Scene& scene) {
 }
 
 void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
+  if (scene.central_pull > 0) {
+    out.number("central_pull", scene.central_pull);
+    out.vector("pull_centre", scene.pull_centre);
+  }
   out.number("surface_pressure", scene.surface_pressure);
   out.header("[kernel]");
   out.text("shape", word(kernel_words(), scene.kernel));
