@@ -12,6 +12,8 @@ FORMULATIONS = {
     "mixed": ("precision=mixed",),
     "no shifting": ("terms.shifting=false",),
     "no diffusion": ("terms.density_diffusion=0",),
+    "h = dx": ("kernel.h_over_dx=1.0",),
+    "Wendland C4, h = 2 dx": ("kernel.shape=wendland_c4", "kernel.h_over_dx=2.0"),
     "artificial viscosity 0.02": ("terms.artificial_viscosity=0.02",),
     "ida": ("formulation=ida", "terms.shifting=", "terms.density_diffusion="),
 }
