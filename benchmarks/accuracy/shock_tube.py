@@ -14,6 +14,7 @@ FORMULATIONS = {
     "alpha = 1": ("terms.artificial_viscosity=1",),
     "h = 1.2 dx": ("kernel.h_over_dx=1.2",),
     "h = 0.8 dx": ("kernel.h_over_dx=0.8",),
+    "delta = 0.1": ("terms.density_diffusion=0.1",),
     "no diffusion": ("terms.density_diffusion=0",),
     "shifting": ("terms.shifting=true",),
     "ida": ("formulation=ida", "terms.density_diffusion="),
