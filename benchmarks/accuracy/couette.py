@@ -21,7 +21,8 @@ def settings(n):
 def exact(y, t):
     n = np.arange(1, 200)
     k = n * np.pi / LENGTH
-    return LID * (y / LENGTH + 2 / np.pi * np.sum((-1.0)**n / n * np.sin(np.outer(y, k)) * np.exp(-VISCOSITY * k**2 * t), axis=1))
+    terms = (-1.0)**n / n * np.sin(np.outer(y, k)) * np.exp(-VISCOSITY * k**2 * t)
+    return LID * (y / LENGTH + 2 / np.pi * np.sum(terms, axis=1))
 
 
 def measure(run):

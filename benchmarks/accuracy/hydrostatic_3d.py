@@ -21,5 +21,5 @@ def settings(n):
             f"domain.upper=[{1 + 1.5 * wall}, 1.6, {depth}]", "domain.periodic=[false, false, true]",
             "domain.gravity=[0, -9.8, 0]", "start.origin=[0, 0, 0]", f"start.lower=[{-wall}, {-wall}, 0]",
             f"start.upper=[{1 + wall}, {1 + wall}, {depth}]", "start.region.1.lower=[0, 0, 0]",
-            f"start.region.1.upper=[1, 1, {depth}]", "start.region.2.lower=[0, 1, 0]", f"start.region.2.upper=[1, 1.6, {depth}]",
-            "time.until=9.583", "output.snapshot_interval=0.8")
+            f"start.region.1.upper=[1, 1, {depth}]", "start.region.2.lower=[0, 1, 0]",
+            f"start.region.2.upper=[1, 1.6, {depth}]", "time.until=9.583", "output.snapshot_interval=0.8")

@@ -1,4 +1,4 @@
-"""Viscous standing wave, Re 500: decay of the kinetic energy against the exact linear theory, 4 nu k^2 to first order."""
+"""Viscous standing wave, Re 500: decay of the amplitude against the exact linear theory, 2 nu k^2 to first order."""
 
 import numpy as np
 from scipy.optimize import curve_fit, root

@@ -1,4 +1,4 @@
-"""Viscous standing wave, Re 2500: decay of the kinetic energy against the exact linear theory."""
+"""Viscous standing wave, Re 2500: decay of the amplitude against the exact linear theory."""
 
 import numpy as np
 

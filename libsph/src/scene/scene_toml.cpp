@@ -46,8 +46,7 @@ struct Tables {
 };
 
 void read_pull(const TableReader& table, Scene& scene) {
-  scene.central_pull =
-      table.number("central_pull", dimension::rate_squared, Bound::not_negative).value_or(0);
+  scene.central_pull = table.number("central_pull", dimension::rate_squared, Bound::not_negative).value_or(0);
   table.only_if(scene.central_pull > 0, "pull_centre", "give central_pull too");
   scene.pull_centre = table.vector("pull_centre", dimension::length, scene.dim).value_or(Double3{});
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
