@@ -21,8 +21,8 @@ import numpy as np  # noqa: E402
 from runs import Runner, source, write_start  # noqa: E402
 
 CASES = ("taylor_green", "taylor_green_1000", "poiseuille", "cavity", "cavity_1000", "hydrostatic", "elliptic_drop",
-         "dam_break", "rotating_patch", "sloshing", "standing_wave", "standing_wave_2500", "oscillating_drop", "acoustic",
-         "gresho", "shock_tube", "shock_tube_10", "couette", "taylor_green_3d", "hydrostatic_3d", "dam_break_3d")
+         "dam_break", "rotating_patch", "sloshing", "standing_wave", "standing_wave_2500", "oscillating_drop",
+         "acoustic", "gresho", "shock_tube", "shock_tube_10", "couette", "taylor_green_3d", "hydrostatic_3d", "dam_break_3d")
 
 
 def order(sizes, errors):

@@ -37,6 +37,7 @@ def measure(run, rows=1):
     series = run.series()
     energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
     return {"front ahead of the experiment / a": lead, "front: largest error of dZ/dT":
-            np.abs(np.diff(ours) / np.diff(Z) - 1).max(), "front, shifted by it: largest error": np.abs((ours - lead) / Z - 1).max(),
+            np.abs(np.diff(ours) / np.diff(Z) - 1).max(),
+            "front, shifted by it: largest error": np.abs((ours - lead) / Z - 1).max(),
             "energy / first": energy[-1] / energy[0],
             "largest rise of energy": np.max(energy - np.minimum.accumulate(energy)) / energy[0]}
