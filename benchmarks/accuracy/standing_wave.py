@@ -15,9 +15,10 @@ OMEGA = np.sqrt(GRAVITY * K * np.tanh(K))
 FORMULATIONS = {
     "default": (),
     "mixed": ("precision=mixed",),
+    "laplacian viscosity": ("terms.viscosity=laplacian",),
     "no-slip floor": ("group.floor.slip=",),
     "no diffusion": ("terms.density_diffusion=0",),
-    "ida": ("formulation=ida", "terms.density_diffusion=", "group.floor.slip="),
+    "ida": ("formulation=ida", "terms.viscosity=", "terms.density_diffusion=", "group.floor.slip="),
 }
 
 
@@ -56,7 +57,10 @@ def measure(run, reynolds=REYNOLDS):
     series = run.series()
     decay, omega = theory(reynolds)
     t, kinetic = series["t"], series["energy_kinetic"]
-    fit, _ = curve_fit(energy, t, kinetic, (kinetic[0], decay, omega, 0, 0))
+    try:
+        fit, _ = curve_fit(energy, t, kinetic, (kinetic[0], decay, omega, 0, 0))
+    except RuntimeError:  # no wave is left
+        return {"decay rate": np.nan}
     first_order = 2 * np.sqrt(GRAVITY) / reynolds * K**2
     return {"decay rate": abs(fit[1] / decay - 1), "decay / 2 nu k^2": fit[1] / first_order,
             "theory / 2 nu k^2": decay / first_order, "period": omega / fit[2] - 1,

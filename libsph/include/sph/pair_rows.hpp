@@ -19,6 +19,7 @@ enum class Term : std::uint8_t {
   pressure,
   viscosity,
   uniform_viscosity,
+  radial_viscosity,
   stress_divergence,
   artificial_viscosity,
   divergence,

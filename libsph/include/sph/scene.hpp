@@ -80,9 +80,12 @@ struct Start {
   friend bool operator==(const Start&, const Start&) = default;
 };
 
+enum class ViscosityForm { laplacian, radial };
+
 struct Terms {
   double density_diffusion = 0.1;   ///< delta
   double artificial_viscosity = 0;  ///< alpha
+  ViscosityForm viscosity = ViscosityForm::laplacian;
   bool shifting = false;
   friend bool operator==(const Terms&, const Terms&) = default;
 };

@@ -57,6 +57,8 @@ struct FusionList {
     for (auto& more : {fluids<WendlandC2>(), fluids<WendlandC4>()})
       list.insert(list.end(), more.begin(), more.end());
     for (Fusion f : {
+             fuse<Quintic, Pressure, RadialViscosity>(),
+             fuse<Quintic, Pressure, RadialViscosity, ArtificialViscosity>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion, Shifting>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),

@@ -28,6 +28,8 @@ std::string name_of(Term term) {
       return "Viscosity";
     case Term::uniform_viscosity:
       return "UniformViscosity";
+    case Term::radial_viscosity:
+      return "RadialViscosity";
     case Term::stress_divergence:
       return "StressDivergence";
     case Term::artificial_viscosity:

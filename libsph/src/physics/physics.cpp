@@ -175,8 +175,10 @@ void Physics::build_conservative() {
     passes_.back().changes = {Field::pressure, Field::velocity};
   }
 
-  std::vector<Term> forces{solid ? Term::stress_divergence : Term::pressure,
-                           uniform_viscosity && !solid ? Term::uniform_viscosity : Term::viscosity};
+  const Term viscous = s.terms.viscosity == ViscosityForm::radial ? Term::radial_viscosity
+                       : uniform_viscosity && !solid              ? Term::uniform_viscosity
+                                                                  : Term::viscosity;
+  std::vector<Term> forces{solid ? Term::stress_divergence : Term::pressure, viscous};
   if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
   add_pass("forces", forces, true, false);
 }
@@ -218,6 +220,7 @@ double Physics::time_step(const StepMaxima& maxima) const {
     fastest = std::max(fastest, groups_.sound_speed[g]);
     viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
   }
+  if (scene_->terms.viscosity == ViscosityForm::radial) viscous *= 3;  // nu (lap v + 2 grad div v)
   double dt = scene_->time.cfl * h / (fastest + maxima.speed);
   if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
   if (maxima.acceleration > 0) dt = std::min(dt, 0.25 * std::sqrt(h / maxima.acceleration));

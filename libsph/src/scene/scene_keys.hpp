@@ -55,7 +55,7 @@ inline constexpr auto start_list =
 inline constexpr auto region_list =
     std::to_array<Word>({"group", "shape", "lower", "upper", "centre", "radius"});
 inline constexpr auto terms_list =
-    std::to_array<Word>({"density_diffusion", "artificial_viscosity", "shifting"});
+    std::to_array<Word>({"density_diffusion", "artificial_viscosity", "viscosity", "shifting"});
 inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
 inline constexpr auto decomposition_list =
     std::to_array<Word>({"cut_axes", "skin", "rebuild_every", "overlap", "balance", "cost", "chaos_seed",

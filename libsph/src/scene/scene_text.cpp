@@ -116,6 +116,8 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
   out.header("[terms]");
   out.number("density_diffusion", scene.terms.density_diffusion);
   out.number("artificial_viscosity", scene.terms.artificial_viscosity);
+  if (scene.formulation != Formulation::ida)
+    out.text("viscosity", word(viscosity_words(), scene.terms.viscosity));
   out.flag("shifting", scene.terms.shifting);
 }
 

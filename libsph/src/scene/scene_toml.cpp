@@ -105,6 +105,8 @@ void read_terms(const TableReader& table, Scene& scene) {
                                 .value_or(terms.density_diffusion);
   terms.artificial_viscosity =
       table.number("artificial_viscosity", dimension::none, Bound::not_negative).value_or(0);
+  terms.viscosity = table.choice("viscosity", viscosity_words()).value_or(terms.viscosity);
+  table.only_if(!ida, "viscosity", "formulation = \"ida\" has its own");
   terms.shifting = table.flag("shifting").value_or(false);
   if (ida && terms.density_diffusion != 0)
     table.fail("density_diffusion", fmt::format("is {}", terms.density_diffusion),

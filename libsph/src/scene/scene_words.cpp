@@ -12,6 +12,11 @@ const Choices<Precision>& precision_words() {
   static const Choices<Precision> words{{"double", Precision::double_}, {"mixed", Precision::mixed}};
   return words;
 }
+const Choices<ViscosityForm>& viscosity_words() {
+  static const Choices<ViscosityForm> words{{"laplacian", ViscosityForm::laplacian},
+                                            {"radial", ViscosityForm::radial}};
+  return words;
+}
 const Choices<KernelShape>& kernel_words() {
   static const Choices<KernelShape> words{{"quintic", KernelShape::quintic},
                                           {"wendland_c2", KernelShape::wendland_c2},
