@@ -12,7 +12,7 @@ import numpy as np
 here = Path(__file__).resolve().parent
 source = here.parent.parent
 sys.path.append(str(source / "benchmarks"))
-from speed import log_of, run_scene  # noqa: E402
+from speed import environment, log_of, run_scene  # noqa: E402, F401
 
 
 class Snapshot:

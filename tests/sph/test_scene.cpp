@@ -251,8 +251,9 @@ TEST(Scene, EveryOptionRoundTrips) {
   const sph::Scene s = parse(small, options);
   EXPECT_EQ(s.name, "a \"quoted\\title\"");
   EXPECT_EQ(parse(sph::to_toml(s)), s);
-  const sph::Scene slips = parse(small, {"group.0.slip=true"});
+  const sph::Scene slips = parse(small, {"group.0.slip=true", "terms.viscosity=radial"});
   EXPECT_TRUE(slips.groups[0].slip);
+  EXPECT_EQ(slips.terms.viscosity, sph::ViscosityForm::radial);
   EXPECT_EQ(parse(sph::to_toml(slips)), slips);
 }
 
