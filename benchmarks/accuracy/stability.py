@@ -45,7 +45,9 @@ CASES = {
     "tank": ("hydrostatic", 25, ("time.until=10",), kinetic_of_tank, 1e-4),
     "dam break": ("dam_break", 20, (), rise, 0.02),
     "elliptic drop": ("elliptic_drop", 25, (), rise, 0.02),
-    "oscillating drop": ("oscillating_drop", 12, (), rise, 0.05),
+    # Of the drop held by a pull the total energy does rise, at any time step, by 12, 6 and 2 % of the first kinetic
+    # energy at 12, 25 and 50 particles a radius: shifting lifts particles against the pull.
+    "oscillating drop": ("oscillating_drop", 12, (), kinetic, 1.02),
     "patch": ("rotating_patch", 50, (), kinetic, 1.02),
     "cylinder": (source / "apps/buoyant_cylinder/fluid_fine.toml", 0,
                  ("time.dt=", "time.until=3", "output.snapshot_interval=0", "output.series_interval=0.05"), rise, 0.02),
