@@ -20,9 +20,10 @@ import numpy as np  # noqa: E402
 
 from runs import Runner, source, write_start  # noqa: E402
 
-CASES = ("taylor_green", "taylor_green_1000", "poiseuille", "cavity", "cavity_1000", "hydrostatic", "two_layers", "rayleigh_taylor",
-         "rising_bubble", "rising_bubble_2", "elliptic_drop", "dam_break",
-         "rotating_patch")
+CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "poiseuille", "couette", "cavity", "cavity_1000",
+         "hydrostatic", "hydrostatic_3d", "two_layers", "rayleigh_taylor", "rising_bubble", "rising_bubble_2",
+         "elliptic_drop", "oscillating_drop", "rotating_patch", "dam_break", "dam_break_3d", "sloshing", "standing_wave",
+         "standing_wave_2500", "acoustic", "shock_tube", "shock_tube_10")
 
 
 def order(sizes, errors):

@@ -21,8 +21,10 @@ FORMULATIONS = {
 
 
 def exact(position, decay):
-    x, y = 2 * np.pi * position.T
-    return decay * np.column_stack((-np.cos(x) * np.sin(y), np.sin(x) * np.cos(y)))
+    """In 3D the same flow at all heights."""
+    x, y = 2 * np.pi * position.T[:2]
+    still = [0 * x] * (position.shape[1] - 2)
+    return decay * np.column_stack((-np.cos(x) * np.sin(y), np.sin(x) * np.cos(y), *still))
 
 
 def measure(run, viscosity=0.01):
@@ -35,7 +37,7 @@ def measure(run, viscosity=0.01):
         l1 = away.sum() / np.linalg.norm(u, axis=1).sum()
         l2 = np.sqrt((away**2).sum() / (u**2).sum())
         worst = max(worst, l1)
-        energy = s.kinetic / (0.25 * decay**2)
+        energy = s.kinetic / (0.25 * decay**2 * s.mass.sum())
         if at_one is None and s.time >= 1:
             at_one = l2
     return {"L2 at t = 1": at_one, "largest L1 to t = 2": worst, "kinetic energy / exact at t = 2": energy}

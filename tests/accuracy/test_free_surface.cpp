@@ -61,6 +61,82 @@ TEST(FreeSurface, EllipticDrop) {
   EXPECT_NEAR(a * b / (a0 * b0), 1, 0.015);
 }
 
+// Held by a pull towards its centre the drop swings (accuracy.md A11): the kinetic energy peaks when it is a
+// circle again, half a period of 4.567374 s after the start.
+TEST(FreeSurface, OscillatingDrop) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s =
+      start(comm, "oscillating_drop.toml", 25, [](double x, double y, double& vx, double& vy, double& rho) {
+        vx = 0.5 * x, vy = -0.5 * y;
+        const double r2 = x * x + y * y;
+        rho = 1000 + 0.5 * 1000 * 1.25 * (1 - r2) / (10.0 * 10);
+        return r2 < 1;
+      });
+  std::vector<double> time, energy;
+  measure::run_until(s, 4.8, [&] {
+    double e = 0;
+    for (const measure::Sample& q : measure::samples(s)) e += q.v[0] * q.v[0] + q.v[1] * q.v[1];
+    time.push_back(s.global().time), energy.push_back(e);
+  });
+  // The middle of the second peak at half of its height, free of the ripples of sound on top.
+  const double top = *std::max_element(energy.begin(), energy.end());
+  double rise = 0, fall = 0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    if (time[k] < 1.2 || time[k] > 3.4) continue;
+    const double cross =
+        time[k] - (time[k] - time[k - 1]) * (energy[k] - 0.5 * top) / (energy[k] - energy[k - 1]);
+    if (energy[k - 1] < 0.5 * top && energy[k] >= 0.5 * top) rise = cross;
+    if (energy[k - 1] >= 0.5 * top && energy[k] < 0.5 * top) fall = cross;
+  }
+  std::printf("oscillating drop, R/dx = 25: half a period %.4f s (exact 2.2837)\n", 0.5 * (rise + fall));
+  EXPECT_NEAR(0.5 * (rise + fall), 0.5 * 4.567374, 0.005 * 2.2837);
+}
+
+// A gravity wave in viscous water over a floor that slips (A15, Re 500, H/dx = 25): all its damping is due to
+// the surface that bears no traction. The rate 0.9249 * 2 nu k^2 and the period are those of (s + 2 nu k^2)^2
+// + omega^2 = 4 nu^2 k^4 sqrt(1 + s / nu k^2), Lamb's Hydrodynamics, article 349.
+TEST(FreeSurface, ViscousStandingWave) {
+  constexpr int n = 25, layers = 4;
+  constexpr double pi = std::numbers::pi, g = 9.81, amplitude = 0.03;
+  const double omega = std::sqrt(g * pi * std::tanh(pi)), rate = 0.92489 * 2 * std::sqrt(g) / 500 * pi * pi;
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("peperite_wave_" + std::to_string(getpid()) + ".csv");
+  {
+    std::ofstream csv(file);
+    csv.precision(17);
+    csv << "id,x,y,vx,vy,group\n";
+    int id = 0;
+    for (int i = 0; i < 2 * n; ++i)
+      for (int j = -layers; j < n; ++j) {
+        const double x = (i + 0.5) / n, y = (j + 0.5) / n,
+                     speed = j < 0 ? 0 : amplitude * omega / std::sinh(pi);
+        csv << ++id << ',' << x << ',' << y << ',' << -speed * std::sin(pi * x) * std::cosh(pi * y) << ','
+            << speed * std::cos(pi * x) * std::sinh(pi * y) << ',' << (j < 0) << '\n';
+      }
+  }
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s(comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/standing_wave.toml",
+                                          {"start.file=" + file.string(), "start.spacing=0.04"}));
+  std::filesystem::remove(file);
+  const double period = 2 * pi / omega;
+  double largest = 0, at = 0;
+  const auto energy = [&s] {
+    double e = 0;
+    for (const measure::Sample& q : measure::samples(s)) e += q.v[0] * q.v[0] + q.v[1] * q.v[1];
+    return e;
+  };
+  const double first = energy();
+  measure::run_until(s, 1.9 * period);
+  measure::run_until(s, 2.1 * period, [&] {
+    if (const double e = energy(); e > largest) largest = e, at = s.global().time;
+  });
+  const double found = 0.5 * std::log(first / largest) / at;
+  std::printf("viscous standing wave, H/dx = 25: decay %.4f 1/s (theory %.4f), period %.4f s (%.4f)\n", found,
+              rate, at / 2, period / 0.99834);
+  EXPECT_NEAR(found, rate, 0.05 * rate);
+  EXPECT_NEAR(at / 2, period / 0.99834, 0.01 * period);
+}
+
 TEST(FreeSurface, RotatingPatch) {
   const decomp::Comm comm(MPI_COMM_SELF);
   sph::Simulation s =

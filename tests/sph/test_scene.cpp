@@ -251,6 +251,20 @@ TEST(Scene, EveryOptionRoundTrips) {
   const sph::Scene s = parse(small, options);
   EXPECT_EQ(s.name, "a \"quoted\\title\"");
   EXPECT_EQ(parse(sph::to_toml(s)), s);
+  const sph::Scene slips = parse(small, {"group.0.slip=true", "terms.viscosity=symmetric"});
+  EXPECT_TRUE(slips.groups[0].slip);
+  EXPECT_EQ(slips.terms.viscosity, sph::ViscosityForm::symmetric);
+  EXPECT_EQ(parse(sph::to_toml(slips)), slips);
+}
+
+TEST(Scene, CentralPullRoundTrips) {
+  std::ifstream in(accuracy_dir / "oscillating_drop.toml");
+  const std::string drop((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  EXPECT_EQ(parse(drop).central_pull, 1);
+  const sph::Scene s = parse(drop, {"domain.central_pull=\"0.3 1/s2\"", "domain.pull_centre=[0.5, 0.25]"});
+  const sph::Scene again = parse(sph::to_toml(s));
+  EXPECT_EQ(again.central_pull, 0.3);
+  EXPECT_EQ(again.pull_centre, (sph::Double3{0.5, 0.25, 0}));
 }
 
 TEST(Scene, RoundTripKeepsEveryBitOfDoubles) {

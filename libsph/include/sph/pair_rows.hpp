@@ -29,6 +29,7 @@ enum class Term : std::uint8_t {
   velocity_gradient,
   density_diffusion,
   uniform_density_diffusion,
+  pulled_density_diffusion,
   shifting,
   colour_gradient,
   surface_tension,
@@ -53,6 +54,7 @@ enum class Value : std::uint8_t {
   pressures,    ///< for lighter and for heavier partners: of walls they differ [Pa]
   side,         ///< of the interface with tension: 1 or -1, 0 elsewhere
   capillary,    ///< surface stress sigma (I - n n) |grad C| [Pa]
+  potential,    ///< of the central pull [m^2/s^2]
   count_
 };
 
@@ -129,6 +131,9 @@ struct RowScale {
   double position_unit;   ///< length of one unit of a row's position / h
   double inverse_volume;  ///< 1 / spacing^D
   double inverse_h;       ///< 1 / h
+  double quantum = 0;     ///< of the positions [m]
+  double pull = 0;        ///< Scene::central_pull [1/s^2]
+  double pull_centre[3]{};
 };
 
 /// Fills rows [first, last) of `rows`.
@@ -168,6 +173,14 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
       put(Value::sound_speed, 0, sound != nullptr ? sound[i] : groups.sound_speed[group[i]]);
     if constexpr (S.has(Value::phase)) put(Value::phase, 0, static_cast<double>(group[i]));
     if constexpr (S.has(Value::mover)) put(Value::mover, 0, groups.mover[group[i]]);
+    if constexpr (S.has(Value::potential)) {
+      double square = 0;
+      for (int k = 0; k < D; ++k) {
+        const double away = static_cast<double>(x[i * D + k]) * scale.quantum - scale.pull_centre[k];
+        square += away * away;
+      }
+      put(Value::potential, 0, 0.5 * scale.pull * square);
+    }
     if constexpr (S.has(Value::stress)) {
       constexpr int n = components(Value::stress, D);
       for (int k = 0; k < n; ++k) put(Value::stress, k, stress[i * n + k] - (k < D ? pressure[i] : 0.0));

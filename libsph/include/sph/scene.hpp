@@ -38,6 +38,7 @@ struct Group {
   std::optional<double> fragmentation_void_fraction;  ///< psi_f: above it a particle joins fragments_to
   int fragments_to = -1;                              ///< index of the spray group, -1 if none
   Double3 wall_velocity{};  ///< walls: of the material, the particles stay where they are [m/s]
+  bool slip = false;        ///< walls: no shear on what flows past
   GrainMaterial grain;      ///< kind = grain; of the values above it has name, density and wall_velocity
   friend bool operator==(const Group&, const Group&) = default;
 };
@@ -97,13 +98,13 @@ struct InterfaceTension {
 /// How the pressures of a pair are summed: p_i + p_j, or each weighted by the other's density.
 enum class PressureWeights { volume, density };
 /// See sph/terms/viscosity.hpp.
-enum class ViscousForm { laplacian, symmetric };
+enum class ViscosityForm { laplacian, symmetric };
 
 struct Terms {
   double density_diffusion = 0.1;   ///< delta
   double artificial_viscosity = 0;  ///< alpha
   bool shifting = false;
-  ViscousForm viscosity = ViscousForm::laplacian;
+  ViscosityForm viscosity = ViscosityForm::laplacian;
   PressureWeights pressure_weights = PressureWeights::volume;
   InterfaceTension surface_tension;
   friend bool operator==(const Terms&, const Terms&) = default;
@@ -174,6 +175,8 @@ struct Scene {
   Double3 lower{}, upper{};     ///< domain [m]
   std::array<bool, 3> periodic{};
   Double3 gravity{};            ///< [m/s^2]
+  double central_pull = 0;      ///< acceleration towards pull_centre over the distance from it [1/s^2]
+  Double3 pull_centre{};        ///< [m]
   double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
   std::vector<Group> groups;
   ContactControl contact;  ///< grains only, as are walls and stages

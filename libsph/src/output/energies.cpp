@@ -61,6 +61,8 @@ double potential_energy(const Scene& scene, const ParticleValues& of, std::size_
   for (int axis = 0; axis < scene.dim; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     work += scene.gravity[a] * of.position(row, a);
+    const double away = of.position(row, a) - scene.pull_centre[a];
+    work -= 0.5 * scene.central_pull * (away * away);
   }
   return -of.mass(row) * work;
 }

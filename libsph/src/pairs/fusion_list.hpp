@@ -66,6 +66,8 @@ struct FusionList {
              fuse<Quintic, WeightedDivergence, DensityDiffusion, ColourGradient>(),
              fuse<Quintic, WeightedDivergence, DensityDiffusion, Shifting, ColourGradient>(),
              fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
+             fuse<Quintic, Divergence, PulledDensityDiffusion>(),
+             fuse<Quintic, Divergence, PulledDensityDiffusion, Shifting>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),

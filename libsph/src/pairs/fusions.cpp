@@ -46,6 +46,8 @@ std::string name_of(Term term) {
       return "DensityDiffusion";
     case Term::uniform_density_diffusion:
       return "UniformDensityDiffusion";
+    case Term::pulled_density_diffusion:
+      return "PulledDensityDiffusion";
     case Term::shifting:
       return "Shifting";
     case Term::colour_gradient:

@@ -120,6 +120,9 @@ void Physics::set_sph_constants() {
   row_scale_.position_unit = unit / h;
   row_scale_.inverse_volume = 1 / volume;
   row_scale_.inverse_h = 1 / h;
+  row_scale_.quantum = scale_.quantum;
+  row_scale_.pull = scene.central_pull;
+  for (std::size_t a = 0; a < 3; ++a) row_scale_.pull_centre[a] = scene.pull_centre[a];
 
   const double divide = density_divide(scene);
   for (const Group& g : scene.groups) {
@@ -177,11 +180,12 @@ void Physics::build_conservative() {
   const bool single = movers == 1 && !walls && !s.has_bubbly();
 
   const bool weighted = s.terms.pressure_weights == PressureWeights::density;
-  std::vector<Term> kinematics{
-      solid      ? Term::velocity_gradient
-      : weighted ? Term::weighted_divergence
-                 : Term::divergence,
-      single && !solid && !weighted ? Term::uniform_density_diffusion : Term::density_diffusion};
+  std::vector<Term> kinematics{solid      ? Term::velocity_gradient
+                               : weighted ? Term::weighted_divergence
+                                          : Term::divergence,
+                               s.central_pull > 0              ? Term::pulled_density_diffusion
+                               : single && !solid && !weighted ? Term::uniform_density_diffusion
+                                                               : Term::density_diffusion};
   if (s.terms.shifting) kinematics.push_back(Term::shifting);
   const bool tension = s.terms.surface_tension.coefficient > 0;
   if (tension) kinematics.push_back(Term::colour_gradient);
@@ -205,7 +209,7 @@ void Physics::build_conservative() {
     passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures};
   }
 
-  const bool symmetric = s.terms.viscosity == ViscousForm::symmetric;
+  const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
   const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
   std::vector<Term> forces{solid      ? Term::stress_divergence
                            : weighted ? Term::weighted_pressure
@@ -255,6 +259,7 @@ double Physics::time_step(const StepMaxima& maxima) const {
     fastest = std::max(fastest, groups_.sound_speed[g]);
     viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
   }
+  if (scene_->terms.viscosity == ViscosityForm::symmetric) viscous *= 3;  // nu (lap v + 2 grad div v)
   double dt = scene_->time.cfl * h / (fastest + maxima.speed);
   if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
   // Capillary waves as long as the layer is thick (Brackbill et al. 1992, eq. 61).

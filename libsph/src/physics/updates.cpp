@@ -119,7 +119,7 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
     const RowRange& r = ranges[static_cast<std::size_t>(c)];
     for (std::size_t i = r.first; i < r.last; ++i) {
       const double* s = sums + i * (2 + d);
-      const Double3& own = scene_->groups[group[i]].wall_velocity;
+      const Group& g = scene_->groups[group[i]];
       const bool wet = s[0] > 0;
       pressure[i] = wet ? s[1] / s[0] : 0.0;
       if (pressures != nullptr)
@@ -127,7 +127,14 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
           const double* of = by_density + 4 * i + 2 * k;
           pressures[2 * i + k] = of[0] > 0 ? of[1] / of[0] : 0.0;
         }
-      for (std::size_t a = 0; a < d; ++a) v[i * d + a] = wet ? 2 * own[a] - s[2 + a] / s[0] : own[a];
+      // Between a fluid and a wall that slips the viscous force is then that of its own mean: no shear. The
+      // velocity across the wall is taken along, though its mirror image would be the exact one: it is small,
+      // because the continuity sum sees the wall at rest, and changes the normal viscous stress alone, which
+      // the pressure balances.
+      for (std::size_t a = 0; a < d; ++a) {
+        const double mean = wet ? s[2 + a] / s[0] : g.wall_velocity[a];
+        v[i * d + a] = g.slip ? mean : wet ? 2 * g.wall_velocity[a] - mean : mean;
+      }
     }
   }
 }
@@ -187,7 +194,8 @@ void Physics::advance(Particles& p, const RowRanges& ranges, double dt) const {
 
 StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const GlobalState& global) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
-  const double dt = global.dt;
+  const double dt = global.dt, pull = scene_->central_pull;
+  const std::int64_t* x = p.data<Field::position>();
   double* v = p.data<Field::velocity>();
   const double* force = p.data<Field::force>();
   const double* mass = p.data<Field::mass>();
@@ -199,6 +207,7 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
     double v2 = 0, a2 = 0;
     for (std::size_t a = 0; a < d; ++a) {
       double acceleration = force[i * d + a] * inverse_mass + scene_->gravity[a];
+      if (pull != 0) acceleration -= pull * (scale_.metres(x[i * d + a]) - scene_->pull_centre[a]);
       if (control != 0) acceleration += control * p.data<Field::spread>()[i * (d + 1) + a];
       v[i * d + a] += acceleration * dt;
       a2 += acceleration * acceleration;

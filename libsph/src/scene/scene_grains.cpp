@@ -116,6 +116,8 @@ void refuse_foreign_keys(const SharedTables& t, bool grains) {
   t.top.only_if(!grains, "kernel", "grains act on each other where they touch: there is no kernel");
   t.top.only_if(!grains, "terms", "they are of SPH; grains follow from [contact]");
   t.domain.only_if(!grains, "surface_pressure", "grains have no equation of state");
+  for (const std::string_view key : {"central_pull", "pull_centre"})
+    t.domain.only_if(!grains, key, "it is of fluids");
   t.time.only_if(!grains, "cfl", "grains have no speed of sound; give dt, or neither");
   for (const std::string_view key : {"pressure", "surface_height", "layer", "flow_speed", "flow_length"})
     t.start.only_if(!grains, key, "it is of fluids");

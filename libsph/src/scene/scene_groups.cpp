@@ -91,8 +91,12 @@ Group read_material(const TableReader& table, const std::string& name, GroupKind
   read_gas(table, group);
   table.only_if(kind == GroupKind::wall, "velocity",
                 "only groups with kind = \"wall\" have it; movers start with start.velocity");
-  if (kind == GroupKind::wall)
+  table.only_if(kind == GroupKind::wall, "slip", "only groups with kind = \"wall\" have it");
+  if (kind == GroupKind::wall) {
     group.wall_velocity = table.vector("velocity", dimension::speed, dim).value_or(Double3{});
+    group.slip = table.flag("slip").value_or(false);
+    table.only_if(!group.slip, "velocity", "a wall with slip = true drags nothing along");
+  }
   return group;
 }
 

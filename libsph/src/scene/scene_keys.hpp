@@ -21,8 +21,8 @@ inline constexpr auto top_list = std::to_array<Word>(
     {"title", "dimension", "formulation", "precision", "kernel", "domain", "group", "start", "terms", "time",
      "decomposition", "output", "monitor", "contact", "wall", "stage"});
 inline constexpr auto kernel_list = std::to_array<Word>({"shape", "smoothing_length", "h_over_dx"});
-inline constexpr auto domain_list =
-    std::to_array<Word>({"lower", "upper", "periodic", "gravity", "surface_pressure"});
+inline constexpr auto domain_list = std::to_array<Word>(
+    {"lower", "upper", "periodic", "gravity", "central_pull", "pull_centre", "surface_pressure"});
 inline constexpr auto group_list = std::to_array<Word>({"name",
                                                         "kind",
                                                         "eos",
@@ -39,6 +39,7 @@ inline constexpr auto group_list = std::to_array<Word>({"name",
                                                         "solubility_exponent",
                                                         "fragmentation",
                                                         "velocity",
+                                                        "slip",
                                                         "diameter",
                                                         "young_modulus",
                                                         "normal_stiffness",

@@ -18,7 +18,10 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
   out.number("viscosity", g.viscosity);
   out.number("bulk_viscosity", g.bulk_viscosity);
   if (g.kind == GroupKind::solid) out.number("shear_modulus", g.shear_modulus);
-  if (g.kind == GroupKind::wall) out.vector("velocity", g.wall_velocity);
+  if (g.kind == GroupKind::wall && g.slip)
+    out.flag("slip", true);
+  else if (g.kind == GroupKind::wall)
+    out.vector("velocity", g.wall_velocity);
   if (g.eos != EosKind::bubbly) return;
   out.number("gas_content", g.gas_content);
   out.number("gas_rt", g.gas_rt);
@@ -105,6 +108,10 @@ void write_start(SceneWriter& out, const Scene& scene) {
 }
 
 void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
+  if (scene.central_pull > 0) {
+    out.number("central_pull", scene.central_pull);
+    out.vector("pull_centre", scene.pull_centre);
+  }
   out.number("surface_pressure", scene.surface_pressure);
   out.header("[kernel]");
   out.text("shape", word(kernel_words(), scene.kernel));
@@ -116,7 +123,7 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
   out.number("artificial_viscosity", scene.terms.artificial_viscosity);
   out.flag("shifting", scene.terms.shifting);
   if (scene.formulation == Formulation::ida) return;
-  out.text("viscosity", word(viscous_words(), scene.terms.viscosity));
+  out.text("viscosity", word(viscosity_words(), scene.terms.viscosity));
   if (scene.has_kind(GroupKind::solid)) return;
   out.text("pressure_weights", word(pressure_weights_words(), scene.terms.pressure_weights));
   if (const InterfaceTension& t = scene.terms.surface_tension; t.between[0] >= 0) {

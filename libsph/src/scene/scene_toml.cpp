@@ -46,6 +46,16 @@ struct Tables {
   }
 };
 
+void read_pull(const TableReader& table, Scene& scene) {
+  scene.central_pull = table.number("central_pull", dimension::rate_squared, Bound::not_negative).value_or(0);
+  table.only_if(scene.central_pull > 0, "pull_centre", "give central_pull too");
+  scene.pull_centre = table.vector("pull_centre", dimension::length, scene.dim).value_or(Double3{});
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (scene.central_pull > 0 && scene.periodic[a])
+      table.fail("central_pull", fmt::format("would jump across the period in {}", axis_names[a]),
+                 "use it in domains without periods");
+}
+
 void read_domain(const TableReader& table, Scene& scene) {
   scene.lower = table.required_vector("lower", dimension::length, scene.dim);
   scene.upper = table.required_vector("upper", dimension::length, scene.dim);
@@ -66,6 +76,7 @@ void read_domain(const TableReader& table, Scene& scene) {
     }
   }
   scene.gravity = table.vector("gravity", dimension::acceleration, scene.dim).value_or(Double3{});
+  read_pull(table, scene);
   scene.surface_pressure =
       table.number("surface_pressure", dimension::pressure, Bound::not_negative).value_or(0);
   table.finish();
@@ -119,8 +130,8 @@ void read_terms(const TableReader& table, Scene& scene) {
   const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
     return g.viscosity == scene.groups.front().viscosity;
   });
-  terms.viscosity = table.choice("viscosity", viscous_words())
-                        .value_or(uniform || ida ? ViscousForm::laplacian : ViscousForm::symmetric);
+  terms.viscosity = table.choice("viscosity", viscosity_words())
+                        .value_or(uniform || ida ? ViscosityForm::laplacian : ViscosityForm::symmetric);
   terms.pressure_weights =
       table.choice("pressure_weights", pressure_weights_words()).value_or(terms.pressure_weights);
   if (table.has("surface_tension"))
@@ -195,6 +206,13 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
   check_extent(tables.domain, scene);
   read_kernel(tables.kernel, scene);
   scene.groups = read_groups(tables.top, scene.dim);
+  const std::vector<TableReader> groups = tables.top.tables("group", scene_keys::group);
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (scene.formulation == Formulation::ida && scene.groups[k].slip)
+      groups[k].fail("slip", "is on", "formulation = \"ida\" has none: remove it");
+  if (scene.central_pull > 0 && (scene.has_kind(GroupKind::wall) || scene.has_kind(GroupKind::solid)))
+    tables.domain.fail("central_pull", "acts on fluids alone, and the scene has walls or solids",
+                       "use gravity there");
 }
 
 void read_grains(const Tables& tables, Scene& scene) {

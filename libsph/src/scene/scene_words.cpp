@@ -17,9 +17,9 @@ const Choices<PressureWeights>& pressure_weights_words() {
                                               {"density", PressureWeights::density}};
   return words;
 }
-const Choices<ViscousForm>& viscous_words() {
-  static const Choices<ViscousForm> words{{"laplacian", ViscousForm::laplacian},
-                                          {"symmetric", ViscousForm::symmetric}};
+const Choices<ViscosityForm>& viscosity_words() {
+  static const Choices<ViscosityForm> words{{"laplacian", ViscosityForm::laplacian},
+                                            {"symmetric", ViscosityForm::symmetric}};
   return words;
 }
 const Choices<KernelShape>& kernel_words() {

@@ -29,6 +29,7 @@ inline constexpr Dimension specific_energy{0, 2, -2};
 inline constexpr Dimension force{1, 1, -2};
 inline constexpr Dimension stiffness{1, 0, -2};
 inline constexpr Dimension rate{0, 0, -1};
+inline constexpr Dimension rate_squared{0, 0, -2};
 inline constexpr Dimension speed_per_force{-1, 0, 1};
 }  // namespace dimension
 

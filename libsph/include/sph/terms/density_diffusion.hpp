@@ -30,6 +30,27 @@ struct DensityDiffusion {
   }
 };
 
+/// The same under a central pull, whose potential phi takes the part of -g.x: without it the rim of a drop at
+/// rest would gain density at the rate delta B^2 R / c, as the surface of a tank would without its g.x.
+struct PulledDensityDiffusion {
+  static constexpr Term term = Term::pulled_density_diffusion;
+  static constexpr ValueSet reads = DensityDiffusion::reads | ValueSet{Value::potential};
+  static constexpr Field writes = Field::diffusion;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    V head = p.template i<Value::potential>() - p.template j<Value::potential>();
+    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
+    const V rho =
+        V(typename P::Scalar(0.5)) * (p.template i<Value::density>() + p.template j<Value::density>());
+    const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * head;
+    const V sound = max(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
+    const V rate = p.template j<Value::volume>() * p.f * (excess / sound);
+    sums.template add<Field::diffusion>(
+        0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), rate));
+  }
+};
+
 /// The same in a scene of one linear fluid and nothing else: c and rho_0 are constants, no group in the row.
 struct UniformDensityDiffusion {
   static constexpr Term term = Term::uniform_density_diffusion;

@@ -1,6 +1,7 @@
 // Fixed walls as dummy particles (Adami et al. 2012, eqs. 23, 27): kernel sums over the moving neighbours of
 // a wall particle, from which the update takes p_w = (sum p W + g.sum rho (x_w - x_f) W) / sum W and the
-// mirrored velocity 2 v_wall - sum v W / sum W that makes the wall no-slip.
+// mirrored velocity 2 v_wall - sum v W / sum W that makes the wall no-slip, or the mean itself where it
+// slips.
 #pragma once
 
 #include "sph/pair_rows.hpp"
