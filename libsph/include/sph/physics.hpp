@@ -78,12 +78,18 @@ class Physics {
   void set_sph_constants();
   void build_conservative();
   void build_ida();
+  void build_total_lagrangian();
   void update_movers(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
   [[nodiscard]] double disordered_share(const Particles&, std::size_t row) const;
   [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
+  template <int D>
+  void update_bonds(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
+  void check_bonds(Particles&, std::size_t row, double count, double shape, const GlobalState&) const;
+  [[noreturn]] void fail_particle(const Particles&, std::size_t row, const GlobalState&,
+                                  const std::string& what) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;
   void change_group(Particles&, std::size_t row) const;
   void average(Particles&, const GlobalState&) const;

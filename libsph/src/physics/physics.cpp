@@ -39,6 +39,9 @@ KernelNumbers numbers(const Scene& scene) {
   return numbers<Quintic>(scene.dim, q);
 }
 
+/// Of two layers in contact over that of the material: softer, or they would ask for a shorter time step.
+constexpr double contact_stiffness = 0.5;
+
 double power(double x, int n) {
   double p = 1;
   for (int k = 0; k < n; ++k) p *= x;
@@ -74,6 +77,8 @@ Physics::Physics(const Scene& scene, const PositionScale& scale)
   set_sph_constants();
   if (scene.formulation == Formulation::ida)
     build_ida();
+  else if (scene.total_lagrangian())
+    build_total_lagrangian();
   else
     build_conservative();
 }
@@ -105,6 +110,10 @@ void Physics::set_sph_constants() {
     const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
     groups_.sound_speed.push_back(std::sqrt(modulus / g.density));
     groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
+    groups_.density.push_back(g.density);
+    const std::size_t body = g.clamps < 0 ? groups_.body.size() : static_cast<std::size_t>(g.clamps);
+    groups_.body.push_back(static_cast<double>(body));
+    groups_.modulus.push_back(scene.groups[body].bulk_modulus + 4.0 / 3.0 * scene.groups[body].shear_modulus);
     bulk_viscous_ = bulk_viscous_ || g.bulk_viscosity > 0;
     if (g.fragments_to >= 0) transitions_.push_back(static_cast<int>(&g - scene.groups.data()));
     bubbly_.push_back(bubbly_eos(g, g.gas_content));
@@ -119,6 +128,13 @@ void Physics::set_sph_constants() {
   constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
   constants_.artificial_viscosity = scene.terms.artificial_viscosity;
   constants_.inverse_w_spacing = 1 / kernel.w_spacing;
+  constants_.hourglass = scene.terms.hourglass;
+  constants_.contact_range = scene.spacing / h;
+  // k d^(2-D) of terms/body_contact.hpp, lengths in h; forces are multiplied by force_factor_ later.
+  const double contact =
+      contact_stiffness * power(scene.spacing, scene.dim) / (scene.spacing * scene.spacing);
+  constants_.contact_force = contact * h / force_factor_;
+  constants_.contact_energy = 0.25 * contact * h * h;
 
   fields_ = {Field::id,   Field::position, Field::velocity, Field::density,
              Field::mass, Field::group,    Field::pressure, Field::force};

@@ -76,7 +76,8 @@ std::string memory_text(const Scene& scene, const Physics& physics, std::int64_t
         (static_cast<double>(bytes_of(physics.fields(), dim) + static_cast<std::size_t>(sums) + 24) + pairs) *
             static_cast<double>(particles) * 1e-6);
   }
-  const double list = neighbours_within(scene, scene.support() * (1 + scene.decomposition.skin));
+  const double list =
+      neighbours_within(scene, scene.list_range() + scene.support() * scene.decomposition.skin);
   const double all = static_cast<double>(bytes_of(physics.fields(), dim)) + 4 * list;
   constexpr double megabyte = 1e6;
   return fmt::format(

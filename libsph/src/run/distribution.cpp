@@ -65,7 +65,7 @@ Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const P
       scene_(scene),
       scale_(scale),
       skin_(scene.decomposition.skin * scene.support()),
-      reach_(scale.quanta(scene.support() + skin_) + 1),
+      reach_(scale.quanta(scene.list_range() + skin_) + 1),
       grid_(make_grid(scene, scale, reach_)),
       partition_(grid_, scene.decomposition.cut_axes[0], scene.decomposition.cut_axes[1],
                  first_cuts(grid_, scene, comm.size())),

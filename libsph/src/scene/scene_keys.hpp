@@ -39,6 +39,8 @@ inline constexpr auto group_list = std::to_array<Word>({"name",
                                                         "solubility_exponent",
                                                         "fragmentation",
                                                         "velocity",
+                                                        "lagrangian",
+                                                        "clamps",
                                                         "diameter",
                                                         "young_modulus",
                                                         "normal_stiffness",
@@ -53,8 +55,8 @@ inline constexpr auto start_list =
                          "velocity", "flow_speed", "flow_length", "pressure", "surface_height", "tile"});
 inline constexpr auto region_list =
     std::to_array<Word>({"group", "shape", "lower", "upper", "centre", "radius"});
-inline constexpr auto terms_list =
-    std::to_array<Word>({"density_diffusion", "artificial_viscosity", "shifting"});
+inline constexpr auto terms_list = std::to_array<Word>(
+    {"density_diffusion", "artificial_viscosity", "shifting", "hourglass", "largest_stretch"});
 inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
 inline constexpr auto decomposition_list =
     std::to_array<Word>({"cut_axes", "skin", "rebuild_every", "overlap", "balance", "cost", "chaos_seed",

@@ -17,8 +17,14 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
   out.number("bulk_modulus", g.bulk_modulus);
   out.number("viscosity", g.viscosity);
   out.number("bulk_viscosity", g.bulk_viscosity);
-  if (g.kind == GroupKind::solid) out.number("shear_modulus", g.shear_modulus);
-  if (g.kind == GroupKind::wall) out.vector("velocity", g.wall_velocity);
+  if (g.kind == GroupKind::solid) {
+    out.number("shear_modulus", g.shear_modulus);
+    out.text("lagrangian", word(lagrangian_words(), g.lagrangian));
+  }
+  if (g.clamps >= 0)
+    out.text("clamps", scene.groups[static_cast<std::size_t>(g.clamps)].name);
+  else if (g.kind == GroupKind::wall)
+    out.vector("velocity", g.wall_velocity);
   if (g.eos != EosKind::bubbly) return;
   out.number("gas_content", g.gas_content);
   out.number("gas_rt", g.gas_rt);
@@ -110,6 +116,9 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
   out.number("density_diffusion", scene.terms.density_diffusion);
   out.number("artificial_viscosity", scene.terms.artificial_viscosity);
   out.flag("shifting", scene.terms.shifting);
+  if (!scene.total_lagrangian()) return;
+  out.number("hourglass", scene.terms.hourglass);
+  out.number("largest_stretch", scene.terms.largest_stretch);
 }
 
 void write_physics(SceneWriter& out, const Scene& scene) {

@@ -6,9 +6,6 @@
 
 namespace sph {
 
-/// Component (a, b) of a symmetric tensor stored xx yy xy or xx yy zz xy xz yz.
-[[nodiscard]] constexpr int symmetric_index(int a, int b, int dim) { return a == b ? a : dim + a + b - 1; }
-
 struct StressDivergence {
   static constexpr Term term = Term::stress_divergence;
   static constexpr ValueSet reads{Value::volume, Value::stress};
