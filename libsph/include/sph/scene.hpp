@@ -87,7 +87,7 @@ struct Terms {
   double density_diffusion = 0.1;   ///< delta
   double artificial_viscosity = 0;  ///< alpha
   bool shifting = false;
-  double hourglass = 0.1;        ///< total-Lagrangian solids: stiffness against hourglass modes / modulus
+  double hourglass = 0.3;        ///< total-Lagrangian solids: stiffness against hourglass modes / modulus
   double largest_stretch = 1.2;  ///< of their bonds, as far as the lists reach
   friend bool operator==(const Terms&, const Terms&) = default;
 };
