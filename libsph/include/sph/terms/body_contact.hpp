@@ -12,14 +12,21 @@ struct BodyContact {
   static constexpr Term term = Term::body_contact;
   static constexpr ValueSet reads{Value::body, Value::modulus};
   static constexpr Field writes = Field::force;
+  template <class P, class C>
+  static auto overlap(const P& p, const C& c) {
+    using V = typename P::V;
+    const V o = max(V(c.contact_range) - p.r, V::zero());
+    return o - where_equal(p.template i<Value::body>(), p.template j<Value::body>(), o);
+  }
+  template <class P>
+  static auto modulus(const P& p) {
+    return min(p.template i<Value::modulus>(), p.template j<Value::modulus>());
+  }
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V modulus = min(p.template i<Value::modulus>(), p.template j<Value::modulus>());
-    const V overlap = max(V(c.contact_range) - p.r, V::zero());
-    const V push =
-        V(c.contact_force) * modulus * overlap / max(p.r, V(static_cast<typename P::Scalar>(1e-30)));
-    const V s = push - where_equal(p.template i<Value::body>(), p.template j<Value::body>(), push);
+    const V push = V(c.contact_force) * modulus(p) * overlap(p, c);
+    const V s = push / max(p.r, V(static_cast<typename P::Scalar>(1e-30)));
     for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, -(s * p.e[a]));
   }
 };
@@ -27,16 +34,14 @@ struct BodyContact {
 /// Half the energy of a contact for either particle.
 struct BodyContactEnergy {
   static constexpr Term term = Term::body_contact_energy;
-  static constexpr ValueSet reads{Value::body, Value::modulus};
+  static constexpr ValueSet reads = BodyContact::reads;
   static constexpr Field writes = Field::contact_energy;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V modulus = min(p.template i<Value::modulus>(), p.template j<Value::modulus>());
-    const V overlap = max(V(c.contact_range) - p.r, V::zero());
-    const V energy = V(c.contact_energy) * modulus * (overlap * overlap);
-    sums.template add<Field::contact_energy>(
-        0, energy - where_equal(p.template i<Value::body>(), p.template j<Value::body>(), energy));
+    const V overlap = BodyContact::overlap(p, c);
+    const V energy = V(c.contact_energy) * BodyContact::modulus(p) * (overlap * overlap);
+    sums.template add<Field::contact_energy>(0, energy);
   }
 };
 
