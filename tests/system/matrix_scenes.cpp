@@ -44,6 +44,9 @@ const std::vector<Source>& sources() {
        "tests/scenes/box3d_solid.toml",
        {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3"}},
       {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.fragmentation.void_fraction=0.09"}},
+      // total-Lagrangian: clamped, in contact, through a periodic face
+      {"bodies2d", "tests/scenes/bodies2d.toml", {}},
+      {"bodies3d", "tests/scenes/bodies3d.toml", {}},
       {"linear", "tests/scenes/grains_pour.toml", {}},
       {"hertz",
        "tests/scenes/grains_pour.toml",
@@ -78,6 +81,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   const sph::Particles& particles = simulation.particles();
   const std::uint32_t* group = particles.data<sph::Field::group>();
   const double* psi = particles.data<sph::Field::void_fraction>();
+  const double* contact = particles.data<sph::Field::contact_energy>();
   Liveliness out{simulation.counters().rebuilds};
   if (const sph::Grains* grains = simulation.grains()) {
     out.contacts = grains->touching_pairs();
@@ -91,6 +95,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
     for (const sph::Group& g : simulation.scene().groups)
       if (g.fragments_to == static_cast<int>(group[i])) ++out.spray;
     if (psi != nullptr) out.void_fraction = std::max(out.void_fraction, psi[i]);
+    if (contact != nullptr) out.contact_energy = std::max(out.contact_energy, contact[i]);
   }
   return out;
 }
@@ -112,6 +117,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     if (servo && !end.walls_moved) quiet("no wall moved");
     return;
   }
+  if (scene.total_lagrangian() && end.contact_energy <= 0) quiet("no bodies touch");
   if (!scene.has_bubbly()) return;
   if (end.void_fraction <= 0) quiet("no gas came out of solution");
   if (end.spray <= start.spray) quiet("no particle changed its group");
