@@ -81,7 +81,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   const sph::Particles& particles = simulation.particles();
   const std::uint32_t* group = particles.data<sph::Field::group>();
   const double* psi = particles.data<sph::Field::void_fraction>();
-  const double* contact = particles.data<sph::Field::contact_energy>();
+  const double* strain = particles.data<sph::Field::strain_energy>();
   Liveliness out{simulation.counters().rebuilds};
   if (const sph::Grains* grains = simulation.grains()) {
     out.contacts = grains->touching_pairs();
@@ -95,7 +95,8 @@ Liveliness liveliness(const sph::Simulation& simulation) {
     for (const sph::Group& g : simulation.scene().groups)
       if (g.fragments_to == static_cast<int>(group[i])) ++out.spray;
     if (psi != nullptr) out.void_fraction = std::max(out.void_fraction, psi[i]);
-    if (contact != nullptr) out.contact_energy = std::max(out.contact_energy, contact[i]);
+    if (strain != nullptr && simulation.scene().groups[group[i]].kind == sph::GroupKind::solid)
+      out.unstrained += strain[i] == 0 ? 1 : 0;
   }
   return out;
 }
@@ -117,7 +118,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     if (servo && !end.walls_moved) quiet("no wall moved");
     return;
   }
-  if (scene.total_lagrangian() && end.contact_energy <= 0) quiet("no bodies touch");
+  if (end.unstrained > 0) quiet("a body meets no other");
   if (!scene.has_bubbly()) return;
   if (end.void_fraction <= 0) quiet("no gas came out of solution");
   if (end.spray <= start.spray) quiet("no particle changed its group");

@@ -27,6 +27,7 @@ struct TermConstants {
   T artificial_viscosity;           ///< alpha
   T inverse_w_spacing;              ///< 1 / w(spacing/h), unnormalised kernel
   T half_step;                      ///< dt / 2h [s/m]
+  T bond_range;                     ///< largest distance of two bonded particles / h
   T hourglass;                      ///< stiffness against hourglass modes over the modulus
   T contact_range;                  ///< distance at which bodies touch / h
   T contact_force, contact_energy;  ///< scales of terms/body_contact.hpp
@@ -63,7 +64,8 @@ struct Pair {
   // Of terms that read Value::reference:
   V reference[D];     ///< X = (X_j - X_i) / h
   V displacement[D];  ///< u = e - X, exact before it is rounded once
-  V bond;    ///< 1 for two particles of one body within the support of each other in the reference state
+  V bond;    ///< 1 for two particles of one body within each other's support in the reference state, unless
+             ///< lost
   V weight;  ///< -w'(|X|) / |X| of a bond, else 0; grad_i W = weight X
   template <Value v>
   [[nodiscard]] V i(int k = 0) const {
@@ -143,7 +145,8 @@ struct PairPass {
         }
         pair.r = sqrt(pair.r2);
         pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
-        if constexpr (values.has(Value::reference)) look_at_bond(own, other, unit, pair);
+        if constexpr (values.has(Value::reference))
+          look_at_bond(own, other, unit, V(constants.bond_range), pair);
         (Terms::template add<Kernel>(pair, constants, sums), ...);
       }
       store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
@@ -151,7 +154,7 @@ struct PairPass {
   }
 
  private:
-  static void look_at_bond(const V* own, const V* other, V unit, Pair<T, D, values>& pair) {
+  static void look_at_bond(const V* own, const V* other, V unit, V range, Pair<T, D, values>& pair) {
     constexpr int reference = Layout::offset(Value::reference), body = Layout::offset(Value::body);
     V square = V::zero();
     for (int a = 0; a < D; ++a) {
@@ -162,7 +165,10 @@ struct PairPass {
       square += pair.reference[a] * pair.reference[a];
     }
     const V distance = sqrt(square), tiny(static_cast<T>(1e-30));
-    const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), V(static_cast<T>(1)));
+    // A bond longer than the range is lost even where a list, with its skin, still holds it: how wide lists
+    // are must not decide when a run ends.
+    const V found = where_less(pair.r, range, V(static_cast<T>(1)));
+    const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found);
     pair.bond = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
     pair.weight =
         where_equal(own[body], other[body], -(Kernel::template slope<D>(distance) / max(distance, tiny)));
@@ -182,6 +188,7 @@ struct PairPass {
     c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
     c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
     c.half_step = static_cast<T>(d.half_step);
+    c.bond_range = static_cast<T>(d.bond_range);
     c.hourglass = static_cast<T>(d.hourglass);
     c.contact_range = static_cast<T>(d.contact_range);
     c.contact_force = static_cast<T>(d.contact_force);

@@ -128,6 +128,7 @@ void Physics::set_sph_constants() {
   constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
   constants_.artificial_viscosity = scene.terms.artificial_viscosity;
   constants_.inverse_w_spacing = 1 / kernel.w_spacing;
+  constants_.bond_range = scene.list_range() / h;
   constants_.hourglass = scene.terms.hourglass;
   constants_.contact_range = scene.spacing / h;
   // k d^(2-D) of terms/body_contact.hpp, lengths in h; forces are multiplied by force_factor_ later.
