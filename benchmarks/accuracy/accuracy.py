@@ -21,7 +21,7 @@ import numpy as np  # noqa: E402
 from runs import Runner, source, write_start  # noqa: E402
 
 CASES = ("taylor_green", "taylor_green_1000", "poiseuille", "cavity", "cavity_1000", "hydrostatic", "elliptic_drop", "dam_break",
-         "rotating_patch")
+         "rotating_patch", "cantilever", "rings", "spinning_plate", "bar_wave", "gravity_patch")
 
 
 def order(sizes, errors):

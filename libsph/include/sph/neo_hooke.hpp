@@ -2,8 +2,8 @@
 // Smith, de Goes & Kim (2018, eq. 13, without their origin barrier),
 //   psi = mu/2 (tr F^T F - 3) - mu (J - 1) + lambda'/2 (J - 1)^2,   lambda' = K + mu/3,
 // so that small strains have the moduli K and mu. Rational, finite for every F, and does not soften under
-// compression, where St. Venant-Kirchhoff collapses at 0.58 of the length. In 2D plane strain, F_zz = 1. Written in H,
-// so that small strains lose no digits; a rigid rotation gives no stress but rounding.
+// compression, where St. Venant-Kirchhoff collapses at 0.58 of the length. In 2D plane strain, F_zz = 1.
+// Written in H, so that small strains lose no digits; a rigid rotation gives no stress but rounding.
 #pragma once
 
 #include <Eigen/Core>
