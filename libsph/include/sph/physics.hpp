@@ -22,7 +22,9 @@ struct StepMaxima {
 };
 
 /// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
-inline constexpr double courant_limit = 1.2;
+[[nodiscard]] inline double courant_limit(const Scene& scene) {
+  return scene.total_lagrangian() ? 1.0 : 1.2;  // contacts and the stiffest allowed hourglass control
+}
 /// What is recommended, and the default of time.cfl.
 inline constexpr double courant_recommended = 0.8;
 

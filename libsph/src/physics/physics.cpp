@@ -131,9 +131,8 @@ void Physics::set_sph_constants() {
   constants_.bond_range = scene.list_range() / h;
   constants_.hourglass = scene.terms.hourglass;
   constants_.contact_range = scene.spacing / h;
-  // k d^(2-D) of terms/body_contact.hpp, lengths in h; forces are multiplied by force_factor_ later.
-  const double contact =
-      contact_stiffness * power(scene.spacing, scene.dim) / (scene.spacing * scene.spacing);
+  // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor_ later.
+  const double contact = contact_stiffness * power(scene.spacing, scene.dim) / (h * h);
   constants_.contact_force = contact * h / force_factor_;
   constants_.contact_energy = 0.25 * contact * h * h;
 

@@ -103,7 +103,7 @@ std::string passes_text(const Scene& scene, const Physics& physics) {
 std::string courant_text(const Scene& scene, double dt, double courant) {
   std::string out =
       fmt::format("time step: {:.6g} s at the start, c dt/h = {:.3g} (recommended {}, limit {})\n", dt,
-                  courant, courant_recommended, courant_limit);
+                  courant, courant_recommended, courant_limit(scene));
   if (courant > courant_recommended * (1 + 1e-9))
     out += fmt::format("warning: c dt/h above {}: reduce {}\n", courant_recommended,
                        scene.time.dt ? "time.dt" : "time.cfl");

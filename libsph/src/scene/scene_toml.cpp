@@ -94,6 +94,8 @@ void read_bonds(const TableReader& table, Scene& scene) {
   for (const std::string_view key : {"hourglass", "largest_stretch"})
     table.only_if(total, key, "only scenes of solids with lagrangian = \"total\" have it");
   terms.hourglass = table.number("hourglass", dimension::none, Bound::not_negative).value_or(terms.hourglass);
+  if (terms.hourglass > 1)
+    table.fail("hourglass", fmt::format("is {}", terms.hourglass), "it is a share of the modulus, at most 1");
   terms.largest_stretch =
       table.number("largest_stretch", dimension::none, Bound::positive).value_or(terms.largest_stretch);
   if (terms.largest_stretch < 1 || terms.largest_stretch > most_stretch)

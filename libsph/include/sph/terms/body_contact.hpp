@@ -1,7 +1,8 @@
 // Contact of total-Lagrangian bodies: particles of different bodies that are closer than the spacing d push
-// each other apart with the energy k (d - r)^2 / 2, k = kappa min(M_i, M_j) d^(D-2): a layer of particles in
-// contact is kappa times as stiff as the material between two layers. Central and derived from an energy:
-// momentum, angular momentum and energy are conserved.
+// each other apart with the energy k (d - r)^2 / 2, k = kappa min(M_i, M_j) d^D / h^2: a layer of particles
+// in contact is about kappa times as stiff as the material between two layers, and k over the mass follows
+// the square of the time step's own c/h. Central and derived from an energy: momentum, angular momentum and
+// energy are conserved. Rows of particles interlock: there is friction of a sort.
 #pragma once
 
 #include "sph/pair_rows.hpp"
