@@ -36,12 +36,14 @@ class Snapshot:
         return 0.5 * float(np.sum(self.mass * np.sum(self.velocity**2, axis=1)))
 
 
-def write_start(path, x, v, rho, group=0):
-    """A start file; ids in the order of the rows."""
+def write_start(path, x, v, rho=None, group=0):
+    """A start file; ids in the order of the rows. Without rho densities are those of the groups."""
     n = len(x)
     with h5py.File(path, "w") as file:
         file["id"] = np.arange(1, n + 1, dtype=np.uint64)
-        file["x"], file["v"], file["rho"], file["m"] = x, v, rho, np.zeros(n)
+        file["x"], file["v"], file["m"] = x, v, np.zeros(n)
+        if rho is not None:
+            file["rho"] = rho
         file["group"] = np.broadcast_to(np.asarray(group, dtype=np.uint32), n)
 
 
