@@ -144,7 +144,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* group = p.data<Field::group>();
   const auto* displacement = p.data<Field::displacement>();
   const auto* bond_stress = p.data<Field::bond_stress>();
-  const auto coordinate = [&scale](std::int64_t quanta) {
+  const auto coordinate = [&](std::int64_t quanta) {
     if constexpr (sizeof(T) == 4)
       return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
     else
