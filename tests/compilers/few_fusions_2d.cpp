@@ -16,6 +16,8 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, WeightedPressure, SymmetricViscosity, SurfaceTension>(),
       List::template fuse<Quintic, Pressure, SymmetricViscosity>(),
       List::template fuse<Quintic, StressDivergence, Viscosity, ArtificialViscosity>(),
+      List::template fuse<Quintic, Deformation, BodyContactEnergy>(),
+      List::template fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
       List::template fuse<Quintic, IdaGradient>(),
       List::template fuse<Quintic, IdaStress>(),
       List::template fuse<WendlandC4, Divergence, UniformDensityDiffusion, Shifting>(),

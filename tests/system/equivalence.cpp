@@ -2,9 +2,9 @@
 // arrival, the lists and the restarts. One MPI program on 8 ranks; a row on k ranks uses the first k, the
 // others sleep. Every row's fingerprints are compared with those of the scene's run on one rank.
 //
-//   equivalence --array SEED                    a 3-way covering array of the factors
-//   equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run again
-//   equivalence --row "scene=... ranks=..."     one row, as printed
+//   equivalence --array SEED [--scenes START]   a 3-way covering array of the factors; of scenes whose names
+//   start so equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run
+//   again equivalence --row "scene=... ranks=..."     one row, as printed
 // with --grains or --sph (the default; scenes of which), --seed S (of the order, the cuts and the restarts:
 // 1),
 // --steps N (the last that is compared: 300), --long N (of every eighth row of an array: 2000), --every
@@ -40,7 +40,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::int64_t steps = 300, long_steps = 2000;
   bool every = false;
-  std::string row, log;
+  std::string row, log, scenes;
   std::size_t part = 1, parts = 1;
   double limit = 1e9;  ///< [s]
 };
@@ -73,6 +73,8 @@ Options parse(int argc, char** argv) {
       o.every = true;
     else if (key == "--log")
       o.log = value();
+    else if (key == "--scenes")
+      o.scenes = value();
     else if (key == "--limit")
       o.limit = std::stod(value());
     else if (key == "--part") {
@@ -91,6 +93,8 @@ std::vector<Row> rows_of(const Options& o) {
     std::vector<Row> rows = covering_array(o.family, o.seed);
     if (const std::size_t missing = uncovered_triples(o.family, rows); missing > 0)
       throw std::runtime_error(std::to_string(missing) + " 3-way combinations are not covered");
+    std::erase_if(
+        rows, [&](const Row& row) { return !o.scenes.empty() && !row[Factor::scene].starts_with(o.scenes); });
     return rows;
   }
   std::vector<Row> rows = full_product(o.family);

@@ -16,8 +16,9 @@ namespace equivalence {
 /// What a run of the scene has to show, or agreement proves little: none of these may stay as at the start.
 struct Liveliness {
   std::int64_t rebuilds = 0;
-  std::int64_t spray = 0;    ///< particles in groups that others fragment into
-  double void_fraction = 0;  ///< the largest
+  std::int64_t spray = 0;       ///< particles in groups that others fragment into
+  double void_fraction = 0;     ///< the largest
+  std::int64_t unstrained = 0;  ///< particles of total-Lagrangian bodies that nothing has touched yet
   std::int64_t contacts = 0, contacts_begun = 0, contacts_ended = 0;
   std::int64_t histories_kept = 0;  ///< over rebuilds, once each
   bool walls_moved = false;         ///< up or down

@@ -36,12 +36,18 @@ enum class Field : std::uint8_t {
   wall_pressures,
   velocity_mean,
   pressure_mean,
+  displacement,
+  bonds,
+  deformation,
+  bond_stress,
+  strain_energy,
+  contact_energy,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
 
-/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+D components
-enum class Shape : std::uint8_t { scalar, two, four, vector, symmetric, matrix, spread, wall };
+/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+D, 2+D(D+1)/2+D*D components
+enum class Shape : std::uint8_t { scalar, two, four, vector, symmetric, matrix, spread, wall, deformation };
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
 
 /// state: its bits at the start of a step determine the next step, so it is migrated, checkpointed and
@@ -101,6 +107,18 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "running average over output.average_time"},
     {Field::pressure_mean, "pressure_mean", "Pa", Type::f64, Shape::scalar, true, true,
      "running average over output.average_time"},
+    {Field::displacement, "displacement", "quantum", Type::i64, Shape::vector, true, true,
+     "of total-Lagrangian solids: position less reference position"},
+    {Field::bonds, "bonds", "1", Type::u32, Shape::scalar, true, false,
+     "of total-Lagrangian solids: neighbours of the same body in the reference state"},
+    {Field::deformation, "deformation", "1", Type::f64, Shape::deformation, false, false,
+     "sums over bonds: their number, squared displacements, X X and u X (terms/bonds.hpp)"},
+    {Field::bond_stress, "bond_stress", "Pa", Type::f64, Shape::matrix, false, false,
+     "P L less the hourglass stress: what a particle brings into its bonds"},
+    {Field::strain_energy, "strain_energy", "J", Type::f64, Shape::scalar, false, true,
+     "of total-Lagrangian solids: elastic energy of the particle, hourglass energy included"},
+    {Field::contact_energy, "contact_energy", "J", Type::f64, Shape::scalar, false, false,
+     "half the energy of the particle's contacts with other bodies"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }
@@ -122,9 +140,13 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
       return 1 + dim;
     case Shape::wall:
       return 2 + dim;
+    case Shape::deformation:
+      return 2 + dim * (dim + 1) / 2 + dim * dim;
   }
   return 0;
 }
+/// Component (a, b) of a symmetric tensor stored xx yy xy or xx yy zz xy xz yz.
+[[nodiscard]] constexpr int symmetric_index(int a, int b, int dim) { return a == b ? a : dim + a + b - 1; }
 [[nodiscard]] constexpr std::size_t bytes(Type t) { return t == Type::u32 ? 4 : 8; }
 [[nodiscard]] constexpr std::size_t width(Field f, int dim) {
   return bytes(info(f).type) * static_cast<std::size_t>(components(info(f).shape, dim));
@@ -154,11 +176,11 @@ class FieldSet {
   }
   friend constexpr bool operator==(FieldSet, FieldSet) = default;
 
-  std::uint32_t bits_ = 0;  ///< public only so that a set can be a template argument
+  std::uint64_t bits_ = 0;  ///< public only so that a set can be a template argument
 
  private:
-  constexpr explicit FieldSet(std::uint32_t bits) : bits_(bits) {}
-  static constexpr std::uint32_t bit(Field f) { return std::uint32_t{1} << static_cast<int>(f); }
+  constexpr explicit FieldSet(std::uint64_t bits) : bits_(bits) {}
+  static constexpr std::uint64_t bit(Field f) { return std::uint64_t{1} << static_cast<int>(f); }
 };
 
 /// Running averages for output. They migrate and are checkpointed like state, but no step reads them: the

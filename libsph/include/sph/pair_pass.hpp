@@ -20,13 +20,17 @@ namespace sph {
 /// Constants of the scene that terms read, in the scaled units of pair_rows.hpp.
 template <class T>
 struct TermConstants {
-  T gravity[3];            ///< g h [m^2/s^2]
-  T viscosity;             ///< eta / h where all groups share it [Pa s/m]
-  T density;               ///< rho_0 where there is one fluid [kg/m^3]
-  T inverse_sound_speed;   ///< where there is one fluid [s/m]
-  T artificial_viscosity;  ///< alpha
-  T inverse_w_spacing;     ///< 1 / w(spacing/h), unnormalised kernel
-  T half_step;             ///< dt / 2h [s/m]
+  T gravity[3];                     ///< g h [m^2/s^2]
+  T viscosity;                      ///< eta / h where all groups share it [Pa s/m]
+  T density;                        ///< rho_0 where there is one fluid [kg/m^3]
+  T inverse_sound_speed;            ///< where there is one fluid [s/m]
+  T artificial_viscosity;           ///< alpha
+  T inverse_w_spacing;              ///< 1 / w(spacing/h), unnormalised kernel
+  T half_step;                      ///< dt / 2h [s/m]
+  T bond_range;                     ///< largest distance of two bonded particles / h
+  T hourglass;                      ///< stiffness against hourglass modes over the modulus
+  T contact_range;                  ///< distance at which bodies touch / h
+  T contact_force, contact_energy;  ///< scales of terms/body_contact.hpp
 };
 
 /// Everything a compiled pass needs besides its terms.
@@ -57,6 +61,12 @@ struct Pair {
   V r2;    ///< |e|^2
   V r;     ///< |e|
   V f;     ///< w'(r) / r, unnormalised; grad_i W = -f e (times the pass's factor)
+  // Of terms that read Value::reference:
+  V reference[D];     ///< X = (X_j - X_i) / h
+  V displacement[D];  ///< u = e - X, exact before it is rounded once
+  V bond;    ///< 1 for two particles of one body within each other's support in the reference state, unless
+             ///< lost
+  V weight;  ///< -w'(|X|) / |X| of a bond, else 0; grad_i W = weight X
   template <Value v>
   [[nodiscard]] V i(int k = 0) const {
     static_assert(S.has(v), "the term did not declare this value in `reads`");
@@ -135,6 +145,8 @@ struct PairPass {
         }
         pair.r = sqrt(pair.r2);
         pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
+        if constexpr (values.has(Value::reference))
+          look_at_bond(own, other, unit, V(constants.bond_range), pair);
         (Terms::template add<Kernel>(pair, constants, sums), ...);
       }
       store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
@@ -142,6 +154,26 @@ struct PairPass {
   }
 
  private:
+  static void look_at_bond(const V* own, const V* other, V unit, V range, Pair<T, D, values>& pair) {
+    constexpr int reference = Layout::offset(Value::reference), body = Layout::offset(Value::body);
+    V square = V::zero();
+    for (int a = 0; a < D; ++a) {
+      const V xi = own[reference + a], xj = other[reference + a];
+      pair.reference[a] = coordinate_difference(xi, xj) * unit;
+      pair.displacement[a] =
+          coordinate_difference(stored_difference(xi, own[a]), stored_difference(xj, other[a])) * unit;
+      square += pair.reference[a] * pair.reference[a];
+    }
+    const V distance = sqrt(square), tiny(static_cast<T>(1e-30));
+    // A bond longer than the range is lost even where a list, with its skin, still holds it: how wide lists
+    // are must not decide when a run ends.
+    const V found = where_less(pair.r, range, V(static_cast<T>(1)));
+    const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found);
+    pair.bond = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
+    pair.weight =
+        where_equal(own[body], other[body], -(Kernel::template slope<D>(distance) / max(distance, tiny)));
+  }
+
   static T* rows_of(const PassContext& c) {
     return reinterpret_cast<T*>(
         aligned_scratch(*c.rows, (c.particles->rows() + V::lanes) * Layout::stride * sizeof(T)));
@@ -156,7 +188,17 @@ struct PairPass {
     c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
     c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
     c.half_step = static_cast<T>(d.half_step);
+    c.bond_range = static_cast<T>(d.bond_range);
+    c.hourglass = static_cast<T>(d.hourglass);
+    c.contact_range = static_cast<T>(d.contact_range);
+    c.contact_force = static_cast<T>(d.contact_force);
+    c.contact_energy = static_cast<T>(d.contact_energy);
     return c;
+  }
+
+  static constexpr bool has_own_scale(Field f) {
+    return f == Field::wall_sums || f == Field::wall_sums_by_density || f == Field::deformation ||
+           f == Field::contact_energy;
   }
 
   template <Field F>
@@ -164,10 +206,10 @@ struct PairPass {
                           const Sums<T, D, writes>& sums) {
     if constexpr (writes.has(F)) {
       constexpr int n = components(info(F).shape, D);
-      const double factor = F == Field::force                                           ? c.force_factor
-                            : F == Field::diffusion                                     ? c.diffusion_factor
-                            : F == Field::wall_sums || F == Field::wall_sums_by_density ? 1.0
-                                                                                        : c.gradient_factor;
+      const double factor = F == Field::force       ? c.force_factor
+                            : F == Field::diffusion ? c.diffusion_factor
+                            : has_own_scale(F)      ? 1.0
+                                                    : c.gradient_factor;
       double* out = c.particles->template data<F>() + first * n;
       for (std::size_t l = 0; l < count; ++l)
         for (int k = 0; k < n; ++k)
@@ -185,6 +227,8 @@ struct PairPass {
     store_field<Field::colour_gradient>(c, first, count, sums);
     store_field<Field::wall_sums>(c, first, count, sums);
     store_field<Field::wall_sums_by_density>(c, first, count, sums);
+    store_field<Field::deformation>(c, first, count, sums);
+    store_field<Field::contact_energy>(c, first, count, sums);
   }
 };
 

@@ -37,24 +37,34 @@ enum class Term : std::uint8_t {
   wall_extrapolation_by_density,
   ida_gradient,
   ida_stress,
+  deformation,
+  bond_force,
+  bond_viscosity,
+  body_contact,
+  body_contact_energy,
 };
 
 /// What a term can read of a particle besides its position.
 enum class Value : std::uint8_t {
-  velocity,     ///< [m/s]
-  volume,       ///< mass / density [spacing^D]
-  pressure,     ///< [Pa]
-  density,      ///< [kg/m^3]
-  viscosity,    ///< eta / h [Pa s/m]
-  sound_speed,  ///< [m/s]
-  phase,        ///< index of the group
-  mover,        ///< 1, or 0 for walls
-  stress,       ///< total: -pressure delta + stress field [Pa]
-  heavy,        ///< 1 for the heavier fluids of the scene, 0 for all others
-  pressures,    ///< for lighter and for heavier partners: of walls they differ [Pa]
-  side,         ///< of the interface with tension: 1 or -1, 0 elsewhere
-  capillary,    ///< surface stress sigma (I - n n) |grad C| [Pa]
-  potential,    ///< of the central pull [m^2/s^2]
+  velocity,          ///< [m/s]
+  volume,            ///< mass / density [spacing^D]
+  pressure,          ///< [Pa]
+  density,           ///< [kg/m^3]
+  viscosity,         ///< eta / h [Pa s/m]
+  sound_speed,       ///< [m/s]
+  phase,             ///< index of the group
+  mover,             ///< 1, or 0 for walls
+  stress,            ///< total: -pressure delta + stress field [Pa]
+  heavy,             ///< 1 for the heavier fluids of the scene, 0 for all others
+  pressures,         ///< for lighter and for heavier partners: of walls they differ [Pa]
+  side,              ///< of the interface with tension: 1 or -1, 0 elsewhere
+  capillary,         ///< surface stress sigma (I - n n) |grad C| [Pa]
+  potential,         ///< of the central pull [m^2/s^2]
+  reference,         ///< reference position, stored as the position is
+  reference_volume,  ///< mass / rho_0 [spacing^D]
+  body,              ///< particles of one body have one number
+  bond_stress,       ///< [Pa]
+  modulus,           ///< K + 4/3 mu of the group [Pa]
   count_
 };
 
@@ -75,12 +85,14 @@ class ValueSet {
 };
 
 [[nodiscard]] constexpr int components(Value v, int dim) {
+  const bool vector = v == Value::velocity || v == Value::reference;
   const bool tensor = v == Value::stress || v == Value::capillary;
-  return v == Value::velocity ? dim : v == Value::pressures ? 2 : tensor ? dim * (dim + 1) / 2 : 1;
+  return vector                    ? dim
+         : v == Value::pressures   ? 2
+         : tensor                  ? dim * (dim + 1) / 2
+         : v == Value::bond_stress ? dim * dim
+                                   : 1;
 }
-
-/// Component (a, b) of a symmetric tensor stored xx yy xy or xx yy zz xy xz yz.
-[[nodiscard]] constexpr int symmetric_index(int a, int b, int dim) { return a == b ? a : dim + a + b - 1; }
 
 /// The fields a halo copy needs so that its row can be packed.
 [[nodiscard]] constexpr FieldSet fields_behind(ValueSet values) {
@@ -98,6 +110,10 @@ class ValueSet {
   if (values.has(Value::pressures)) f |= FieldSet{Field::group, Field::pressure, Field::wall_pressures};
   if (values.has(Value::side)) f |= FieldSet{Field::group};
   if (values.has(Value::capillary)) f |= FieldSet{Field::colour_gradient};
+  if (values.has(Value::reference)) f |= FieldSet{Field::displacement};
+  if (values.has(Value::reference_volume)) f |= FieldSet{Field::mass, Field::group};
+  if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
+  if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
   return f;
 }
 
@@ -123,6 +139,9 @@ struct GroupTable {
   std::vector<double> heavy;        ///< 1 or 0
   std::vector<double> side;         ///< 1, -1 or 0
   double surface_tension = 0;       ///< [N/m]
+  std::vector<double> density;      ///< rho_0 [kg/m^3]
+  std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
+  std::vector<double> modulus;      ///< K + 4/3 mu [Pa]
 };
 
 /// Scales of the rows; see the head of this file.
@@ -151,14 +170,17 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* group = p.data<Field::group>();
   const auto* walls = p.data<Field::wall_pressures>();
   const auto* colour = p.data<Field::colour_gradient>();
+  const auto* displacement = p.data<Field::displacement>();
+  const auto* bond_stress = p.data<Field::bond_stress>();
+  const auto coordinate = [&](std::int64_t quanta) {
+    if constexpr (sizeof(T) == 4)
+      return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
+    else
+      return std::bit_cast<double>(quanta);
+  };
   for (std::size_t i = first; i < last; ++i) {
     T* row = rows + i * Layout::stride;
-    for (int k = 0; k < D; ++k) {
-      if constexpr (sizeof(T) == 4)
-        row[k] = std::bit_cast<float>(static_cast<std::uint32_t>(x[i * D + k] >> scale.position_shift));
-      else
-        row[k] = std::bit_cast<double>(x[i * D + k]);
-    }
+    for (int k = 0; k < D; ++k) row[k] = coordinate(x[i * D + k]);
     const auto put = [row](Value value, int k, double number) {
       row[Layout::offset(value) + k] = static_cast<T>(number);
     };
@@ -200,6 +222,16 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
           put(Value::capillary, symmetric_index(a, b, D),
               groups.surface_tension * ((a == b ? length : 0.0) - g[a] * g[b] * inverse));
     }
+    // A difference: it passes through a periodic face with the position, which has the image's shift.
+    if constexpr (S.has(Value::reference))
+      for (int k = 0; k < D; ++k)
+        row[Layout::offset(Value::reference) + k] = coordinate(x[i * D + k] - displacement[i * D + k]);
+    if constexpr (S.has(Value::reference_volume))
+      put(Value::reference_volume, 0, mass[i] / groups.density[group[i]] * scale.inverse_volume);
+    if constexpr (S.has(Value::body)) put(Value::body, 0, groups.body[group[i]]);
+    if constexpr (S.has(Value::bond_stress))
+      for (int k = 0; k < D * D; ++k) put(Value::bond_stress, k, bond_stress[i * D * D + k]);
+    if constexpr (S.has(Value::modulus)) put(Value::modulus, 0, groups.modulus[group[i]]);
   }
 }
 

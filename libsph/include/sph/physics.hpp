@@ -22,7 +22,9 @@ struct StepMaxima {
 };
 
 /// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
-inline constexpr double courant_limit = 1.2;
+[[nodiscard]] inline double courant_limit(const Scene& scene) {
+  return scene.total_lagrangian() ? 1.0 : 1.2;  // contacts and the stiffest allowed hourglass control
+}
 /// What is recommended, and the default of time.cfl.
 inline constexpr double courant_recommended = 0.8;
 
@@ -78,12 +80,18 @@ class Physics {
   void set_sph_constants();
   void build_conservative();
   void build_ida();
+  void build_total_lagrangian();
   void update_movers(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
   [[nodiscard]] double disordered_share(const Particles&, std::size_t row) const;
   [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
+  template <int D>
+  void update_bonds(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
+  void check_bonds(Particles&, std::size_t row, double count, double shape, const GlobalState&) const;
+  [[noreturn]] void fail_particle(const Particles&, std::size_t row, const GlobalState&,
+                                  const std::string& what) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;
   void change_group(Particles&, std::size_t row) const;
   void average(Particles&, const GlobalState&) const;
@@ -107,5 +115,7 @@ class Physics {
 /// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and
 /// the support at most 2^50, so that pair distances convert to double exactly.
 [[nodiscard]] PositionScale position_scale(const Scene& scene);
+/// Rows of single precision hold positions without so many low bits.
+[[nodiscard]] int row_position_shift(const Scene& scene, const PositionScale& scale);
 
 }  // namespace sph

@@ -20,6 +20,8 @@ enum class KernelShape { quintic, wendland_c2, wendland_c4 };
 
 enum class GroupKind { fluid, solid, wall, grain };
 enum class EosKind { linear, bubbly };
+/// updated: stress follows the rate of strain; total: it is a function of the deformation since the start.
+enum class Lagrangian { updated, total };
 
 /// One material. Particles name it by its index in Scene::groups.
 struct Group {
@@ -37,6 +39,8 @@ struct Group {
   double solubility_exponent = 1;                     ///< gamma [1]
   std::optional<double> fragmentation_void_fraction;  ///< psi_f: above it a particle joins fragments_to
   int fragments_to = -1;                              ///< index of the spray group, -1 if none
+  Lagrangian lagrangian = Lagrangian::updated;        ///< solids
+  int clamps = -1;          ///< walls: index of the total-Lagrangian solid that is bonded to them, -1 if none
   Double3 wall_velocity{};  ///< walls: of the material, the particles stay where they are [m/s]
   bool slip = false;        ///< walls: no shear on what flows past
   GrainMaterial grain;      ///< kind = grain; of the values above it has name, density and wall_velocity
@@ -107,6 +111,8 @@ struct Terms {
   ViscosityForm viscosity = ViscosityForm::laplacian;
   PressureWeights pressure_weights = PressureWeights::volume;
   InterfaceTension surface_tension;
+  double hourglass = 0.3;        ///< total-Lagrangian solids: stiffness against hourglass modes / modulus
+  double largest_stretch = 1.2;  ///< of their bonds, as far as the lists reach
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 
@@ -192,7 +198,10 @@ struct Scene {
   [[nodiscard]] bool of_grains() const { return has_kind(GroupKind::grain); }
   [[nodiscard]] double support()
       const;  ///< range of interaction [m]: the kernel's radius, or twice the largest grain's
+  [[nodiscard]] double list_range()
+      const;  ///< how far pairs of the lists may be apart [m]: support(), or more
   [[nodiscard]] bool has_kind(GroupKind k) const;
+  [[nodiscard]] bool total_lagrangian() const;  ///< its solids are
   [[nodiscard]] bool has_bubbly() const;
   [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none
   friend bool operator==(const Scene&, const Scene&) = default;

@@ -134,6 +134,17 @@ inline Simd<double> coordinate_difference(Simd<double> a, Simd<double> b) {
 #endif
 }
 
+/// Difference b - a of two stored coordinates, stored like them.
+inline Simd<float> stored_difference(Simd<float> a, Simd<float> b) {
+  typedef std::uint32_t Unsigned __attribute__((vector_size(64)));
+  return Simd<float>(
+      std::bit_cast<Simd<float>::Native>(std::bit_cast<Unsigned>(b.v) - std::bit_cast<Unsigned>(a.v)));
+}
+inline Simd<double> stored_difference(Simd<double> a, Simd<double> b) {
+  using Int = Simd<double>::Int;
+  return Simd<double>(std::bit_cast<Simd<double>::Native>(std::bit_cast<Int>(b.v) - std::bit_cast<Int>(a.v)));
+}
+
 namespace simd_detail {
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)

@@ -68,6 +68,7 @@ class Simulation {
   [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows() const;
   void dawdle();
   enum class Side { interior, boundary };
+  void compute(const Pass& pass);
   void run(const Pass& pass, const PassContext& context, Side side);
   void refresh_begin(FieldSet wanted);
   void refresh_end();

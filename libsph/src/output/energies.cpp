@@ -27,6 +27,7 @@ double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t 
   const auto d = static_cast<std::size_t>(p.dim());
   const Group& g = scene.groups[of.group(row)];
   const double m = of.mass(row), rho = p.data<Field::density>()[row];
+  if (const double* strain = p.data<Field::strain_energy>()) return strain[row];
   double energy = 0;
   if (g.eos == EosKind::linear)
     energy += m * (g.bulk_modulus / g.density) * compression((rho - g.density) / g.density);

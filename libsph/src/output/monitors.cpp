@@ -47,7 +47,10 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
     for (std::size_t k = 0; k + 2 < sums.size(); ++k) sums[k + 2].add(m * value[k]);
     return;
   }
-  if (is_held(scene.groups[of.group(row)])) return;
+  const Group& group = scene.groups[of.group(row)];
+  if (group.clamps >= 0 && monitor.kind == MonitorKind::energy)  // strained by the solid that it holds
+    sums.back().add(elastic_energy(scene, of, row));
+  if (is_held(group)) return;
   if (monitor.kind == MonitorKind::contacts) {
     sums[2].add(1);
   } else if (monitor.kind == MonitorKind::energy) {

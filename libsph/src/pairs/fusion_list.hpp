@@ -4,6 +4,8 @@
 #include "sph/fusions.hpp"
 #include "sph/kernels.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
+#include "sph/terms/body_contact.hpp"
+#include "sph/terms/bonds.hpp"
 #include "sph/terms/density_diffusion.hpp"
 #include "sph/terms/divergence.hpp"
 #include "sph/terms/ida.hpp"
@@ -72,6 +74,12 @@ struct FusionList {
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),
              fuse<Quintic, IdaStress, ArtificialViscosity>(),
+             fuse<Quintic, Deformation>(),
+             fuse<Quintic, Deformation, BodyContactEnergy>(),
+             fuse<Quintic, BondForce>(),
+             fuse<Quintic, BondForce, BondViscosity>(),
+             fuse<Quintic, BondForce, BodyContact>(),
+             fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
          })
       list.push_back(std::move(f));
     for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>()})

@@ -62,6 +62,16 @@ std::string name_of(Term term) {
       return "IdaGradient";
     case Term::ida_stress:
       return "IdaStress";
+    case Term::deformation:
+      return "Deformation";
+    case Term::bond_force:
+      return "BondForce";
+    case Term::bond_viscosity:
+      return "BondViscosity";
+    case Term::body_contact:
+      return "BodyContact";
+    case Term::body_contact_energy:
+      return "BodyContactEnergy";
   }
   return "?";
 }

@@ -60,6 +60,8 @@ double density_divide(const Scene& scene) {
     if (densities[k + 1] * densities[at] > densities[k] * densities[at + 1]) at = k;
   return densities.empty() ? 0.0 : densities[at];
 }
+/// Of two layers in contact over that of the material: softer, or they would ask for a shorter time step.
+constexpr double contact_stiffness = 0.5;
 
 double power(double x, int n) {
   double p = 1;
@@ -82,6 +84,11 @@ PositionScale position_scale(const Scene& scene) {
   return scale;
 }
 
+// 2^29 units across the support, so that its square and the skin stay within 31 bits.
+int row_position_shift(const Scene& scene, const PositionScale& scale) {
+  return std::max(std::ilogb(scene.support() / scale.quantum) + 1 - 29, 0);
+}
+
 std::int64_t PositionScale::quanta(double metres) const {
   // |metres / quantum| < 2^62, and the division by a power of two is exact.
   return static_cast<std::int64_t>(std::nearbyint(metres / quantum));
@@ -96,6 +103,8 @@ Physics::Physics(const Scene& scene, const PositionScale& scale)
   set_sph_constants();
   if (scene.formulation == Formulation::ida)
     build_ida();
+  else if (scene.total_lagrangian())
+    build_total_lagrangian();
   else
     build_conservative();
 }
@@ -111,9 +120,7 @@ void Physics::set_sph_constants() {
   own_concentration_ = kernel.w_zero * gradient_factor_ * h;
   diffusion_factor_ = 2 * scene.terms.density_diffusion * h * (volume * slope / h);
 
-  // Float rows: 2^29 units across the support, so that its square and the skin stay within 31 bits.
-  const int bits = std::ilogb(scene.support() / scale_.quantum) + 1 - 29;
-  row_scale_.position_shift = std::max(bits, 0);
+  row_scale_.position_shift = row_position_shift(scene, scale_);
   const double unit = scene.precision == Precision::mixed
                           ? std::ldexp(scale_.quantum, row_scale_.position_shift)
                           : scale_.quantum;
@@ -133,6 +140,10 @@ void Physics::set_sph_constants() {
     groups_.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
     groups_.side.push_back(side_of(scene, static_cast<int>(&g - scene.groups.data())));
     groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
+    groups_.density.push_back(g.density);
+    const std::size_t body = g.clamps < 0 ? groups_.body.size() : static_cast<std::size_t>(g.clamps);
+    groups_.body.push_back(static_cast<double>(body));
+    groups_.modulus.push_back(scene.groups[body].bulk_modulus + 4.0 / 3.0 * scene.groups[body].shear_modulus);
     bulk_viscous_ = bulk_viscous_ || g.bulk_viscosity > 0;
     if (g.fragments_to >= 0) transitions_.push_back(static_cast<int>(&g - scene.groups.data()));
     bubbly_.push_back(bubbly_eos(g, g.gas_content));
@@ -148,6 +159,13 @@ void Physics::set_sph_constants() {
   constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
   constants_.artificial_viscosity = scene.terms.artificial_viscosity;
   constants_.inverse_w_spacing = 1 / kernel.w_spacing;
+  constants_.bond_range = scene.list_range() / h;
+  constants_.hourglass = scene.terms.hourglass;
+  constants_.contact_range = scene.spacing / h;
+  // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor_ later.
+  const double contact = contact_stiffness * power(scene.spacing, scene.dim) / (h * h);
+  constants_.contact_force = contact * h / force_factor_;
+  constants_.contact_energy = 0.25 * contact * h * h;
 
   fields_ = {Field::id,   Field::position, Field::velocity, Field::density,
              Field::mass, Field::group,    Field::pressure, Field::force};

@@ -23,11 +23,11 @@ void check_time_step(const Scene& scene) {
     return;
   }
   const double courant = courant_number_of(scene);
-  if (courant <= courant_limit) return;
-  const double ratio = courant_limit / courant;
+  if (courant <= courant_limit(scene)) return;
+  const double ratio = courant_limit(scene) / courant;
   throw InputError(
       fmt::format("{}: {}: c dt/h = {:.3g} is above the integrator's limit {}; set it to {:.3g}{} or less",
-                  scene.file, scene.time.dt ? "time.dt" : "time.cfl", courant, courant_limit,
+                  scene.file, scene.time.dt ? "time.dt" : "time.cfl", courant, courant_limit(scene),
                   ratio * scene.time.dt.value_or(scene.time.cfl), scene.time.dt ? " s" : ""));
 }
 

@@ -183,12 +183,16 @@ double Physics::largest_speed(const Particles& p) const {
 void Physics::advance(Particles& p, const RowRanges& ranges, double dt) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   std::int64_t* x = p.data<Field::position>();
+  std::int64_t* u = p.data<Field::displacement>();
   const double* v = p.data<Field::velocity>();
   const double quanta_per_metre = 1 / scale_.quantum;
   for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
     const RowRange& r = ranges[static_cast<std::size_t>(c)];
     for (std::size_t k = r.first * d; k < r.last * d; ++k)
       x[k] += round_to_quanta(v[k] * dt * quanta_per_metre);
+    if (u == nullptr) continue;
+    for (std::size_t k = r.first * d; k < r.last * d; ++k)
+      u[k] += round_to_quanta(v[k] * dt * quanta_per_metre);
   }
 }
 

@@ -76,7 +76,8 @@ std::string memory_text(const Scene& scene, const Physics& physics, std::int64_t
         (static_cast<double>(bytes_of(physics.fields(), dim) + static_cast<std::size_t>(sums) + 24) + pairs) *
             static_cast<double>(particles) * 1e-6);
   }
-  const double list = neighbours_within(scene, scene.support() * (1 + scene.decomposition.skin));
+  const double list =
+      neighbours_within(scene, scene.list_range() + scene.support() * scene.decomposition.skin);
   const double all = static_cast<double>(bytes_of(physics.fields(), dim)) + 4 * list;
   constexpr double megabyte = 1e6;
   return fmt::format(
@@ -102,7 +103,7 @@ std::string passes_text(const Scene& scene, const Physics& physics) {
 std::string courant_text(const Scene& scene, double dt, double courant) {
   std::string out =
       fmt::format("time step: {:.6g} s at the start, c dt/h = {:.3g} (recommended {}, limit {})\n", dt,
-                  courant, courant_recommended, courant_limit);
+                  courant, courant_recommended, courant_limit(scene));
   if (courant > courant_recommended * (1 + 1e-9))
     out += fmt::format("warning: c dt/h above {}: reduce {}\n", courant_recommended,
                        scene.time.dt ? "time.dt" : "time.cfl");

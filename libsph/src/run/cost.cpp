@@ -68,7 +68,7 @@ std::vector<FieldSet> refreshes_of(const Physics& physics) {
   std::vector<FieldSet> sent(physics.passes().size());
   FieldSet fresh{Field::id};
   for (int round = 0; round < 2; ++round) {  // the second is a step in the middle of a run
-    fresh = fresh.without({Field::position});
+    fresh = fresh.without({Field::position, Field::displacement});
     for (std::size_t k = 0; k < sent.size(); ++k) {
       const Pass& pass = physics.passes()[k];
       sent[k] = (pass.reads & physics.fields()).without(fresh);

@@ -9,13 +9,20 @@
 #include <utility>
 
 #include "pairs/occupied.hpp"
+#include "sph/physics.hpp"
 
 namespace sph {
 namespace {
 
 decomp::CellGrid make_grid(const Scene& scene, const PositionScale& scale, std::int64_t min_edge) {
   decomp::Int3 length{};
-  for (std::size_t a = 0; a < 3; ++a) length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
+  // Whole units of the rows along a period, or a pair in single precision would depend on whose image was
+  // taken.
+  const int bits = scene.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
+    if (scene.periodic[a]) length[a] = (length[a] >> bits) << bits;
+  }
   return {scene.dim, scale.origin, length, scene.periodic, min_edge};
 }
 
@@ -65,7 +72,7 @@ Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const P
       scene_(scene),
       scale_(scale),
       skin_(scene.decomposition.skin * scene.support()),
-      reach_(scale.quanta(scene.support() + skin_) + 1),
+      reach_(scale.quanta(scene.list_range() + skin_) + 1),
       grid_(make_grid(scene, scale, reach_)),
       partition_(grid_, scene.decomposition.cut_axes[0], scene.decomposition.cut_axes[1],
                  first_cuts(grid_, scene, comm.size())),

@@ -35,27 +35,28 @@ void Simulation::step_in_passes() {
     const auto timing = timers_.time(decomp::Region::update);
     physics_.advance(particles_, distribution_.ranges(), global_.dt);
     moved_ += physics_.longest_advance(global_);
-    changed({Field::position});
+    changed({Field::position, Field::displacement});
   }
   if (stale_) rebuild();
 
-  for (const Pass& pass : physics_.passes()) {
-    const PassContext context = physics_.context(particles_, lists_, rows_, global_.dt);
-    refresh_begin(pass.reads);
-    run(pass, context, Side::interior);
-    refresh_end();
-    run(pass, context, Side::boundary);
-    changed(pass.fusion->writes);
-    if (pass.update) {
-      const auto timing = timers_.time(decomp::Region::update);
-      pass.update(particles_, distribution_.ranges(), global_);
-      changed(pass.changes);
-    }
-  }
+  for (const Pass& pass : physics_.passes()) compute(pass);
 
   const auto timing = timers_.time(decomp::Region::update);
   maxima_ = physics_.integrate(particles_, distribution_.ranges(), global_);
   changed(physics_.integrated());
+}
+
+void Simulation::compute(const Pass& pass) {
+  const PassContext context = physics_.context(particles_, lists_, rows_, global_.dt);
+  refresh_begin(pass.reads);
+  run(pass, context, Side::interior);
+  refresh_end();
+  run(pass, context, Side::boundary);
+  changed(pass.fusion->writes);
+  if (!pass.update) return;
+  const auto timing = timers_.time(decomp::Region::update);
+  pass.update(particles_, distribution_.ranges(), global_);
+  changed(pass.changes);
 }
 
 // Grains: contacts and walls of a block of rows, then at once the kick and drift of its grains.
@@ -315,6 +316,8 @@ void Simulation::begin() {
   if (!grains_) physics_.derive(particles_, 0, particles_.owned());
   // Sorts the rows: advance() needs to know which of them move.
   rebuild();
+  // What bonds there are is known only from the start; and output wants the stress.
+  if (scene_.total_lagrangian()) compute(physics_.passes().front());
   stale_ = !grains_;  // the first advance may leave the skin
 }
 

@@ -14,6 +14,16 @@ double Scene::support() const {
   return kernel == KernelShape::quintic ? 3 * smoothing_length : 2 * smoothing_length;
 }
 
+double Scene::list_range() const {
+  return total_lagrangian() ? support() * terms.largest_stretch : support();
+}
+
+bool Scene::total_lagrangian() const {
+  for (const Group& g : groups)
+    if (g.lagrangian == Lagrangian::total) return true;
+  return false;
+}
+
 bool Scene::has_kind(GroupKind k) const {
   for (const Group& g : groups)
     if (g.kind == k) return true;

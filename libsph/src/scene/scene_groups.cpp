@@ -89,6 +89,8 @@ Group read_material(const TableReader& table, const std::string& name, GroupKind
   group.viscosity = viscosity("viscosity", like == nullptr ? 0 : like->viscosity);
   group.bulk_viscosity = viscosity("bulk_viscosity", like == nullptr ? 0 : like->bulk_viscosity);
   read_gas(table, group);
+  table.only_if(kind == GroupKind::solid, "lagrangian", "only groups with kind = \"solid\" have it");
+  group.lagrangian = table.choice("lagrangian", lagrangian_words()).value_or(Lagrangian::updated);
   table.only_if(kind == GroupKind::wall, "velocity",
                 "only groups with kind = \"wall\" have it; movers start with start.velocity");
   table.only_if(kind == GroupKind::wall, "slip", "only groups with kind = \"wall\" have it");
@@ -98,6 +100,35 @@ Group read_material(const TableReader& table, const std::string& name, GroupKind
     table.only_if(!group.slip, "velocity", "a wall with slip = true drags nothing along");
   }
   return group;
+}
+
+/// The solid that a wall is bonded to, -1 for other groups.
+int read_clamps(const TableReader& table, GroupKind kind, const std::vector<Group>& groups) {
+  table.only_if(kind == GroupKind::wall, "clamps", "only groups with kind = \"wall\" have it");
+  const int solid = read_group_name(table, "clamps", groups);
+  if (solid < 0) return -1;
+  table.only_if(false, "velocity", "a clamp holds its solid at rest");
+  if (const Group& g = groups[static_cast<std::size_t>(solid)]; g.lagrangian != Lagrangian::total)
+    table.fail("clamps", fmt::format("names \"{}\"", g.name),
+               "it must name a solid with lagrangian = \"total\"");
+  return solid;
+}
+
+/// Total-Lagrangian solids have passes of their own, in which nothing else takes part yet.
+void check_total_lagrangian(const std::vector<TableReader>& tables, const std::vector<Group>& groups) {
+  const bool any = std::any_of(groups.begin(), groups.end(),
+                               [](const Group& g) { return g.lagrangian == Lagrangian::total; });
+  for (std::size_t k = 0; any && k < groups.size(); ++k) {
+    const Group& g = groups[k];
+    if (g.kind == GroupKind::fluid || (g.kind == GroupKind::solid && g.lagrangian == Lagrangian::updated))
+      tables[k].fail(g.kind == GroupKind::fluid ? "kind" : "lagrangian",
+                     g.kind == GroupKind::fluid ? "is \"fluid\" beside total-Lagrangian solids"
+                                                : "is \"updated\" beside total-Lagrangian solids",
+                     "a scene of those has no other matter but walls");
+    if (g.kind == GroupKind::solid && g.bulk_viscosity > 0)
+      tables[k].fail("bulk_viscosity", fmt::format("is {}", g.bulk_viscosity),
+                     "solids with lagrangian = \"total\" have viscosity alone");
+  }
 }
 
 void check_target(const TableReader& table, const Group& from, const Group& to) {
@@ -161,14 +192,20 @@ std::vector<Group> read_groups(const TableReader& top, int dim) {
   if (tables.empty()) top.fail_missing("group", "describe each material in a [[group]] table");
   const std::vector<Header> headers = read_headers(tables);
   std::vector<Group> groups(tables.size());
+  for (std::size_t k = 0; k < tables.size(); ++k) groups[k].name = headers[k].name;
   const Group* first_fluid = nullptr;
   for (const GroupKind pass : {GroupKind::fluid, GroupKind::solid, GroupKind::wall})
     for (std::size_t k = 0; k < tables.size(); ++k) {
       if (headers[k].kind != pass) continue;
-      const Group* like = pass == GroupKind::wall ? first_fluid : nullptr;
+      const int clamped = read_clamps(tables[k], pass, groups);
+      const Group* like = clamped >= 0              ? &groups[static_cast<std::size_t>(clamped)]
+                          : pass == GroupKind::wall ? first_fluid
+                                                    : nullptr;
       groups[k] = read_material(tables[k], headers[k].name, pass, like, dim);
+      groups[k].clamps = clamped;
       if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &groups[k];
     }
+  check_total_lagrangian(tables, groups);
   for (std::size_t k = 0; k < tables.size(); ++k) read_fragmentation(tables[k], k, groups);
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const int target = groups[k].fragments_to;

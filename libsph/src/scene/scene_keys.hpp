@@ -40,6 +40,8 @@ inline constexpr auto group_list = std::to_array<Word>({"name",
                                                         "fragmentation",
                                                         "velocity",
                                                         "slip",
+                                                        "lagrangian",
+                                                        "clamps",
                                                         "diameter",
                                                         "young_modulus",
                                                         "normal_stiffness",
@@ -57,7 +59,7 @@ inline constexpr auto region_list =
     std::to_array<Word>({"group", "shape", "lower", "upper", "centre", "radius"});
 inline constexpr auto terms_list =
     std::to_array<Word>({"density_diffusion", "artificial_viscosity", "shifting", "viscosity",
-                         "pressure_weights", "surface_tension"});
+                         "pressure_weights", "surface_tension", "hourglass", "largest_stretch"});
 inline constexpr auto surface_tension_list = std::to_array<Word>({"between", "coefficient"});
 inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
 inline constexpr auto decomposition_list =

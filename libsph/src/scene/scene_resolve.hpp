@@ -71,6 +71,7 @@ void read_grain_velocity(const TableReader& table, Start& start);
 [[nodiscard]] const Choices<ViscosityForm>& viscosity_words();
 [[nodiscard]] const Choices<GroupKind>& group_kind_words();
 [[nodiscard]] const Choices<EosKind>& eos_words();
+[[nodiscard]] const Choices<Lagrangian>& lagrangian_words();
 [[nodiscard]] const Choices<RegionShape>& region_words();
 [[nodiscard]] const Choices<LatticeKind>& lattice_words();
 [[nodiscard]] const Choices<CutRule>& cut_rule_words();

@@ -17,8 +17,13 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
   out.number("bulk_modulus", g.bulk_modulus);
   out.number("viscosity", g.viscosity);
   out.number("bulk_viscosity", g.bulk_viscosity);
-  if (g.kind == GroupKind::solid) out.number("shear_modulus", g.shear_modulus);
-  if (g.kind == GroupKind::wall && g.slip)
+  if (g.kind == GroupKind::solid) {
+    out.number("shear_modulus", g.shear_modulus);
+    out.text("lagrangian", word(lagrangian_words(), g.lagrangian));
+  }
+  if (g.clamps >= 0)
+    out.text("clamps", scene.groups[static_cast<std::size_t>(g.clamps)].name);
+  else if (g.kind == GroupKind::wall && g.slip)
     out.flag("slip", true);
   else if (g.kind == GroupKind::wall)
     out.vector("velocity", g.wall_velocity);
@@ -122,6 +127,11 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
   out.number("density_diffusion", scene.terms.density_diffusion);
   out.number("artificial_viscosity", scene.terms.artificial_viscosity);
   out.flag("shifting", scene.terms.shifting);
+  if (scene.total_lagrangian()) {
+    out.number("hourglass", scene.terms.hourglass);
+    out.number("largest_stretch", scene.terms.largest_stretch);
+    return;
+  }
   if (scene.formulation == Formulation::ida) return;
   out.text("viscosity", word(viscosity_words(), scene.terms.viscosity));
   if (scene.has_kind(GroupKind::solid)) return;

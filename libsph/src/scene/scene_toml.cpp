@@ -118,10 +118,27 @@ InterfaceTension read_surface_tension(const TableReader& table, const std::vecto
   return tension;
 }
 
-void read_terms(const TableReader& table, Scene& scene) {
-  const bool ida = scene.formulation == Formulation::ida;
+/// What only total-Lagrangian solids have.
+void read_bonds(const TableReader& table, Scene& scene) {
+  constexpr double most_stretch = 2;  // float rows hold no larger distances
+  const bool total = scene.total_lagrangian();
   Terms& terms = scene.terms;
-  if (ida) terms.density_diffusion = 0;
+  for (const std::string_view key : {"hourglass", "largest_stretch"})
+    table.only_if(total, key, "only scenes of solids with lagrangian = \"total\" have it");
+  terms.hourglass = table.number("hourglass", dimension::none, Bound::not_negative).value_or(terms.hourglass);
+  if (terms.hourglass > 1)
+    table.fail("hourglass", fmt::format("is {}", terms.hourglass), "it is a share of the modulus, at most 1");
+  terms.largest_stretch =
+      table.number("largest_stretch", dimension::none, Bound::positive).value_or(terms.largest_stretch);
+  if (terms.largest_stretch < 1 || terms.largest_stretch > most_stretch)
+    table.fail("largest_stretch", fmt::format("is {}", terms.largest_stretch),
+               fmt::format("it is a ratio of lengths, 1 to {}", most_stretch));
+}
+
+void read_terms(const TableReader& table, Scene& scene) {
+  const bool ida = scene.formulation == Formulation::ida, total = scene.total_lagrangian();
+  Terms& terms = scene.terms;
+  if (ida || total) terms.density_diffusion = 0;
   terms.density_diffusion = table.number("density_diffusion", dimension::none, Bound::not_negative)
                                 .value_or(terms.density_diffusion);
   terms.artificial_viscosity =
@@ -147,6 +164,15 @@ void read_terms(const TableReader& table, Scene& scene) {
     if (solid && key != "viscosity" && table.has(key))
       table.fail(key, "is given", "it is for scenes without solids: remove it");
   }
+  const auto refuse = [&](bool given, std::string_view key) {
+    if (total && given)
+      table.fail(key, "is of fluids and updated solids", "total-Lagrangian solids have none: remove it");
+  };
+  refuse(terms.density_diffusion != 0, "density_diffusion");
+  refuse(terms.artificial_viscosity != 0, "artificial_viscosity");
+  refuse(terms.shifting, "shifting");
+  refuse(table.has("viscosity"), "viscosity");
+  read_bonds(table, scene);
   table.finish();
 }
 
@@ -171,7 +197,7 @@ void check_extent(const TableReader& domain, const Scene& scene) {
 
 /// A particle must not meet two images of another, and the halo on either side must be another cell.
 void check_periods(const Tables& tables, const Scene& scene) {
-  const double cell = scene.support() * (1 + scene.decomposition.skin);
+  const double cell = scene.list_range() + scene.support() * scene.decomposition.skin;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     const double length = scene.upper[a] - scene.lower[a];
     if (scene.periodic[a] && length < least_periodic_cells * cell)
@@ -227,6 +253,18 @@ void read_grains(const Tables& tables, Scene& scene) {
   scene.stages = read_stages(tables.top, scene);
 }
 
+/// Bodies start free of stress, in equations of their own.
+void check_total_lagrangian(const Tables& tables, const Scene& scene) {
+  if (!scene.total_lagrangian()) return;
+  if (scene.formulation == Formulation::ida)
+    tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
+  if (scene.surface_pressure > 0)
+    tables.domain.fail("surface_pressure", fmt::format("is {}", scene.surface_pressure),
+                       "solids with lagrangian = \"total\" start free of stress: remove it");
+  if (scene.start.pressure != InitialPressure::zero)
+    tables.start.fail("pressure", "is of fluids", "solids with lagrangian = \"total\" start free of stress");
+}
+
 Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_files) {
   if (root.table()->empty())
     toml_tree::fail(fmt::format("{}:1:1", file), "scene", "the file is empty", "describe the scene in TOML");
@@ -248,6 +286,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
   check_periods(tables, scene);
+  check_total_lagrangian(tables, scene);
   scene.open = scene.terms.shifting && has_free_surface(scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);

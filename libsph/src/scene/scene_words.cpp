@@ -39,6 +39,10 @@ const Choices<EosKind>& eos_words() {
   static const Choices<EosKind> words{{"linear", EosKind::linear}, {"bubbly", EosKind::bubbly}};
   return words;
 }
+const Choices<Lagrangian>& lagrangian_words() {
+  static const Choices<Lagrangian> words{{"updated", Lagrangian::updated}, {"total", Lagrangian::total}};
+  return words;
+}
 const Choices<RegionShape>& region_words() {
   static const Choices<RegionShape> words{
       {"everywhere", RegionShape::everywhere}, {"box", RegionShape::box}, {"ball", RegionShape::ball}};

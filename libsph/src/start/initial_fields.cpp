@@ -129,6 +129,9 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* spin = particles.data<Field::spin>())
     for (std::size_t a = 0; a < d; ++a) spin[i * d + a] = p.spin[a];
   if (auto* pressure = particles.data<Field::pressure>()) pressure[i] = 0;
+  if (auto* bonds = particles.data<Field::bonds>()) bonds[i] = 0;  // not counted yet
+  if (auto* u = particles.data<Field::displacement>())
+    for (std::size_t a = 0; a < d; ++a) u[i * d + a] = 0;
   if (auto* mean = particles.data<Field::velocity_mean>())
     for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = p.velocity[a];
   if (auto* mean = particles.data<Field::pressure_mean>()) mean[i] = 0;

@@ -1,0 +1,49 @@
+// Contact of total-Lagrangian bodies: particles of different bodies that are closer than the spacing d push
+// each other apart with the energy k (d - r)^2 / 2, k = kappa min(M_i, M_j) d^D / h^2: a layer of particles
+// in contact is about kappa times as stiff as the material between two layers, and k over the mass follows
+// the square of the time step's own c/h. Central and derived from an energy: momentum, angular momentum and
+// energy are conserved. Rows of particles interlock: there is friction of a sort.
+#pragma once
+
+#include "sph/pair_rows.hpp"
+
+namespace sph {
+
+struct BodyContact {
+  static constexpr Term term = Term::body_contact;
+  static constexpr ValueSet reads{Value::body, Value::modulus};
+  static constexpr Field writes = Field::force;
+  template <class P, class C>
+  static auto overlap(const P& p, const C& c) {
+    using V = typename P::V;
+    const V o = max(V(c.contact_range) - p.r, V::zero());
+    return o - where_equal(p.template i<Value::body>(), p.template j<Value::body>(), o);
+  }
+  template <class P>
+  static auto modulus(const P& p) {
+    return min(p.template i<Value::modulus>(), p.template j<Value::modulus>());
+  }
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V push = V(c.contact_force) * modulus(p) * overlap(p, c);
+    const V s = push / max(p.r, V(static_cast<typename P::Scalar>(1e-30)));
+    for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, -(s * p.e[a]));
+  }
+};
+
+/// Half the energy of a contact for either particle.
+struct BodyContactEnergy {
+  static constexpr Term term = Term::body_contact_energy;
+  static constexpr ValueSet reads = BodyContact::reads;
+  static constexpr Field writes = Field::contact_energy;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V overlap = BodyContact::overlap(p, c);
+    const V energy = V(c.contact_energy) * BodyContact::modulus(p) * (overlap * overlap);
+    sums.template add<Field::contact_energy>(0, energy);
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,82 @@
+// Total-Lagrangian elasticity: sums over the bonds of the reference state, that is over the pairs of one body
+// whose reference positions X lie within the support of each other, however they move. With
+// w_ij = V_j (-W'(|X_ij|)) / |X_ij| >= 0, constant in time,
+//   A = sum w X X,   B = sum w u X,   H = B A^-1 = F - 1   (Bonet & Lok 1999, corrected gradient)
+// is the least-squares fit of the displacements u, so that sum w (u - H X) X = 0. The energy
+//   sum_i V_i [ psi(F_i) + c/2 sum_j w_ij |u_ij - H_i X_ij|^2 ]
+// has its hourglass part from Silling (2017, eq. 43), and its exact derivative is the pair force
+//   f_ij = V_i V_j (-W'/|X|) [ (M_i + M_j) X_ij + 2 c u_ij ],   M = P A^-1 - c H
+// So linear and angular momentum and energy are conserved, and affine motion feels no hourglass force.
+#pragma once
+
+#include "sph/pair_rows.hpp"
+
+namespace sph {
+
+/// Number of bonds, sum w u.u, A (symmetric), B (by rows), the last three less their common scale.
+struct Deformation {
+  static constexpr Term term = Term::deformation;
+  static constexpr ValueSet reads{Value::reference, Value::reference_volume, Value::body};
+  static constexpr Field writes = Field::deformation;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    const V w = p.template j<Value::reference_volume>() * p.weight;
+    V square = V::zero();
+    for (int a = 0; a < P::dim; ++a) square += p.displacement[a] * p.displacement[a];
+    sums.template add<Field::deformation>(0, p.bond);
+    sums.template add<Field::deformation>(1, w * square);
+    for (int a = 0; a < P::dim; ++a) {
+      const V wx = w * p.reference[a], wu = w * p.displacement[a];
+      for (int b = a; b < P::dim; ++b)
+        sums.template add<Field::deformation>(2 + symmetric_index(a, b, P::dim), wx * p.reference[b]);
+      for (int b = 0; b < P::dim; ++b)
+        sums.template add<Field::deformation>(2 + P::dim * (P::dim + 1) / 2 + a * P::dim + b,
+                                              wu * p.reference[b]);
+    }
+  }
+};
+
+struct BondForce {
+  static constexpr Term term = Term::bond_force;
+  static constexpr ValueSet reads{Value::reference, Value::reference_volume, Value::body, Value::bond_stress,
+                                  Value::modulus};
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V s = p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.weight;
+    const V stiffness = V(2 * c.hourglass) * p.template i<Value::modulus>();  // one body, one modulus
+    for (int a = 0; a < P::dim; ++a) {
+      V t = stiffness * p.displacement[a];
+      for (int b = 0; b < P::dim; ++b) {
+        const int ab = a * P::dim + b;
+        t += (p.template i<Value::bond_stress>(ab) + p.template j<Value::bond_stress>(ab)) * p.reference[b];
+      }
+      sums.template add<Field::force>(a, s * t);
+    }
+  }
+};
+
+/// Central, so that angular momentum stays: f_ij = 2 (D+2) eta V_i V_j (-W'/|X|) (v_ij.e) e / |e|^2, the form
+/// of Monaghan (2005, eq. 8.8) on bonds.
+struct BondViscosity {
+  static constexpr Term term = Term::bond_viscosity;
+  static constexpr ValueSet reads{Value::reference, Value::reference_volume, Value::body, Value::velocity,
+                                  Value::viscosity};
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    V closing = V::zero();
+    for (int a = 0; a < P::dim; ++a)
+      closing += (p.template j<Value::velocity>(a) - p.template i<Value::velocity>(a)) * p.e[a];
+    const V eta = V(static_cast<typename P::Scalar>(P::dim + 2)) *
+                  (p.template i<Value::viscosity>() + p.template j<Value::viscosity>());
+    const V s = p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.weight;
+    const V t = s * eta * (closing / max(p.r2, V(static_cast<typename P::Scalar>(1e-30))));
+    for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, t * p.e[a]);
+  }
+};
+
+}  // namespace sph
