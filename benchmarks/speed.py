@@ -23,6 +23,7 @@ environment = dict(
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
     OMPI_MCA_rmaps_base_oversubscribe="1",
     OMPI_MCA_hwloc_base_binding_policy="none",
+    HWLOC_COMPONENTS="-opencl",
     OMP_NUM_THREADS="1",
 )
 

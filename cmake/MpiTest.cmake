@@ -2,7 +2,8 @@
 # The environment lets root run more ranks than cores without binding two jobs to the same core.
 set(PEPERITE_MPI_ENVIRONMENT
   OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-  OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none)
+  OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+  HWLOC_COMPONENTS=-opencl)
 
 function(add_mpi_test name target)
   cmake_parse_arguments(arg "" "TIMEOUT" "RANKS;ARGS" ${ARGN})

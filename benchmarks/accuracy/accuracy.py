@@ -24,7 +24,7 @@ CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "pois
          "hydrostatic", "hydrostatic_3d", "two_layers", "rayleigh_taylor", "rising_bubble", "rising_bubble_2",
          "elliptic_drop", "oscillating_drop", "rotating_patch", "dam_break", "dam_break_3d", "sloshing", "standing_wave",
          "standing_wave_2500", "acoustic", "shock_tube", "shock_tube_10", "cantilever", "rings", "spinning_plate", "bar_wave",
-         "gravity_patch")
+         "gravity_patch", "cylinder")
 
 
 def order(sizes, errors):

@@ -25,9 +25,9 @@ def settings(n):
 
 
 def smooth_speed(run):
-    """Means over 0.1 s, which the sound of the closed box needs."""
+    """Means over 0.29 s, the period 2 H / c of the slowest sound in the closed box, which rings from the start."""
     series = run.series()
-    window = np.ones(10) / 10
+    window = np.ones(29) / 29
     return np.convolve(series["t"], window, "valid"), np.convolve(series["bubble_vy"], window, "valid")
 
 

@@ -14,6 +14,7 @@ ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "HWLOC_COMPONENTS": "-opencl",  # or signals to mpirun are lost, see cmake/environment.sh
 }
 
 

@@ -73,6 +73,7 @@ std::vector<FieldSet> refreshes_of(const Physics& physics) {
       const Pass& pass = physics.passes()[k];
       sent[k] = (pass.reads & physics.fields()).without(fresh);
       fresh |= sent[k];
+      fresh = fresh.without(pass.fusion->writes);
       if (pass.update) fresh = fresh.without(pass.changes);
     }
     fresh = fresh.without(physics.integrated());
