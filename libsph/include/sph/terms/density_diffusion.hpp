@@ -7,8 +7,22 @@
 #pragma once
 
 #include "sph/pair_rows.hpp"
+#include "sph/terms/head.hpp"
 
 namespace sph {
+
+/// rest: g.(x_j - x_i) or its like, which p_j - p_i over the density is where nothing flows.
+template <class P, class S>
+void exchange_density(const P& p, typename P::V rest, S& sums) {
+  using V = typename P::V;
+  const V rho =
+      V(typename P::Scalar(0.5)) * (p.template i<Value::density>() + p.template j<Value::density>());
+  const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * rest;
+  const V sound = max(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
+  const V rate = p.template j<Value::volume>() * p.f * (excess / sound);
+  sums.template add<Field::diffusion>(
+      0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), rate));
+}
 
 struct DensityDiffusion {
   static constexpr Term term = Term::density_diffusion;
@@ -17,16 +31,7 @@ struct DensityDiffusion {
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    V head = V::zero();
-    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
-    const V rho =
-        V(typename P::Scalar(0.5)) * (p.template i<Value::density>() + p.template j<Value::density>());
-    const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * head;
-    const V sound = max(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
-    const V rate = p.template j<Value::volume>() * p.f * (excess / sound);
-    sums.template add<Field::diffusion>(
-        0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), rate));
+    exchange_density(p, head(p, c), sums);
   }
 };
 
@@ -38,16 +43,8 @@ struct PulledDensityDiffusion {
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    V head = p.template i<Value::potential>() - p.template j<Value::potential>();
-    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
-    const V rho =
-        V(typename P::Scalar(0.5)) * (p.template i<Value::density>() + p.template j<Value::density>());
-    const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * head;
-    const V sound = max(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
-    const V rate = p.template j<Value::volume>() * p.f * (excess / sound);
-    sums.template add<Field::diffusion>(
-        0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), rate));
+    exchange_density(p, p.template i<Value::potential>() - p.template j<Value::potential>() + head(p, c),
+                     sums);
   }
 };
 

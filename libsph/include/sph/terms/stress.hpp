@@ -1,4 +1,4 @@
-// Divergence of the full stress in volume form: F_ij = V_i V_j (sigma_i + sigma_j) grad_i W. The pressure
+// Divergence of a symmetric stress in volume form: F_ij = V_i V_j (sigma_i + sigma_j) grad_i W. The pressure
 // force is its isotropic part.
 #pragma once
 
@@ -6,9 +6,10 @@
 
 namespace sph {
 
-struct StressDivergence {
-  static constexpr Term term = Term::stress_divergence;
-  static constexpr ValueSet reads{Value::volume, Value::stress};
+template <Term Name, Value Stress>
+struct TensorDivergence {
+  static constexpr Term term = Name;
+  static constexpr ValueSet reads{Value::volume, Stress};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
@@ -18,11 +19,13 @@ struct StressDivergence {
       V t = V::zero();
       for (int b = 0; b < P::dim; ++b) {
         const int ab = symmetric_index(a, b, P::dim);
-        t += (p.template i<Value::stress>(ab) + p.template j<Value::stress>(ab)) * p.e[b];
+        t += (p.template i<Stress>(ab) + p.template j<Stress>(ab)) * p.e[b];
       }
       sums.template add<Field::force>(a, -(s * t));
     }
   }
 };
+
+using StressDivergence = TensorDivergence<Term::stress_divergence, Value::stress>;
 
 }  // namespace sph

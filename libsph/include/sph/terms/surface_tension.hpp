@@ -6,6 +6,7 @@
 #pragma once
 
 #include "sph/pair_rows.hpp"
+#include "sph/terms/stress.hpp"
 
 namespace sph {
 
@@ -22,23 +23,6 @@ struct ColourGradient {
   }
 };
 
-struct SurfaceTension {
-  static constexpr Term term = Term::surface_tension;
-  static constexpr ValueSet reads{Value::volume, Value::capillary};
-  static constexpr Field writes = Field::force;
-  template <class Kernel, class P, class C, class S>
-  static void add(const P& p, const C&, S& sums) {
-    using V = typename P::V;
-    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * p.f;
-    for (int a = 0; a < P::dim; ++a) {
-      V t = V::zero();
-      for (int b = 0; b < P::dim; ++b) {
-        const int ab = symmetric_index(a, b, P::dim);
-        t += (p.template i<Value::capillary>(ab) + p.template j<Value::capillary>(ab)) * p.e[b];
-      }
-      sums.template add<Field::force>(a, -(s * t));
-    }
-  }
-};
+using SurfaceTension = TensorDivergence<Term::surface_tension, Value::capillary>;
 
 }  // namespace sph

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "sph/pair_rows.hpp"
+#include "sph/terms/head.hpp"
 
 namespace sph {
 
@@ -16,11 +17,9 @@ struct WallExtrapolation {
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
     const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
-    V head = V::zero();
-    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
     sums.template add<Field::wall_sums>(0, w);
     sums.template add<Field::wall_sums>(
-        1, w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head));
+        1, w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head(p, c)));
     for (int k = 0; k < P::dim; ++k)
       sums.template add<Field::wall_sums>(2 + k, w * p.template j<Value::velocity>(k));
   }
@@ -36,9 +35,7 @@ struct WallExtrapolationByDensity {
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
     const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
-    V head = V::zero();
-    for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k]) * p.e[k];
-    const V wp = w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head);
+    const V wp = w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head(p, c));
     for (int k = 0; k < 2; ++k) {
       const V wanted(static_cast<typename P::Scalar>(k));
       sums.template add<Field::wall_sums_by_density>(2 * k,
