@@ -3,9 +3,11 @@
 //   Laplacian (Morris et al. 1997): F_ij = 2 eta_ij V_i V_j (v_i - v_j) f, that is div(eta grad v)
 //   symmetric (Monaghan 2005, eq. 4.14): F_ij = 2 (D + 2) eta_ij V_i V_j (v_ij.x_ij) x_ij / r^2 f, that is
 //   div(eta (grad v + grad v^T)) + grad(eta div v); central, so angular momentum is conserved too
-// Where eta is uniform and div v = 0 both are the same, and the first is smoother. Where it jumps only the
-// second has the right traction on the interface: the first lets a bubble rise 5 % too fast at any
-// resolution.
+// Where eta is uniform and div v = 0 both are the same; the first is more accurate next to walls that do not
+// slip, whose velocities are crude and count for more in the second. Only the second has the right traction
+// where eta jumps and at a free surface: with the first a rising bubble gets 5 % too flat at any resolution,
+// and a gravity wave, whose dissipation is all due to that condition (Colagrossi et al. 2011), decays at half
+// its rate.
 #pragma once
 
 #include "sph/pair_rows.hpp"
