@@ -164,14 +164,28 @@ struct PairPass {
           coordinate_difference(stored_difference(xi, own[a]), stored_difference(xj, other[a])) * unit;
       square += pair.reference[a] * pair.reference[a];
     }
+    // Differences in rows of single precision are modulo 2^32 units, four to eight times 2^29: particles from
+    // far apart that meet now must not pass for neighbours then.
+    const V near = all_near(own, other);
     const V distance = sqrt(square), tiny(static_cast<T>(1e-30));
     // A bond longer than the range is lost even where a list, with its skin, still holds it: how wide lists
     // are must not decide when a run ends.
     const V found = where_less(pair.r, range, V(static_cast<T>(1)));
-    const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found);
+    const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found * near);
     pair.bond = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
-    pair.weight =
-        where_equal(own[body], other[body], -(Kernel::template slope<D>(distance) / max(distance, tiny)));
+    pair.weight = where_equal(own[body], other[body],
+                              -(near * Kernel::template slope<D>(distance) / max(distance, tiny)));
+  }
+
+  /// 1 where the reference positions are less than three cells of 2^29 units apart along each axis, else 0.
+  static V all_near(const V* own, const V* other) {
+    constexpr int cell = Layout::offset(Value::reference_cell);
+    V near(static_cast<T>(1));
+    for (int a = 0; a < D; ++a) {
+      const V apart = other[cell + a] - own[cell + a];
+      near = where_less(apart * apart, V(static_cast<T>(9)), near);
+    }
+    return near;
   }
 
   static T* rows_of(const PassContext& c) {

@@ -61,6 +61,7 @@ enum class Value : std::uint8_t {
   capillary,         ///< surface stress sigma (I - n n) |grad C| [Pa]
   potential,         ///< of the central pull [m^2/s^2]
   reference,         ///< reference position, stored as the position is
+  reference_cell,    ///< the bits of it that a row in single precision has no room for
   reference_volume,  ///< mass / rho_0 [spacing^D]
   body,              ///< particles of one body have one number
   bond_stress,       ///< [Pa]
@@ -85,7 +86,7 @@ class ValueSet {
 };
 
 [[nodiscard]] constexpr int components(Value v, int dim) {
-  const bool vector = v == Value::velocity || v == Value::reference;
+  const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell;
   const bool tensor = v == Value::stress || v == Value::capillary;
   return vector                    ? dim
          : v == Value::pressures   ? 2
@@ -110,7 +111,7 @@ class ValueSet {
   if (values.has(Value::pressures)) f |= FieldSet{Field::group, Field::pressure, Field::wall_pressures};
   if (values.has(Value::side)) f |= FieldSet{Field::group};
   if (values.has(Value::capillary)) f |= FieldSet{Field::colour_gradient};
-  if (values.has(Value::reference)) f |= FieldSet{Field::displacement};
+  if (values.has(Value::reference) || values.has(Value::reference_cell)) f |= FieldSet{Field::displacement};
   if (values.has(Value::reference_volume)) f |= FieldSet{Field::mass, Field::group};
   if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
   if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
@@ -226,6 +227,10 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     if constexpr (S.has(Value::reference))
       for (int k = 0; k < D; ++k)
         row[Layout::offset(Value::reference) + k] = coordinate(x[i * D + k] - displacement[i * D + k]);
+    if constexpr (S.has(Value::reference_cell))
+      for (int k = 0; k < D; ++k)
+        put(Value::reference_cell, k,
+            static_cast<double>((x[i * D + k] - displacement[i * D + k]) >> (scale.position_shift + 29)));
     if constexpr (S.has(Value::reference_volume))
       put(Value::reference_volume, 0, mass[i] / groups.density[group[i]] * scale.inverse_volume);
     if constexpr (S.has(Value::body)) put(Value::body, 0, groups.body[group[i]]);

@@ -48,7 +48,8 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
     return;
   }
   const Group& group = scene.groups[of.group(row)];
-  if (group.clamps >= 0 && monitor.kind == MonitorKind::energy)  // strained by the solid that it holds
+  // Strained by the solid that it holds, or by bodies that touch it.
+  if (scene.total_lagrangian() && is_held(group) && monitor.kind == MonitorKind::energy)
     sums.back().add(elastic_energy(scene, of, row));
   if (is_held(group)) return;
   if (monitor.kind == MonitorKind::contacts) {

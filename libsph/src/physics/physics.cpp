@@ -77,9 +77,10 @@ PositionScale position_scale(const Scene& scene) {
     extent = std::max({extent, std::abs(scene.lower[static_cast<std::size_t>(a)]),
                        std::abs(scene.upper[static_cast<std::size_t>(a)])});
   PositionScale scale;
-  // The next power of two above both bounds.
-  scale.quantum =
-      std::ldexp(1.0, std::max(std::ilogb(extent) + 1 - 60, std::ilogb(scene.support()) + 1 - 50));
+  // The next power of two above both bounds. A bond of a body that turns upside down is displaced by its
+  // length then and now.
+  const double longest = scene.total_lagrangian() ? scene.support() + scene.list_range() : scene.support();
+  scale.quantum = std::ldexp(1.0, std::max(std::ilogb(extent) + 1 - 60, std::ilogb(longest) + 1 - 50));
   for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.lower[a]);
   return scale;
 }
@@ -275,10 +276,15 @@ double Physics::time_step(const StepMaxima& maxima) const {
   double fastest = 0, viscous = 0;
   for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
     fastest = std::max(fastest, groups_.sound_speed[g]);
+    if (scene_->total_lagrangian() && is_wall(static_cast<std::uint32_t>(g))) continue;
     viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
   }
-  if (scene_->terms.viscosity == ViscosityForm::symmetric) viscous *= 3;  // nu (lap v + 2 grad div v)
+  const bool bonds = scene_->total_lagrangian();
+  if (bonds || scene_->terms.viscosity == ViscosityForm::symmetric)
+    viscous *= 3;  // nu (lap v + 2 grad div v)
   double dt = scene_->time.cfl * h / (fastest + maxima.speed);
+  // Dashpots beside springs: the rates add.
+  if (bonds && viscous > 0) dt = 1 / (1 / dt + viscous / (0.125 * h * h));
   if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
   // Capillary waves as long as the layer is thick (Brackbill et al. 1992, eq. 61).
   if (const InterfaceTension& t = scene_->terms.surface_tension; t.coefficient > 0) {

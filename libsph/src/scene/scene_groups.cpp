@@ -107,7 +107,8 @@ int read_clamps(const TableReader& table, GroupKind kind, const std::vector<Grou
   table.only_if(kind == GroupKind::wall, "clamps", "only groups with kind = \"wall\" have it");
   const int solid = read_group_name(table, "clamps", groups);
   if (solid < 0) return -1;
-  table.only_if(false, "velocity", "a clamp holds its solid at rest");
+  for (const std::string_view key : {"velocity", "slip"})
+    table.only_if(false, key, "a clamp holds its solid at rest");
   if (const Group& g = groups[static_cast<std::size_t>(solid)]; g.lagrangian != Lagrangian::total)
     table.fail("clamps", fmt::format("names \"{}\"", g.name),
                "it must name a solid with lagrangian = \"total\"");
@@ -125,6 +126,8 @@ void check_total_lagrangian(const std::vector<TableReader>& tables, const std::v
                      g.kind == GroupKind::fluid ? "is \"fluid\" beside total-Lagrangian solids"
                                                 : "is \"updated\" beside total-Lagrangian solids",
                      "a scene of those has no other matter but walls");
+    if (g.slip)
+      tables[k].fail("slip", "is on", "total-Lagrangian solids touch walls without friction anyway");
     if (g.kind == GroupKind::solid && g.bulk_viscosity > 0)
       tables[k].fail("bulk_viscosity", fmt::format("is {}", g.bulk_viscosity),
                      "solids with lagrangian = \"total\" have viscosity alone");

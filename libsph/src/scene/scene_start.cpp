@@ -151,7 +151,7 @@ void read_velocity(const TableReader& table, const Scene& scene, Start& start) {
   }
 }
 
-/// surface_height is short for one layer of the first fluid, or solid where there is none.
+/// surface_height is short for one layer of the first fluid, or of the first solid where there is none.
 std::vector<Layer> read_layers(const TableReader& table, const Scene& scene,
                                const std::optional<double>& surface_height) {
   table.not_both("surface_height", "layer");
@@ -160,8 +160,8 @@ std::vector<Layer> read_layers(const TableReader& table, const Scene& scene,
     (void)t.required_text("group");
     Layer layer;
     layer.group = read_group_name(t, "group", scene.groups);
-    if (scene.groups[static_cast<std::size_t>(layer.group)].kind != GroupKind::fluid)
-      t.fail("group", "names no fluid", "the layers are fluids on top of each other");
+    if (scene.groups[static_cast<std::size_t>(layer.group)].kind == GroupKind::wall)
+      t.fail("group", "names a wall", "the layers are what lies on top of each other");
     layer.top = t.required_number("top", dimension::length, Bound::any);
     if (!layers.empty() && layer.top >= layers.back().top)
       t.fail("top", fmt::format("is {}, not below that of the layer before", layer.top),
@@ -170,10 +170,13 @@ std::vector<Layer> read_layers(const TableReader& table, const Scene& scene,
     layers.push_back(layer);
   }
   if (surface_height) {
-    const auto first = std::find_if(scene.groups.begin(), scene.groups.end(),
-                                    [](const Group& g) { return g.kind == GroupKind::fluid; });
-    layers.push_back(
-        {first == scene.groups.end() ? 0 : static_cast<int>(first - scene.groups.begin()), *surface_height});
+    const auto first = [&](GroupKind kind) {
+      return std::find_if(scene.groups.begin(), scene.groups.end(),
+                          [&](const Group& g) { return g.kind == kind; });
+    };
+    const auto fluid = first(GroupKind::fluid);
+    const auto matter = fluid == scene.groups.end() ? first(GroupKind::solid) : fluid;
+    layers.push_back({static_cast<int>(matter - scene.groups.begin()), *surface_height});
   }
   return layers;
 }

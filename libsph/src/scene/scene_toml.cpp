@@ -113,6 +113,13 @@ InterfaceTension read_surface_tension(const TableReader& table, const std::vecto
       table.fail("between", fmt::format("names \"{}\", which is no fluid", *name), right);
   }
   if (tension.between[0] == tension.between[1]) table.fail("between", "names one group twice", right);
+  const auto ends = [&](int k) {
+    const int fragments = groups[static_cast<std::size_t>(k)].fragments_to;
+    return fragments < 0 ? k : fragments;
+  };
+  if (ends(tension.between[0]) == ends(tension.between[1]))
+    table.fail("between", "names groups that fragment into each other or into the same one",
+               "fragments stay on the side of what they broke from");
   tension.coefficient = table.required_number("coefficient", dimension::stiffness, Bound::not_negative);
   table.finish();
   return tension;
@@ -147,8 +154,9 @@ void read_terms(const TableReader& table, Scene& scene) {
   const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
     return g.viscosity == scene.groups.front().viscosity;
   });
-  terms.viscosity = table.choice("viscosity", viscosity_words())
-                        .value_or(uniform || ida ? ViscosityForm::laplacian : ViscosityForm::symmetric);
+  terms.viscosity =
+      table.choice("viscosity", viscosity_words())
+          .value_or(uniform || ida || total ? ViscosityForm::laplacian : ViscosityForm::symmetric);
   terms.pressure_weights =
       table.choice("pressure_weights", pressure_weights_words()).value_or(terms.pressure_weights);
   if (table.has("surface_tension"))

@@ -16,7 +16,8 @@ namespace sph {
 /// Number of bonds, sum w u.u, A (symmetric), B (by rows), the last three less their common scale.
 struct Deformation {
   static constexpr Term term = Term::deformation;
-  static constexpr ValueSet reads{Value::reference, Value::reference_volume, Value::body};
+  static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
+                                  Value::body};
   static constexpr Field writes = Field::deformation;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
@@ -39,8 +40,8 @@ struct Deformation {
 
 struct BondForce {
   static constexpr Term term = Term::bond_force;
-  static constexpr ValueSet reads{Value::reference, Value::reference_volume, Value::body, Value::bond_stress,
-                                  Value::modulus};
+  static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
+                                  Value::body,      Value::bond_stress,    Value::modulus};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -62,8 +63,8 @@ struct BondForce {
 /// of Monaghan (2005, eq. 8.8) on bonds.
 struct BondViscosity {
   static constexpr Term term = Term::bond_viscosity;
-  static constexpr ValueSet reads{Value::reference, Value::reference_volume, Value::body, Value::velocity,
-                                  Value::viscosity};
+  static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
+                                  Value::body,      Value::velocity,       Value::viscosity};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
