@@ -11,6 +11,7 @@ TIMES = (0.0225, 0.045, 0.1125, 0.225, 1.0)
 FORMULATIONS = {
     "default": (),
     "mixed": ("precision=mixed",),
+    "implicit": ("terms.implicit_viscosity=true", "time.dt=", "time.cfl=0.8"),
     "no shifting": ("terms.shifting=false",),
     "ida": ("formulation=ida", "terms.shifting=", "terms.density_diffusion="),
 }

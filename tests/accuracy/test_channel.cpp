@@ -64,6 +64,19 @@ TEST(Channel, Poiseuille) {
   EXPECT_LE(fine, 0.01);
 }
 
+// Viscous forces of the end of the step, at 16 and 32 times the explicit limit of the step: exact in the end,
+// because a flow that no longer changes does not know of steps.
+TEST(Channel, PoiseuilleImplicit) {
+  const std::vector<std::string> implicit{"terms.implicit_viscosity=true", "time.dt=", "time.cfl=0.8"};
+  std::vector<std::string> finer = implicit;
+  finer.emplace_back("start.spacing=25e-6");
+  const double coarse = worst_error("poiseuille.toml", implicit, {1.0}, poiseuille);
+  const double fine = worst_error("poiseuille.toml", finer, {1.0}, poiseuille);
+  std::printf("Poiseuille, implicit, 20 -> 40: order %.2f\n", std::log2(coarse / fine));
+  EXPECT_LE(coarse, 0.0031);
+  EXPECT_GE(std::log2(coarse / fine), 1.9);
+}
+
 TEST(Channel, Couette) {
   EXPECT_LE(worst_error("couette.toml", {}, {0.045, 0.1125, 0.225, 1.0}, couette), 0.01);
 }

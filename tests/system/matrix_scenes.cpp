@@ -42,6 +42,14 @@ const std::vector<Source>& sources() {
       {"bubble2d",
        "benchmarks/accuracy/rising_bubble.toml",
        {"start.velocity=[2, 0.3]", "time.until=", "time.steps=1"}},
+      // viscous forces of the end of the step: a solver with its own halo refreshes and reductions
+      {"viscous2d",
+       "benchmarks/accuracy/rising_bubble.toml",
+       {"start.velocity=[2, 0.3]", "time.until=", "time.steps=1", "terms.implicit_viscosity=true",
+        "group.liquid.viscosity=1000"}},
+      {"viscous3d",
+       "tests/scenes/box3d_fluid.toml",
+       {"group.melt.viscosity=1e5", "terms.implicit_viscosity=true", "terms.viscosity=symmetric"}},
       // shifting beside a free surface, walls that slip
       {"fluid3d", "tests/scenes/box3d_fluid.toml", {"terms.shifting=true", "group.wall.slip=true"}},
       // smaller balls: those of the file fill the channel and push melt through its walls

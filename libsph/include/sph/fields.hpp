@@ -42,6 +42,10 @@ enum class Field : std::uint8_t {
   bond_stress,
   strain_energy,
   contact_energy,
+  direction,
+  viscous_sums,
+  wall_share,
+  wall_slope,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -119,6 +123,14 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of total-Lagrangian solids: elastic energy of the particle, hourglass energy included"},
     {Field::contact_energy, "contact_energy", "J", Type::f64, Shape::scalar, false, false,
      "half the energy of the particle's contacts with other bodies"},
+    {Field::direction, "direction", "m/s", Type::f64, Shape::vector, false, false,
+     "implicit viscosity: what the viscous operator is applied to"},
+    {Field::viscous_sums, "viscous_sums", "N", Type::f64, Shape::spread, false, false,
+     "viscous force on a particle if `direction` were the velocities, and the drag on it alone [kg/s]"},
+    {Field::wall_share, "wall_share", "1/m", Type::f64, Shape::spread, false, false,
+     "gradient of the walls' share of the kernel's volume, and it itself over h"},
+    {Field::wall_slope, "wall_slope", "1", Type::f64, Shape::vector, false, false,
+     "normal of the wall nearby times h over the distance from it"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

@@ -116,6 +116,18 @@ struct PairPass {
     pack_rows<T, D, values>(*c.particles, *c.groups, c.scale, first, last, rows_of(c));
   }
 
+  /// What a solver changes from one run of the pass to the next.
+  static void repack(const PassContext& c, std::size_t first, std::size_t last) {
+    if constexpr (values.has(Value::direction)) {
+      T* const rows = rows_of(c);
+      const double* direction = c.particles->template data<Field::direction>();
+      for (std::size_t i = first; i < last; ++i)
+        for (int k = 0; k < D; ++k)
+          rows[i * Layout::stride + Layout::offset(Value::direction) + k] =
+              static_cast<T>(direction[i * D + k]);
+    }
+  }
+
   static void run(const PassContext& c, const RowRange& range) {
     const T* const rows = rows_of(c);
     const TermConstants<T> constants = narrow(c.constants);
@@ -220,10 +232,10 @@ struct PairPass {
                           const Sums<T, D, writes>& sums) {
     if constexpr (writes.has(F)) {
       constexpr int n = components(info(F).shape, D);
-      const double factor = F == Field::force       ? c.force_factor
-                            : F == Field::diffusion ? c.diffusion_factor
-                            : has_own_scale(F)      ? 1.0
-                                                    : c.gradient_factor;
+      const double factor = F == Field::force || F == Field::viscous_sums ? c.force_factor
+                            : F == Field::diffusion                       ? c.diffusion_factor
+                            : has_own_scale(F)                            ? 1.0
+                                                                          : c.gradient_factor;
       double* out = c.particles->template data<F>() + first * n;
       for (std::size_t l = 0; l < count; ++l)
         for (int k = 0; k < n; ++k)
@@ -243,6 +255,8 @@ struct PairPass {
     store_field<Field::wall_sums_by_density>(c, first, count, sums);
     store_field<Field::deformation>(c, first, count, sums);
     store_field<Field::contact_energy>(c, first, count, sums);
+    store_field<Field::viscous_sums>(c, first, count, sums);
+    store_field<Field::wall_share>(c, first, count, sums);
   }
 };
 

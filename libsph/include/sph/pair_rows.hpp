@@ -22,6 +22,8 @@ enum class Term : std::uint8_t {
   viscosity,
   symmetric_viscosity,
   uniform_viscosity,
+  viscous_operator,
+  symmetric_viscous_operator,
   stress_divergence,
   artificial_viscosity,
   divergence,
@@ -35,6 +37,7 @@ enum class Term : std::uint8_t {
   surface_tension,
   wall_extrapolation,
   wall_extrapolation_by_density,
+  wall_share,
   ida_gradient,
   ida_stress,
   deformation,
@@ -66,6 +69,9 @@ enum class Value : std::uint8_t {
   body,              ///< particles of one body have one number
   bond_stress,       ///< [Pa]
   modulus,           ///< K + 4/3 mu of the group [Pa]
+  direction,         ///< what the viscous operator is applied to [m/s]
+  grip,              ///< 0 for movers, 1 for walls that hold what flows past, 2 for those that let it slip
+  wall_slope,        ///< gradient of a flow that is 0 at the wall and 1 here, times h
   count_
 };
 
@@ -86,7 +92,8 @@ class ValueSet {
 };
 
 [[nodiscard]] constexpr int components(Value v, int dim) {
-  const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell;
+  const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
+                      v == Value::direction || v == Value::wall_slope;
   const bool tensor = v == Value::stress || v == Value::capillary;
   return vector                    ? dim
          : v == Value::pressures   ? 2
@@ -115,6 +122,8 @@ class ValueSet {
   if (values.has(Value::reference_volume)) f |= FieldSet{Field::mass, Field::group};
   if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
   if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
+  if (values.has(Value::direction)) f |= FieldSet{Field::direction};
+  if (values.has(Value::grip)) f |= FieldSet{Field::group};
   return f;
 }
 
@@ -143,6 +152,7 @@ struct GroupTable {
   std::vector<double> density;      ///< rho_0 [kg/m^3]
   std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
   std::vector<double> modulus;      ///< K + 4/3 mu [Pa]
+  std::vector<double> grip;         ///< 0, 1 or 2
 };
 
 /// Scales of the rows; see the head of this file.
@@ -173,6 +183,8 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* colour = p.data<Field::colour_gradient>();
   const auto* displacement = p.data<Field::displacement>();
   const auto* bond_stress = p.data<Field::bond_stress>();
+  const auto* direction = p.data<Field::direction>();
+  const auto* wall_slope = p.data<Field::wall_slope>();
   const auto coordinate = [&](std::int64_t quanta) {
     if constexpr (sizeof(T) == 4)
       return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
@@ -237,6 +249,12 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     if constexpr (S.has(Value::bond_stress))
       for (int k = 0; k < D * D; ++k) put(Value::bond_stress, k, bond_stress[i * D * D + k]);
     if constexpr (S.has(Value::modulus)) put(Value::modulus, 0, groups.modulus[group[i]]);
+    if constexpr (S.has(Value::direction))
+      for (int k = 0; k < D; ++k) put(Value::direction, k, direction[i * D + k]);
+    if constexpr (S.has(Value::grip)) put(Value::grip, 0, groups.grip[group[i]]);
+    if constexpr (S.has(Value::wall_slope))  // of partners it is not read
+      for (int k = 0; k < D; ++k)
+        put(Value::wall_slope, k, wall_slope != nullptr && i < p.owned() ? wall_slope[i * D + k] : 0.0);
   }
 }
 

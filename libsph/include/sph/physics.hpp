@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
 #include "sph/surface_gradient.hpp"
+#include "sph/wall_distance.hpp"
 
 namespace sph {
 
@@ -28,14 +30,17 @@ struct StepMaxima {
 /// What is recommended, and the default of time.cfl.
 inline constexpr double courant_recommended = 0.8;
 
+class ViscositySolver;
+
 struct Pass {
   std::string name;
   const Fusion* fusion;
   bool movers, walls;  ///< rows it runs over
   FieldSet reads;      ///< of neighbours, so needed in the halo
   std::function<void(Particles&, const RowRanges&, const GlobalState&)>
-      update;        ///< local update after it; may be empty
-  FieldSet changes;  ///< fields the update changes
+      update;                               ///< local update after it; may be empty
+  FieldSet changes;                         ///< fields the update, or the solver, changes
+  std::shared_ptr<ViscositySolver> solver;  ///< has the pass repeated until it has converged; may be empty
 };
 
 class Physics {
@@ -52,6 +57,9 @@ class Physics {
 
   /// x += v dt, rounded to quanta, for movers.
   void advance(Particles& particles, const RowRanges& ranges, double dt) const;
+
+  /// Gravity and what else accelerates a mover besides the pair forces [m/s^2].
+  [[nodiscard]] Double3 body_acceleration(const Particles& particles, std::size_t row) const;
 
   /// v += (F/m + g) dt for movers; walls get their own velocity back; shifting. Then changes of group.
   [[nodiscard]] StepMaxima integrate(Particles& particles, const RowRanges& ranges,
@@ -72,6 +80,9 @@ class Physics {
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
   [[nodiscard]] double courant_number(double dt) const;
 
+  [[nodiscard]] const Double3& wall_velocity(std::uint32_t group) const {
+    return scene_->groups[group].wall_velocity;
+  }
   [[nodiscard]] bool is_wall(std::uint32_t group) const {
     return scene_->groups[group].kind == GroupKind::wall;
   }
@@ -79,6 +90,7 @@ class Physics {
  private:
   void set_sph_constants();
   void build_conservative();
+  void build_implicit_viscosity(bool walls);
   void build_ida();
   void build_total_lagrangian();
   void update_movers(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
@@ -86,6 +98,7 @@ class Physics {
   [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&) const;
+  void find_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   template <int D>
   void update_bonds(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
@@ -107,6 +120,7 @@ class Physics {
   std::vector<int> transitions_;  ///< groups whose particles may change group
   RowScale row_scale_;
   SurfaceGradient surface_;
+  WallDistance wall_distance_;
   TermConstants<double> constants_;
   double gradient_factor_, force_factor_, diffusion_factor_;
   double own_concentration_;  ///< V W(0) of a particle of volume spacing^D

@@ -48,7 +48,7 @@ struct Performance {
   double refresh_bytes = 0;                    ///< a halo row, a step
   double halo_bytes_per_step = 0, state_bytes_per_particle = 0, bytes_per_particle = 0,
          bytes_per_halo_particle = 0;
-  std::int64_t rebuilds = 0, late_rebuilds = 0, migrated = 0, refreshes = 0;
+  std::int64_t rebuilds = 0, late_rebuilds = 0, migrated = 0, refreshes = 0, iterations = 0;
   decomp::BalanceAccount balance;
   double imbalance = 1;        ///< largest / mean CPU time of computation
   double cost_seconds = 0;     ///< that time, of all ranks together

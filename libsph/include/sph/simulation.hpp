@@ -54,7 +54,7 @@ class Simulation {
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
 
   struct Counters {
-    std::int64_t rebuilds = 0, refreshes = 0;
+    std::int64_t rebuilds = 0, refreshes = 0, iterations = 0;  ///< of solvers
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
@@ -69,7 +69,9 @@ class Simulation {
   void dawdle();
   enum class Side { interior, boundary };
   void compute(const Pass& pass);
-  void run(const Pass& pass, const PassContext& context, Side side);
+  [[nodiscard]] bool improve(const Pass& pass);
+  using Pack = decltype(Fusion::pack);
+  void run(const Pass& pass, const PassContext& context, Side side, Pack pack);
   void refresh_begin(FieldSet wanted);
   void refresh_end();
   std::int64_t finish_step(std::int64_t request);

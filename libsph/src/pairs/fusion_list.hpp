@@ -14,6 +14,7 @@
 #include "sph/terms/stress.hpp"
 #include "sph/terms/surface_tension.hpp"
 #include "sph/terms/viscosity.hpp"
+#include "sph/terms/viscous_operator.hpp"
 #include "sph/terms/wall.hpp"
 
 namespace sph {
@@ -38,6 +39,7 @@ struct FusionList {
             Pass::writes,
             static_cast<int>(Pass::Layout::stride * sizeof(T)),
             Pass::pack,
+            Pass::repack,
             Pass::run};
   }
 
@@ -48,11 +50,14 @@ struct FusionList {
         fuse<Kernel, Divergence, UniformDensityDiffusion, Shifting>(),
         fuse<Kernel, Divergence, DensityDiffusion>(),
         fuse<Kernel, Divergence, DensityDiffusion, Shifting>(),
+        fuse<Kernel, Pressure>(),
         fuse<Kernel, Pressure, UniformViscosity>(),
         fuse<Kernel, Pressure, Viscosity>(),
         fuse<Kernel, Pressure, SymmetricViscosity>(),
         fuse<Kernel, Pressure, UniformViscosity, ArtificialViscosity>(),
         fuse<Kernel, WallExtrapolation>(),
+        fuse<Kernel, WallShare>(),
+        fuse<Kernel, ViscousOperator>(),
     };
   }
 
@@ -70,6 +75,10 @@ struct FusionList {
              fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion, Shifting>(),
+             fuse<Quintic, WeightedPressure>(),
+             fuse<Quintic, Pressure, SurfaceTension>(),
+             fuse<Quintic, WeightedPressure, SurfaceTension>(),
+             fuse<Quintic, SymmetricViscousOperator>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),

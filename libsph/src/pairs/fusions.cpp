@@ -32,6 +32,10 @@ std::string name_of(Term term) {
       return "SymmetricViscosity";
     case Term::uniform_viscosity:
       return "UniformViscosity";
+    case Term::viscous_operator:
+      return "ViscousOperator";
+    case Term::symmetric_viscous_operator:
+      return "SymmetricViscousOperator";
     case Term::stress_divergence:
       return "StressDivergence";
     case Term::artificial_viscosity:
@@ -58,6 +62,8 @@ std::string name_of(Term term) {
       return "WallExtrapolation";
     case Term::wall_extrapolation_by_density:
       return "WallExtrapolationByDensity";
+    case Term::wall_share:
+      return "WallShare";
     case Term::ida_gradient:
       return "IdaGradient";
     case Term::ida_stress:

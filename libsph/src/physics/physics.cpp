@@ -5,6 +5,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "physics/viscosity_solver.hpp"
 #include "sph/grains.hpp"
 #include "sph/kernels.hpp"
 
@@ -96,7 +97,10 @@ std::int64_t PositionScale::quanta(double metres) const {
 }
 
 Physics::Physics(const Scene& scene, const PositionScale& scale)
-    : scene_(&scene), scale_(scale), surface_(scene.kernel, scene.dim) {
+    : scene_(&scene),
+      scale_(scale),
+      surface_(scene.kernel, scene.dim),
+      wall_distance_(scene.kernel, scene.dim, scene.spacing / scene.smoothing_length) {
   if (scene.of_grains()) {
     fields_ = grain_fields(scene);  // no passes: Grains has the rest
     return;
@@ -141,6 +145,7 @@ void Physics::set_sph_constants() {
     groups_.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
     groups_.side.push_back(side_of(scene, static_cast<int>(&g - scene.groups.data())));
     groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
+    groups_.grip.push_back(g.kind != GroupKind::wall ? 0.0 : g.slip ? 2.0 : 1.0);
     groups_.density.push_back(g.density);
     const std::size_t body = g.clamps < 0 ? groups_.body.size() : static_cast<std::size_t>(g.clamps);
     groups_.body.push_back(static_cast<double>(body));
@@ -179,7 +184,7 @@ void Physics::set_sph_constants() {
 void Physics::add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls) {
   const Fusion& fusion = find_fusion(scene_->dim, scene_->precision, scene_->kernel, terms);
   fields_ |= fusion.writes;
-  passes_.push_back({std::move(name), &fusion, movers, walls, fields_behind(fusion.values), {}, {}});
+  passes_.push_back({std::move(name), &fusion, movers, walls, fields_behind(fusion.values), {}, {}, {}});
 }
 
 // One step, positions advanced: kinematics (density and stress from the velocities), walls (extrapolation
@@ -232,13 +237,33 @@ void Physics::build_conservative() {
   const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
   std::vector<Term> forces{solid      ? Term::stress_divergence
                            : weighted ? Term::weighted_pressure
-                                      : Term::pressure,
-                           uniform     ? Term::uniform_viscosity
-                           : symmetric ? Term::symmetric_viscosity
-                                       : Term::viscosity};
+                                      : Term::pressure};
+  if (!s.terms.implicit_viscosity)
+    forces.push_back(uniform     ? Term::uniform_viscosity
+                     : symmetric ? Term::symmetric_viscosity
+                                 : Term::viscosity);
   if (tension) forces.push_back(Term::surface_tension);
   if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
   add_pass("forces", forces, true, false);
+  if (s.terms.implicit_viscosity) build_implicit_viscosity(walls);
+}
+
+void Physics::build_implicit_viscosity(bool walls) {
+  if (walls) {
+    add_pass("wall distance", {Term::wall_share}, true, false);
+    fields_ |= FieldSet{Field::wall_slope};
+  }
+  const auto solver = std::make_shared<ViscositySolver>(*this, scene_->terms.viscosity_tolerance);
+  passes_.back().update = [this, walls, solver](Particles& p, const RowRanges& ranges, const GlobalState&) {
+    if (walls) find_walls(p, ranges);
+    solver->begin(p, ranges);
+  };
+  passes_.back().changes = {Field::wall_slope, Field::direction};
+  const bool symmetric = scene_->terms.viscosity == ViscosityForm::symmetric;
+  add_pass("viscosity", {symmetric ? Term::symmetric_viscous_operator : Term::viscous_operator}, true, false);
+  passes_.back().solver = solver;
+  passes_.back().changes = {Field::direction, Field::force};
+  fields_ |= FieldSet{Field::direction};
 }
 
 // The paper's cycle: velocity gradient (10), density (8), pressure, stress (9) or (11) of every particle,
@@ -285,7 +310,7 @@ double Physics::time_step(const StepMaxima& maxima) const {
   double dt = scene_->time.cfl * h / (fastest + maxima.speed);
   // Dashpots beside springs: the rates add.
   if (bonds && viscous > 0) dt = 1 / (1 / dt + viscous / (0.125 * h * h));
-  if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
+  if (viscous > 0 && !scene_->terms.implicit_viscosity) dt = std::min(dt, 0.125 * h * h / viscous);
   // Capillary waves as long as the layer is thick (Brackbill et al. 1992, eq. 61).
   if (const InterfaceTension& t = scene_->terms.surface_tension; t.coefficient > 0) {
     double density = 0;

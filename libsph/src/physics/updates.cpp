@@ -139,6 +139,24 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
   }
 }
 
+// A flow that is 0 at the wall and 1 at the particle, straight between: its gradient is the normal over the
+// distance, in units of 1/h. Particles nearer than a quarter of their spacing count as being there.
+void Physics::find_walls(Particles& p, const RowRanges& ranges) const {
+  constexpr double nearest = 0.25;
+  const auto d = static_cast<std::size_t>(p.dim());
+  const double h = scene_->smoothing_length;
+  const double* share = p.data<Field::wall_share>();
+  double* slope = p.data<Field::wall_slope>();
+  for_movers(ranges, [&](std::size_t i) {
+    const double* s = share + i * (d + 1);
+    double square = 0;
+    for (std::size_t a = 0; a < d; ++a) square += s[a] * s[a];
+    const double away = std::fmax(h * wall_distance_(h * s[d]), nearest * scene_->spacing);
+    const double factor = square > 0 ? -h / (away * std::sqrt(square)) : 0.0;
+    for (std::size_t a = 0; a < d; ++a) slope[i * d + a] = factor * s[a];
+  });
+}
+
 void Physics::update_ida(Particles& p, std::size_t first, std::size_t last, double dt) const {
   const std::size_t d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
   const double* gradient = p.data<Field::velocity_gradient>();
@@ -196,10 +214,21 @@ void Physics::advance(Particles& p, const RowRanges& ranges, double dt) const {
   }
 }
 
+Double3 Physics::body_acceleration(const Particles& p, std::size_t i) const {
+  const auto d = static_cast<std::size_t>(p.dim());
+  const std::int64_t* x = p.data<Field::position>();
+  const double pull = scene_->central_pull, control = tension_control(p, i);
+  Double3 acceleration = scene_->gravity;
+  for (std::size_t a = 0; a < d; ++a) {
+    if (pull != 0) acceleration[a] -= pull * (scale_.metres(x[i * d + a]) - scene_->pull_centre[a]);
+    if (control != 0) acceleration[a] += control * p.data<Field::spread>()[i * (d + 1) + a];
+  }
+  return acceleration;
+}
+
 StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const GlobalState& global) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
-  const double dt = global.dt, pull = scene_->central_pull;
-  const std::int64_t* x = p.data<Field::position>();
+  const double dt = global.dt;
   double* v = p.data<Field::velocity>();
   const double* force = p.data<Field::force>();
   const double* mass = p.data<Field::mass>();
@@ -207,12 +236,10 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   double speed2 = 0, acceleration2 = 0;
   for_movers(ranges, [&](std::size_t i) {
     const double inverse_mass = 1 / mass[i];
-    const double control = tension_control(p, i);
+    const Double3 body = body_acceleration(p, i);
     double v2 = 0, a2 = 0;
     for (std::size_t a = 0; a < d; ++a) {
-      double acceleration = force[i * d + a] * inverse_mass + scene_->gravity[a];
-      if (pull != 0) acceleration -= pull * (scale_.metres(x[i * d + a]) - scene_->pull_centre[a]);
-      if (control != 0) acceleration += control * p.data<Field::spread>()[i * (d + 1) + a];
+      const double acceleration = force[i * d + a] * inverse_mass + body[a];
       v[i * d + a] += acceleration * dt;
       a2 += acceleration * acceleration;
       v2 += v[i * d + a] * v[i * d + a];

@@ -74,7 +74,7 @@ std::vector<FieldSet> refreshes_of(const Physics& physics) {
       sent[k] = (pass.reads & physics.fields()).without(fresh);
       fresh |= sent[k];
       fresh = fresh.without(pass.fusion->writes);
-      if (pass.update) fresh = fresh.without(pass.changes);
+      fresh = fresh.without(pass.changes);
     }
     fresh = fresh.without(physics.integrated());
   }
@@ -113,6 +113,7 @@ Performance performance_of(Simulation& s) {
   p.bytes_per_halo_particle = static_cast<double>(bytes_of(halo_fields(s.physics()), dim));
   p.rebuilds = s.counters().rebuilds;
   p.refreshes = s.counters().refreshes;
+  p.iterations = s.counters().iterations;
   p.balance = s.distribution().balance();
   p.regions = s.timers().summary(comm);
   p.layout = layout_of(s);

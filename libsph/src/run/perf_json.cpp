@@ -56,6 +56,7 @@ void write_perf_json(const std::filesystem::path& path, const Performance& p) {
                   {"late_rebuilds", p.late_rebuilds},
                   {"migrated", p.migrated},
                   {"refreshes", p.refreshes},
+                  {"solver_iterations", p.iterations},
                   {"peak_rank_bytes", p.peak_rank_bytes},
                   {"cells",
                    {{"origin", p.layout.origin},

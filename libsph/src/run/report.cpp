@@ -76,6 +76,9 @@ std::string final_table(const Performance& p) {
                  "bytes/step\n",
                  p.bytes_per_particle, p.state_bytes_per_particle, p.bytes_per_halo_particle,
                  p.halo_bytes_per_step);
+  if (p.iterations > 0)
+    fmt::format_to(to, "viscosity: {:.1f} iterations a step\n",
+                   static_cast<double>(p.iterations) / static_cast<double>(p.steps));
   fmt::format_to(to, "list rebuilds {} ({} late)  migrated {}  halo refreshes {}\n", p.rebuilds,
                  p.late_rebuilds, p.migrated, p.refreshes);
   if (p.balance.calls > 0)

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "physics/viscosity_solver.hpp"
 #include "sph/placement.hpp"
 
 namespace sph {
@@ -48,15 +49,36 @@ void Simulation::step_in_passes() {
 
 void Simulation::compute(const Pass& pass) {
   const PassContext context = physics_.context(particles_, lists_, rows_, global_.dt);
-  refresh_begin(pass.reads);
-  run(pass, context, Side::interior);
-  refresh_end();
-  run(pass, context, Side::boundary);
-  changed(pass.fusion->writes);
+  auto pack = pass.fusion->pack;
+  do {
+    refresh_begin(pass.reads);
+    run(pass, context, Side::interior, pack);
+    refresh_end();
+    run(pass, context, Side::boundary, pack);
+    changed(pass.fusion->writes);
+    pack = pass.fusion->repack;
+  } while (pass.solver && improve(pass));
   if (!pass.update) return;
   const auto timing = timers_.time(decomp::Region::update);
   pass.update(particles_, distribution_.ranges(), global_);
   changed(pass.changes);
+}
+
+// An iteration of a solver: is the pass to be run once more?
+bool Simulation::improve(const Pass& pass) {
+  const auto products = [&] {
+    const auto timing = timers_.time(decomp::Region::update);
+    return pass.solver->products(particles_, distribution_.ranges(), global_.dt);
+  }();
+  {
+    const auto timing = timers_.time(decomp::Region::reduce);
+    decomp::ExactSum::all_reduce(comm_, products);
+  }
+  const auto timing = timers_.time(decomp::Region::update);
+  const bool again = pass.solver->improve(particles_, distribution_.ranges(), global_);
+  changed(pass.changes);
+  ++counters_.iterations;
+  return again;
 }
 
 // Grains: contacts and walls of a block of rows, then at once the kick and drift of its grains.
@@ -145,12 +167,11 @@ void Simulation::rebuild_contacts(const decomp::Payload& contacts, std::span<con
                      " were found again after the lists were rebuilt; reduce time.dt");
 }
 
-void Simulation::run(const Pass& pass, const PassContext& context, Side side) {
+void Simulation::run(const Pass& pass, const PassContext& context, Side side, Pack pack) {
   const auto timing = timers_.time(decomp::Region::pairs);
   const bool interior = side == Side::interior;
   // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.
-  pass.fusion->pack(context, interior ? 0 : particles_.owned(),
-                    interior ? particles_.owned() : particles_.rows());
+  pack(context, interior ? 0 : particles_.owned(), interior ? particles_.owned() : particles_.rows());
   const auto range = [&](RowClass c) -> const RowRange& {
     return distribution_.ranges()[static_cast<std::size_t>(c)];
   };

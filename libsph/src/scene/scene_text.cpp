@@ -135,6 +135,8 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
   if (scene.formulation == Formulation::ida) return;
   out.text("viscosity", word(viscosity_words(), scene.terms.viscosity));
   if (scene.has_kind(GroupKind::solid)) return;
+  out.flag("implicit_viscosity", scene.terms.implicit_viscosity);
+  if (scene.terms.implicit_viscosity) out.number("viscosity_tolerance", scene.terms.viscosity_tolerance);
   out.text("pressure_weights", word(pressure_weights_words(), scene.terms.pressure_weights));
   if (const InterfaceTension& t = scene.terms.surface_tension; t.between[0] >= 0) {
     const auto name = [&](int k) {

@@ -162,12 +162,20 @@ void read_terms(const TableReader& table, Scene& scene) {
   if (table.has("surface_tension"))
     terms.surface_tension =
         read_surface_tension(table.table("surface_tension", scene_keys::surface_tension), scene.groups);
+  terms.implicit_viscosity = table.flag("implicit_viscosity").value_or(false);
+  table.only_if(terms.implicit_viscosity, "viscosity_tolerance", "set implicit_viscosity = true too");
+  terms.viscosity_tolerance = table.number("viscosity_tolerance", dimension::none, Bound::positive)
+                                  .value_or(terms.viscosity_tolerance);
+  if (terms.viscosity_tolerance > 0.1)
+    table.fail("viscosity_tolerance", fmt::format("is {}", terms.viscosity_tolerance),
+               "it is a share of the forces, at most 0.1");
   if (ida && terms.density_diffusion != 0)
     table.fail("density_diffusion", fmt::format("is {}", terms.density_diffusion),
                "formulation = \"ida\" has none: remove it");
   if (ida && terms.shifting) table.fail("shifting", "is on", "formulation = \"ida\" has none: remove it");
   const bool solid = scene.has_kind(GroupKind::solid);
-  for (const std::string_view key : {"viscosity", "pressure_weights", "surface_tension"}) {
+  for (const std::string_view key :
+       {"viscosity", "implicit_viscosity", "pressure_weights", "surface_tension"}) {
     if (ida && table.has(key)) table.fail(key, "is given", "formulation = \"ida\" has none: remove it");
     if (solid && key != "viscosity" && table.has(key))
       table.fail(key, "is given", "it is for scenes without solids: remove it");

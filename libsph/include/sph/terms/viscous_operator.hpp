@@ -1,0 +1,63 @@
+// Viscous forces as a linear operator on any field u of velocities, for the implicit step
+// (physics/viscosity_solver.hpp): the pair forces of viscosity.hpp with u in place of v, and beside them the
+// drag on the particle alone, the operator's diagonal. Symmetric and negative semidefinite, as conjugate
+// gradients need it: mirrored velocities of wall particles would not be. A wall particle is given the
+// velocity on the straight profile through this particle and the wall's face (Morris et al. 1997, eq. 24),
+//   u_i - u_w = (u_i - u_wall) n_i.(x_i - x_w) / d_i,
+// with distance d_i and normal n_i of the face, a drag on particle i only, exact where the flow is linear.
+#pragma once
+
+#include "sph/pair_rows.hpp"
+#include "sph/terms/viscosity.hpp"
+
+namespace sph {
+
+/// 2 V_i V_j eta_ij |f| of movers; of walls that hold with the fluid's own viscosity, times the profile.
+template <class P>
+typename P::V viscous_drag(const P& p) {
+  using V = typename P::V;
+  const V grip = p.template j<Value::grip>(), own = p.template i<Value::viscosity>();
+  V profile = V::zero();
+  for (int k = 0; k < P::dim; ++k) profile -= p.template i<Value::wall_slope>(k) * p.e[k];
+  const V eta = where_equal(grip, V::zero(), mean_viscosity(p)) +
+                where_equal(grip, V(1), (own + own) * max(profile, V::zero()));
+  return -(p.template i<Value::volume>() * p.template j<Value::volume>() * eta * p.f);
+}
+
+inline constexpr ValueSet viscous_operator_reads{Value::volume, Value::viscosity, Value::direction,
+                                                 Value::grip, Value::wall_slope};
+
+struct ViscousOperator {
+  static constexpr Term term = Term::viscous_operator;
+  static constexpr ValueSet reads = viscous_operator_reads;
+  static constexpr Field writes = Field::viscous_sums;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    const auto drag = viscous_drag(p);
+    for (int k = 0; k < P::dim; ++k)
+      sums.template add<Field::viscous_sums>(
+          k, drag * (p.template j<Value::direction>(k) - p.template i<Value::direction>(k)));
+    sums.template add<Field::viscous_sums>(P::dim, drag);
+  }
+};
+
+struct SymmetricViscousOperator {
+  static constexpr Term term = Term::symmetric_viscous_operator;
+  static constexpr ValueSet reads = viscous_operator_reads;
+  static constexpr Field writes = Field::viscous_sums;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    using T = typename P::Scalar;
+    V stretch = V::zero();
+    for (int k = 0; k < P::dim; ++k)
+      stretch += (p.template j<Value::direction>(k) - p.template i<Value::direction>(k)) * p.e[k];
+    const V drag = viscous_drag(p) * V(static_cast<T>(P::dim + 2));
+    const V s = drag * stretch / max(p.r2, V(static_cast<T>(1e-30)));
+    for (int k = 0; k < P::dim; ++k) sums.template add<Field::viscous_sums>(k, s * p.e[k]);
+    // The mean over the directions: the diagonal is used to precondition alone.
+    sums.template add<Field::viscous_sums>(P::dim, drag * V(static_cast<T>(1.0 / P::dim)));
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,26 @@
+// How far a flat wall is from a particle of whose kernel it fills a given share. Walls are rows of particles,
+// the first of them half a spacing behind the face: the share is that of the rows, 5 % of a spacing better
+// than that of a half space.
+#pragma once
+
+#include <vector>
+
+#include "sph/scene.hpp"
+
+namespace sph {
+
+class WallDistance {
+ public:
+  /// `spacing` over h.
+  WallDistance(KernelShape kernel, int dim, double spacing);
+
+  /// Distance over h; 0 for the share at the face and more, half a spacing less than the kernel's radius
+  /// for a share of 0.
+  [[nodiscard]] double operator()(double share) const;
+
+ private:
+  double at_face_ = 0;            ///< share, about 1/2
+  std::vector<double> distance_;  ///< at shares 0 to at_face_, their square roots evenly
+};
+
+}  // namespace sph

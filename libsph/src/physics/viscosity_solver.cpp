@@ -1,0 +1,138 @@
+#include "physics/viscosity_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace sph {
+namespace {
+
+constexpr int most_iterations = 2000;
+
+template <class Function>
+void for_rows(const RowRanges& ranges, std::initializer_list<RowClass> classes, Function function) {
+  for (RowClass c : classes) {
+    const RowRange& r = ranges[static_cast<std::size_t>(c)];
+    for (std::size_t i = r.first; i < r.last; ++i) function(i);
+  }
+}
+template <class Function>
+void for_movers(const RowRanges& ranges, Function function) {
+  for_rows(ranges, {RowClass::interior_movers, RowClass::boundary_movers}, function);
+}
+template <class Function>
+void for_walls(const RowRanges& ranges, Function function) {
+  for_rows(ranges, {RowClass::interior_walls, RowClass::boundary_walls}, function);
+}
+
+}  // namespace
+
+void ViscositySolver::begin(Particles& p, const RowRanges& ranges) {
+  const auto d = static_cast<std::size_t>(p.dim());
+  double* direction = p.data<Field::direction>();
+  const double* v = p.data<Field::velocity>();
+  const auto* group = p.data<Field::group>();
+  for_movers(ranges, [&](std::size_t i) { std::copy_n(v + i * d, d, direction + i * d); });
+  for_walls(ranges, [&](std::size_t i) {
+    std::copy_n(physics_->wall_velocity(group[i]).begin(), d, direction + i * d);
+  });
+  iteration_ = 0;
+}
+
+std::span<decomp::ExactSum> ViscositySolver::products(const Particles& p, const RowRanges& ranges,
+                                                      double dt) {
+  if (iteration_ == 0) return {};
+  const auto d = static_cast<std::size_t>(p.dim());
+  const double* direction = p.data<Field::direction>();
+  const double* viscous = p.data<Field::viscous_sums>();
+  const double* mass = p.data<Field::mass>();
+  sums_[0] = sums_[1] = {};
+  for_movers(ranges, [&](std::size_t i) {
+    double product = 0, curvature = 0;
+    for (std::size_t a = 0; a < d; ++a) {
+      const std::size_t k = i * d + a;
+      image_[k] = mass[i] * direction[k] - dt * viscous[i * (d + 1) + a];
+      product += residual_[k] * direction[k];
+      curvature += image_[k] * direction[k];
+    }
+    sums_[0].add(product);
+    sums_[1].add(curvature);
+  });
+  return std::span(sums_).first(iteration_ == 1 ? 4 : 2);
+}
+
+bool ViscositySolver::improve(Particles& p, const RowRanges& ranges, const GlobalState& global) {
+  const auto d = static_cast<std::size_t>(p.dim());
+  if (iteration_++ == 0) {
+    set_out(p, ranges, global.dt);
+    return true;
+  }
+  const double product = sums_[0].value(), curvature = sums_[1].value();
+  const bool first = iteration_ == 2;
+  if (first) enough_ = tolerance_ * tolerance_ * std::fmax(sums_[2].value(), sums_[3].value());
+  if (!(product > enough_)) {
+    finish(p, ranges, global.dt);
+    return false;
+  }
+  if (iteration_ > most_iterations)
+    throw GuardError("step " + std::to_string(global.step) +
+                     ": the implicit viscous step did not converge in " + std::to_string(most_iterations) +
+                     " iterations; reduce time.dt or raise terms.viscosity_tolerance");
+  const double old = first ? 0 : product / product_;
+  length_ = product / (first ? curvature : curvature - old * product / length_);
+  product_ = product;
+  double* direction = p.data<Field::direction>();
+  for_movers(ranges, [&](std::size_t i) {
+    for (std::size_t k = i * d; k < (i + 1) * d; ++k) {
+      search_[k] = direction[k] + old * search_[k];
+      search_image_[k] = image_[k] + old * search_image_[k];
+      change_[k] += length_ * search_[k];
+      residual_[k] -= length_ * search_image_[k];
+      direction[k] = residual_[k] / diagonal_[i];
+    }
+  });
+  return true;
+}
+
+void ViscositySolver::set_out(Particles& p, const RowRanges& ranges, double dt) {
+  const auto d = static_cast<std::size_t>(p.dim());
+  for (std::vector<double>* v : {&change_, &residual_, &search_, &image_, &search_image_})
+    v->assign(p.owned() * d, 0.0);
+  diagonal_.resize(p.owned());
+  double* direction = p.data<Field::direction>();
+  const double* viscous = p.data<Field::viscous_sums>();
+  const double* force = p.data<Field::force>();
+  const double* mass = p.data<Field::mass>();
+  sums_[2] = sums_[3] = {};
+  for_movers(ranges, [&](std::size_t i) {
+    const Double3 body = physics_->body_acceleration(p, i);
+    double driving = 0, dragging = 0;
+    diagonal_[i] = mass[i] + dt * viscous[i * (d + 1) + d];
+    for (std::size_t a = 0; a < d; ++a) {
+      const std::size_t k = i * d + a;
+      const double drive = dt * (force[k] + mass[i] * body[a]), drag = dt * viscous[i * (d + 1) + a];
+      residual_[k] = drive + drag;
+      direction[k] = residual_[k] / diagonal_[i];
+      driving += drive * drive;
+      dragging += drag * drag;
+    }
+    sums_[2].add(driving / diagonal_[i]);
+    sums_[3].add(dragging / diagonal_[i]);
+  });
+  for_walls(ranges, [&](std::size_t i) { std::fill_n(direction + i * d, d, 0.0); });
+}
+
+// Where a force was not finite the residual is not either, and the guard of the step will name the particle.
+void ViscositySolver::finish(Particles& p, const RowRanges& ranges, double dt) const {
+  const auto d = static_cast<std::size_t>(p.dim());
+  double* force = p.data<Field::force>();
+  const double* mass = p.data<Field::mass>();
+  const bool finite = std::isfinite(sums_[0].value());
+  for_movers(ranges, [&](std::size_t i) {
+    const Double3 body = physics_->body_acceleration(p, i);
+    for (std::size_t a = 0; a < d; ++a)
+      force[i * d + a] = finite ? mass[i] * (change_[i * d + a] / dt - body[a]) : residual_[i * d + a];
+  });
+}
+
+}  // namespace sph

@@ -1,0 +1,45 @@
+#include "sph/wall_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/plane_sums.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::size_t points = 257;
+constexpr std::size_t steps = 256;  ///< to a spacing
+
+}  // namespace
+
+WallDistance::WallDistance(KernelShape kernel, int dim, double spacing) : distance_(points) {
+  const double step = spacing / steps;
+  const std::vector<double> w = plane_sums(kernel, dim, step);
+  const auto share_at = [&](std::size_t k) {
+    double sum = 0;
+    for (std::size_t row = k + steps / 2; row < w.size(); row += steps) sum += spacing * w[row];
+    return sum;
+  };
+  at_face_ = share_at(0);
+  // From the face outwards the share falls; the table is filled from its end.
+  std::size_t k = 0;
+  double here = at_face_, next = share_at(1);
+  for (std::size_t n = points; n-- > 0;) {
+    const double root = static_cast<double>(n) / (points - 1), wanted = at_face_ * root * root;
+    while (next > wanted) {
+      here = next;
+      next = share_at(++k + 1);
+    }
+    distance_[n] = step * (static_cast<double>(k) + (here > next ? (here - wanted) / (here - next) : 0.0));
+  }
+}
+
+double WallDistance::operator()(double share) const {
+  const double at = (points - 1) * std::sqrt(std::clamp(share / at_face_, 0.0, 1.0));
+  const auto k = std::min(static_cast<std::size_t>(at), points - 2);
+  const double part = at - static_cast<double>(k);
+  return distance_[k] + part * (distance_[k + 1] - distance_[k]);
+}
+
+}  // namespace sph
