@@ -58,7 +58,7 @@ TEST(FreeSurface, EllipticDrop) {
   std::printf("elliptic drop, R/dx = 25: b %.4f (exact 1.9445), a b %.4f (exact 1)\n", b / b0,
               a * b / (a0 * b0));
   EXPECT_NEAR(b / b0, 1.944517, 0.005 * 1.9445);
-  EXPECT_NEAR(a * b / (a0 * b0), 1, 0.015);
+  EXPECT_NEAR(a * b / (a0 * b0), 1, 0.008);
 }
 
 // Held by a pull towards its centre the drop swings (accuracy.md A11): the kinetic energy peaks when it is a

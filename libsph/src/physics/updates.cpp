@@ -300,9 +300,11 @@ void Physics::shift(Particles& p, const RowRanges& ranges, const GlobalState& gl
 }
 
 // How much of a particle's S is not that of the surface near it: 1 - |grad C| / |S| with the gradient that
-// belongs to its C. Inside C is 1 +- 0.01 and all of S is disorder, hence the margin; spray is left alone.
+// belongs to its C. Negative where S is too small for that: were such particles not drawn back inwards, those
+// with too large an S would take the surface outwards with them. Inside C is 1 +- 0.01 and all of S is
+// disorder, hence the margin; spray is left alone.
 double Physics::disordered_share(const Particles& p, std::size_t i) const {
-  constexpr double margin = 0.01, spray = 0.6;
+  constexpr double inside = 0.985, margin = 0.007, spray = 0.6;
   const std::size_t d = static_cast<std::size_t>(p.dim());
   const double h = scene_->smoothing_length;
   const double* spread = p.data<Field::spread>() + i * (d + 1);
@@ -311,7 +313,9 @@ double Physics::disordered_share(const Particles& p, std::size_t i) const {
   double square = 0;
   for (std::size_t a = 0; a < d; ++a) square += spread[a] * spread[a];
   if (square == 0 || concentration < spray) return 0;
-  return std::fmax(0.0, 1 - surface_(concentration + margin) / (h * std::sqrt(square)));
+  const double length = h * std::sqrt(square);
+  return concentration < inside ? std::fmax(-1.0, 1 - surface_(concentration) / length)
+                                : std::fmax(0.0, 1 - surface_(concentration + margin) / length);
 }
 
 // Under tension particles draw together and leave voids. In the form -(p_j - p_i) instead of -(p_j + p_i) the
@@ -321,7 +325,7 @@ double Physics::disordered_share(const Particles& p, std::size_t i) const {
 double Physics::tension_control(const Particles& p, std::size_t i) const {
   const double pressure = p.data<Field::pressure>()[i];
   if (!scene_->terms.shifting || !scene_->open || pressure >= 0) return 0;
-  return 2 * pressure / p.data<Field::density>()[i] * disordered_share(p, i);
+  return 2 * pressure / p.data<Field::density>()[i] * std::fmax(0.0, disordered_share(p, i));
 }
 
 // Fragmentation (paper, 4.3): a bubbly particle whose gas fraction exceeds psi_f joins the spray, for good.
