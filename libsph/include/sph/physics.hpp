@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
 #include "sph/surface_gradient.hpp"
+#include "sph/wall_mirror.hpp"
 
 namespace sph {
 
@@ -85,7 +87,7 @@ class Physics {
   [[nodiscard]] double disordered_share(const Particles&, std::size_t row) const;
   [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
-  void update_walls(Particles&, const RowRanges&) const;
+  void update_walls(Particles&, const RowRanges&, const GlobalState&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   template <int D>
   void update_bonds(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
@@ -107,6 +109,7 @@ class Physics {
   std::vector<int> transitions_;  ///< groups whose particles may change group
   RowScale row_scale_;
   SurfaceGradient surface_;
+  std::optional<WallMirror> mirror_;  ///< where walls do not slip
   TermConstants<double> constants_;
   double gradient_factor_, force_factor_, diffusion_factor_;
   double own_concentration_;  ///< V W(0) of a particle of volume spacing^D
