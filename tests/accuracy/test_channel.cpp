@@ -1,5 +1,6 @@
 // Start-up of Poiseuille and Couette flow between two walls (Morris et al. 1997; accuracy.md A1, A2): within
-// 1 % of the largest speed everywhere at L/dx = 20; order >= 1.7 from 20 to 40 in Poiseuille.
+// 1 % of the largest speed everywhere at L/dx = 20; order >= 1.7 from 20 to 40 in Poiseuille (the suite: to
+// 80). With the walls' mirror of Adami et al., k = 1, the errors are 0.41, 0.13, 0.043 %.
 #include <gtest/gtest.h>
 
 #include "accuracy/measure.hpp"
@@ -57,11 +58,19 @@ TEST(Channel, AnalyticSeriesAgreeWithThePublishedValues) {
 TEST(Channel, Poiseuille) {
   const std::vector<double> times{0.0225, 0.045, 0.1125, 0.225, 1.0};
   const double coarse = worst_error("poiseuille.toml", {}, times, poiseuille);
-  EXPECT_LE(coarse, 0.01);
+  EXPECT_LE(coarse, 0.0035);
   const double fine = worst_error("poiseuille.toml", {"start.spacing=25e-6", "time.dt=62.5e-6"},
                                   {0.0225, 0.045, 0.1125}, poiseuille);
   std::printf("Poiseuille 20 -> 40: order %.2f\n", std::log2(coarse / fine));
-  EXPECT_LE(fine, 0.01);
+  EXPECT_LE(fine, 0.00095);
+  EXPECT_GE(std::log2(coarse / fine), 1.8);
+}
+
+// Central forces: with the weight of Monaghan (2005, eq. 4.14), whose fourth moments a lattice does not have,
+// 20 % off.
+TEST(Channel, PoiseuilleWithSymmetricViscosity) {
+  EXPECT_LE(worst_error("poiseuille.toml", {"terms.viscosity=symmetric"}, {0.0225, 0.1125, 1.0}, poiseuille),
+            0.0035);
 }
 
 // Viscous forces of the end of the step, at 16 and 32 times the explicit limit of the step: exact in the end,
@@ -73,12 +82,15 @@ TEST(Channel, PoiseuilleImplicit) {
   const double coarse = worst_error("poiseuille.toml", implicit, {1.0}, poiseuille);
   const double fine = worst_error("poiseuille.toml", finer, {1.0}, poiseuille);
   std::printf("Poiseuille, implicit, 20 -> 40: order %.2f\n", std::log2(coarse / fine));
-  EXPECT_LE(coarse, 0.0031);
+  EXPECT_LE(coarse, 0.0035);
   EXPECT_GE(std::log2(coarse / fine), 1.9);
 }
 
 TEST(Channel, Couette) {
-  EXPECT_LE(worst_error("couette.toml", {}, {0.045, 0.1125, 0.225, 1.0}, couette), 0.01);
+  EXPECT_LE(worst_error("couette.toml", {}, {0.045, 0.1125, 0.225, 1.0}, couette), 0.002);
+  // At the viscous limit of the time step, nu dt = 0.125 h^2.
+  EXPECT_LE(worst_error("couette.toml", {"time.dt="}, {0.045, 0.225, 1.0}, couette), 0.002);
+  EXPECT_LE(worst_error("couette.toml", {"precision=mixed"}, {0.045, 0.225, 1.0}, couette), 0.002);
 }
 
 // A plug that slips past its walls keeps its speed; of one that sticks to them 0.11 is left in

@@ -98,6 +98,17 @@ struct Pair {
   }
 };
 
+/// -1/2 sum of W' r^(n - 1) over the lattice.
+double moment(int n) {
+  double sum = 0;
+  for (int a = -4; a <= 4; ++a)
+    for (int b = -4; b <= 4; ++b) {
+      const double r = std::hypot(a, b);
+      sum -= 0.5 * sph::Quintic::normalisation<2> * sph::Quintic::slope<2>(r) * std::pow(r, n - 1);
+    }
+  return sum;
+}
+
 /// Largest of m (v - v*) - dt F(v) over the largest of m (v - v*).
 double residual(const std::vector<Particle>& now, const std::vector<Particle>& without, bool symmetric) {
   const sph::WallDistance distance(sph::KernelShape::quintic, 2, 1.0);
@@ -118,8 +129,9 @@ double residual(const std::vector<Particle>& now, const std::vector<Particle>& w
       if (b.wall && length > 0)
         eta = 2 * a.viscosity * std::fmax(-(normal[0] * p.e[0] + normal[1] * p.e[1]) / (length * away), 0.0);
       const double drag = a.volume * b.volume * eta * p.f, u[2] = {b.v[0] - a.v[0], b.v[1] - a.v[1]};
-      const double along = p.r > 0 ? 4 * (u[0] * p.e[0] + u[1] * p.e[1]) / (p.r * p.r) : 0.0;
-      for (int k = 0; k < 2; ++k) force[k] += drag * (symmetric ? along * p.e[k] : u[k]);
+      const double along = u[0] * p.e[0] + u[1] * p.e[1];
+      for (int k = 0; k < 2; ++k)
+        force[k] += drag * (symmetric ? 4 / moment(4) * along * p.e[k] : u[k] / moment(2));
     }
     for (std::size_t k = 0; k < 2; ++k) {
       const double impulse = a.mass * (a.v[k] - without[i].v[k]);

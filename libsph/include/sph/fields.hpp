@@ -34,6 +34,7 @@ enum class Field : std::uint8_t {
   wall_sums,
   wall_sums_by_density,
   wall_pressures,
+  wall_mirror,
   velocity_mean,
   pressure_mean,
   displacement,
@@ -50,7 +51,7 @@ enum class Field : std::uint8_t {
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
 
-/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+D, 2+D(D+1)/2+D*D components
+/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+2D, 2+D(D+1)/2+D*D components
 enum class Shape : std::uint8_t { scalar, two, four, vector, symmetric, matrix, spread, wall, deformation };
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
 
@@ -102,11 +103,14 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::colour_gradient, "colour_gradient", "1/m", Type::f64, Shape::vector, false, false,
      "near an interface with tension: gradient of the other fluid's share of the volume"},
     {Field::wall_sums, "wall_sums", "1", Type::f64, Shape::wall, false, false,
-     "kernel sums over the fluid near a wall particle: weight, pressure, velocity"},
+     "kernel sums over the fluid near a wall particle: weight, pressure, velocity, distance / h"},
     {Field::wall_sums_by_density, "wall_sums_by_density", "1", Type::f64, Shape::four, false, false,
      "the first two of wall_sums over lighter fluids, then over heavier ones"},
     {Field::wall_pressures, "wall_pressures", "Pa", Type::f64, Shape::two, false, false,
      "of a wall particle for lighter and for heavier fluids"},
+    {Field::wall_mirror, "wall_mirror", "1", Type::f64, Shape::scalar, true, false,
+     "of a wall particle: how much of the fluid's velocity it mirrors (wall_mirror.hpp), 1 if dry at the "
+     "start"},
     {Field::velocity_mean, "velocity_mean", "m/s", Type::f64, Shape::vector, true, true,
      "running average over output.average_time"},
     {Field::pressure_mean, "pressure_mean", "Pa", Type::f64, Shape::scalar, true, true,
@@ -151,7 +155,7 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     case Shape::spread:
       return 1 + dim;
     case Shape::wall:
-      return 2 + dim;
+      return 2 + 2 * dim;
     case Shape::deformation:
       return 2 + dim * (dim + 1) / 2 + dim * dim;
   }

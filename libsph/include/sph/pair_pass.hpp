@@ -21,7 +21,8 @@ namespace sph {
 template <class T>
 struct TermConstants {
   T gravity[3];                     ///< g h [m^2/s^2]
-  T viscosity;                      ///< eta / h where all groups share it [Pa s/m]
+  T viscosity;                      ///< eta / h where all groups share it, times `laplacian` [Pa s/m]
+  T laplacian, symmetric;           ///< scales of the forms of terms/viscosity.hpp
   T density;                        ///< rho_0 where there is one fluid [kg/m^3]
   T inverse_sound_speed;            ///< where there is one fluid [s/m]
   T artificial_viscosity;           ///< alpha
@@ -209,6 +210,8 @@ struct PairPass {
     TermConstants<T> c;
     for (int a = 0; a < 3; ++a) c.gravity[a] = static_cast<T>(d.gravity[a]);
     c.viscosity = static_cast<T>(d.viscosity);
+    c.laplacian = static_cast<T>(d.laplacian);
+    c.symmetric = static_cast<T>(d.symmetric);
     c.density = static_cast<T>(d.density);
     c.inverse_sound_speed = static_cast<T>(d.inverse_sound_speed);
     c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);

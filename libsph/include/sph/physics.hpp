@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "sph/scene.hpp"
 #include "sph/surface_gradient.hpp"
 #include "sph/wall_distance.hpp"
+#include "sph/wall_mirror.hpp"
 
 namespace sph {
 
@@ -97,7 +99,7 @@ class Physics {
   [[nodiscard]] double disordered_share(const Particles&, std::size_t row) const;
   [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
-  void update_walls(Particles&, const RowRanges&) const;
+  void update_walls(Particles&, const RowRanges&, const GlobalState&) const;
   void find_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   template <int D>
@@ -120,7 +122,8 @@ class Physics {
   std::vector<int> transitions_;  ///< groups whose particles may change group
   RowScale row_scale_;
   SurfaceGradient surface_;
-  WallDistance wall_distance_;
+  std::optional<WallMirror> mirror_;           ///< where walls do not slip
+  std::optional<WallDistance> wall_distance_;  ///< beside implicit viscosity
   TermConstants<double> constants_;
   double gradient_factor_, force_factor_, diffusion_factor_;
   double own_concentration_;  ///< V W(0) of a particle of volume spacing^D

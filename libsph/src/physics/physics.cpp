@@ -12,18 +12,39 @@
 namespace sph {
 namespace {
 
+double power(double x, int n) {
+  double p = 1;
+  for (int k = 0; k < n; ++k) p *= x;
+  return p;
+}
+
 struct KernelNumbers {
-  double radius;         ///< support / h
-  double normalisation;  ///< alpha_D
-  double w_spacing;      ///< unnormalised w(spacing / h)
-  double w_zero;         ///< unnormalised w(0)
+  double radius;          ///< support / h
+  double normalisation;   ///< alpha_D
+  double w_spacing;       ///< unnormalised w(spacing / h)
+  double w_zero;          ///< unnormalised w(0)
+  double second, fourth;  ///< -1/D sum V W' r and -1/D sum V W' r (r/h)^2 over the lattice
 };
 
 template <class Kernel>
 KernelNumbers numbers(int dim, double q) {
   const auto in = [q]<int D>(std::integral_constant<int, D>) {
-    return KernelNumbers{Kernel::radius, Kernel::template normalisation<D>, Kernel::template value<D>(q),
-                         Kernel::template value<D>(0.0)};
+    KernelNumbers k{Kernel::radius,
+                    Kernel::template normalisation<D>,
+                    Kernel::template value<D>(q),
+                    Kernel::template value<D>(0.0),
+                    0,
+                    0};
+    const int reach = static_cast<int>(Kernel::radius / q) + 1, across = D == 3 ? reach : 0;
+    for (int a = -reach; a <= reach; ++a)
+      for (int b = -reach; b <= reach; ++b)
+        for (int c = -across; c <= across; ++c) {
+          const double square = (a * a + b * b + c * c) * (q * q), r = std::sqrt(square);
+          const double term = -(power(q, D) * k.normalisation / D) * Kernel::template slope<D>(r) * r;
+          k.second += term;
+          k.fourth += term * square;
+        }
+    return k;
   };
   return dim == 2 ? in(std::integral_constant<int, 2>{}) : in(std::integral_constant<int, 3>{});
 }
@@ -64,12 +85,6 @@ double density_divide(const Scene& scene) {
 /// Of two layers in contact over that of the material: softer, or they would ask for a shorter time step.
 constexpr double contact_stiffness = 0.5;
 
-double power(double x, int n) {
-  double p = 1;
-  for (int k = 0; k < n; ++k) p *= x;
-  return p;
-}
-
 }  // namespace
 
 PositionScale position_scale(const Scene& scene) {
@@ -97,10 +112,7 @@ std::int64_t PositionScale::quanta(double metres) const {
 }
 
 Physics::Physics(const Scene& scene, const PositionScale& scale)
-    : scene_(&scene),
-      scale_(scale),
-      surface_(scene.kernel, scene.dim),
-      wall_distance_(scene.kernel, scene.dim, scene.spacing / scene.smoothing_length) {
+    : scene_(&scene), scale_(scale), surface_(scene.kernel, scene.dim) {
   if (scene.of_grains()) {
     fields_ = grain_fields(scene);  // no passes: Grains has the rest
     return;
@@ -160,7 +172,9 @@ void Physics::set_sph_constants() {
   constants_ = {};
   // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
   for (std::size_t a = 0; a < 3; ++a) constants_.gravity[a] = scene.periodic[a] ? 0.0 : scene.gravity[a] * h;
-  constants_.viscosity = fluid->viscosity / h;
+  constants_.laplacian = 1 / kernel.second;
+  constants_.symmetric = (scene.dim + 2) / kernel.fourth;
+  constants_.viscosity = fluid->viscosity / h * constants_.laplacian;
   constants_.density = fluid->density;
   constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
   constants_.artificial_viscosity = scene.terms.artificial_viscosity;
@@ -224,13 +238,18 @@ void Physics::build_conservative() {
 
   if (weighted) fields_ |= FieldSet{Field::wall_pressures};
   if (walls) {
+    if (std::any_of(s.groups.begin(), s.groups.end(),
+                    [](const Group& g) { return g.kind == GroupKind::wall && !g.slip; })) {
+      mirror_.emplace(s);
+      fields_ |= FieldSet{Field::wall_mirror};
+    }
     std::vector<Term> terms{Term::wall_extrapolation};
     if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
     add_pass("walls", terms, false, true);
-    passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState&) {
-      update_walls(p, ranges);
+    passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+      update_walls(p, ranges, global);
     };
-    passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures};
+    passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures, Field::wall_mirror};
   }
 
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
@@ -250,6 +269,7 @@ void Physics::build_conservative() {
 
 void Physics::build_implicit_viscosity(bool walls) {
   if (walls) {
+    wall_distance_.emplace(scene_->kernel, scene_->dim, scene_->spacing / scene_->smoothing_length);
     add_pass("wall distance", {Term::wall_share}, true, false);
     fields_ |= FieldSet{Field::wall_slope};
   }

@@ -107,18 +107,19 @@ void Physics::update_movers(Particles& p, std::size_t first, std::size_t last,
                    (divergence != nullptr ? divergence[i] : trace_of(gradient + i * d * d, d));
 }
 
-void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
+void Physics::update_walls(Particles& p, const RowRanges& ranges, const GlobalState& global) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   const double* sums = p.data<Field::wall_sums>();
   const double* by_density = p.data<Field::wall_sums_by_density>();
   double* pressures = p.data<Field::wall_pressures>();
   double* pressure = p.data<Field::pressure>();
+  double* mirror = p.data<Field::wall_mirror>();
   double* v = p.data<Field::velocity>();
   const auto* group = p.data<Field::group>();
   for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
     const RowRange& r = ranges[static_cast<std::size_t>(c)];
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const double* s = sums + i * (2 + d);
+      const double* s = sums + i * (2 + 2 * d);
       const Group& g = scene_->groups[group[i]];
       const bool wet = s[0] > 0;
       pressure[i] = wet ? s[1] / s[0] : 0.0;
@@ -127,13 +128,18 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges) const {
           const double* of = by_density + 4 * i + 2 * k;
           pressures[2 * i + k] = of[0] > 0 ? of[1] / of[0] : 0.0;
         }
+      if (mirror != nullptr && global.step == 0) {
+        double square = 0;
+        for (std::size_t a = 0; a < d; ++a) square += s[2 + d + a] * s[2 + d + a];
+        mirror[i] = wet ? (*mirror_)(std::sqrt(square) / s[0]) : 1.0;
+      }
       // Between a fluid and a wall that slips the viscous force is then that of its own mean: no shear. The
       // velocity across the wall is taken along, though its mirror image would be the exact one: it is small,
       // because the continuity sum sees the wall at rest, and changes the normal viscous stress alone, which
       // the pressure balances.
       for (std::size_t a = 0; a < d; ++a) {
         const double mean = wet ? s[2 + a] / s[0] : g.wall_velocity[a];
-        v[i * d + a] = g.slip ? mean : wet ? 2 * g.wall_velocity[a] - mean : mean;
+        v[i * d + a] = g.slip ? mean : g.wall_velocity[a] - mirror[i] * (mean - g.wall_velocity[a]);
       }
     }
   }
@@ -151,7 +157,7 @@ void Physics::find_walls(Particles& p, const RowRanges& ranges) const {
     const double* s = share + i * (d + 1);
     double square = 0;
     for (std::size_t a = 0; a < d; ++a) square += s[a] * s[a];
-    const double away = std::fmax(h * wall_distance_(h * s[d]), nearest * scene_->spacing);
+    const double away = std::fmax(h * (*wall_distance_)(h * s[d]), nearest * scene_->spacing);
     const double factor = square > 0 ? -h / (away * std::sqrt(square)) : 0.0;
     for (std::size_t a = 0; a < d; ++a) slope[i * d + a] = factor * s[a];
   });

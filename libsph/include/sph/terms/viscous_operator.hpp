@@ -32,8 +32,9 @@ struct ViscousOperator {
   static constexpr ValueSet reads = viscous_operator_reads;
   static constexpr Field writes = Field::viscous_sums;
   template <class Kernel, class P, class C, class S>
-  static void add(const P& p, const C&, S& sums) {
-    const auto drag = viscous_drag(p);
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V drag = viscous_drag(p) * V(c.laplacian);
     for (int k = 0; k < P::dim; ++k)
       sums.template add<Field::viscous_sums>(
           k, drag * (p.template j<Value::direction>(k) - p.template i<Value::direction>(k)));
@@ -46,17 +47,16 @@ struct SymmetricViscousOperator {
   static constexpr ValueSet reads = viscous_operator_reads;
   static constexpr Field writes = Field::viscous_sums;
   template <class Kernel, class P, class C, class S>
-  static void add(const P& p, const C&, S& sums) {
+  static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
     using T = typename P::Scalar;
     V stretch = V::zero();
     for (int k = 0; k < P::dim; ++k)
       stretch += (p.template j<Value::direction>(k) - p.template i<Value::direction>(k)) * p.e[k];
-    const V drag = viscous_drag(p) * V(static_cast<T>(P::dim + 2));
-    const V s = drag * stretch / max(p.r2, V(static_cast<T>(1e-30)));
-    for (int k = 0; k < P::dim; ++k) sums.template add<Field::viscous_sums>(k, s * p.e[k]);
+    const V drag = viscous_drag(p) * V(c.symmetric);
+    for (int k = 0; k < P::dim; ++k) sums.template add<Field::viscous_sums>(k, drag * stretch * p.e[k]);
     // The mean over the directions: the diagonal is used to precondition alone.
-    sums.template add<Field::viscous_sums>(P::dim, drag * V(static_cast<T>(1.0 / P::dim)));
+    sums.template add<Field::viscous_sums>(P::dim, drag * p.r2 * V(static_cast<T>(1.0 / P::dim)));
   }
 };
 

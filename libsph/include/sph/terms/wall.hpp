@@ -1,7 +1,6 @@
 // Fixed walls as dummy particles (Adami et al. 2012, eqs. 23, 27): kernel sums over the moving neighbours of
 // a wall particle, from which the update takes p_w = (sum p W + g.sum rho (x_w - x_f) W) / sum W and the
-// mirrored velocity 2 v_wall - sum v W / sum W that makes the wall no-slip, or the mean itself where it
-// slips.
+// velocity that makes the wall no-slip (wall_mirror.hpp), or the mean sum v W / sum W itself where it slips.
 #pragma once
 
 #include "sph/pair_rows.hpp"
@@ -22,6 +21,7 @@ struct WallExtrapolation {
         1, w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head(p, c)));
     for (int k = 0; k < P::dim; ++k)
       sums.template add<Field::wall_sums>(2 + k, w * p.template j<Value::velocity>(k));
+    for (int k = 0; k < P::dim; ++k) sums.template add<Field::wall_sums>(2 + P::dim + k, w * p.e[k]);
   }
 };
 
