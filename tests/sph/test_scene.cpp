@@ -100,7 +100,7 @@ TEST(Scene, DerivedValues) {
   EXPECT_EQ(s.groups[0].viscosity, 500);
   EXPECT_TRUE(s.has_kind(sph::GroupKind::wall));
   EXPECT_FALSE(s.has_kind(sph::GroupKind::solid));
-  EXPECT_FALSE(s.has_bubbly());
+  EXPECT_FALSE(s.has_eos(sph::EosKind::bubbly));
 }
 
 TEST(Scene, SolidFromPoissonsRatio) {

@@ -124,7 +124,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     return;
   }
   if (end.unstrained > 0) quiet("a body meets no other");
-  if (!scene.has_bubbly()) return;
+  if (!scene.has_eos(sph::EosKind::bubbly)) return;
   if (end.void_fraction <= 0) quiet("no gas came out of solution");
   if (end.spray <= start.spray) quiet("no particle changed its group");
 }

@@ -24,6 +24,8 @@ enum class Term : std::uint8_t {
   uniform_viscosity,
   stress_divergence,
   artificial_viscosity,
+  shock_viscosity,
+  shock_heating,
   divergence,
   weighted_divergence,
   velocity_gradient,
@@ -66,6 +68,7 @@ enum class Value : std::uint8_t {
   body,              ///< particles of one body have one number
   bond_stress,       ///< [Pa]
   modulus,           ///< K + 4/3 mu of the group [Pa]
+  specific_energy,   ///< of ideal gases, 0 of all else [J/kg]
   count_
 };
 
@@ -115,6 +118,7 @@ class ValueSet {
   if (values.has(Value::reference_volume)) f |= FieldSet{Field::mass, Field::group};
   if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
   if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
+  if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
   return f;
 }
 
@@ -173,6 +177,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* colour = p.data<Field::colour_gradient>();
   const auto* displacement = p.data<Field::displacement>();
   const auto* bond_stress = p.data<Field::bond_stress>();
+  const auto* energy = p.data<Field::specific_energy>();
   const auto coordinate = [&](std::int64_t quanta) {
     if constexpr (sizeof(T) == 4)
       return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
@@ -237,6 +242,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     if constexpr (S.has(Value::bond_stress))
       for (int k = 0; k < D * D; ++k) put(Value::bond_stress, k, bond_stress[i * D * D + k]);
     if constexpr (S.has(Value::modulus)) put(Value::modulus, 0, groups.modulus[group[i]]);
+    if constexpr (S.has(Value::specific_energy)) put(Value::specific_energy, 0, energy[i]);
   }
 }
 

@@ -19,6 +19,8 @@ struct StepMaxima {
   double speed = 0;         ///< [m/s]
   double acceleration = 0;  ///< [m/s^2]
   std::int64_t volume = 0;  ///< of this rank's fluid, see FluidVolume; a sum
+  double sound = 0;         ///< of ideal gases; 0: not looked at yet [m/s]
+  double viscosity = 0;     ///< eta / rho of ideal gases [m^2/s]
 };
 
 /// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
@@ -66,7 +68,8 @@ class Physics {
   /// at the start of the step [m].
   [[nodiscard]] double longest_advance(const GlobalState& global) const;
   [[nodiscard]] double longest_shift(const GlobalState& global) const;
-  [[nodiscard]] double largest_speed(const Particles& particles) const;  ///< of this rank's particles [m/s]
+  /// Speed, sound and viscosity of this rank's particles at the start.
+  [[nodiscard]] StepMaxima maxima_at_start(const Particles& particles) const;
   /// Of this rank's particles that move, where the scene shifts them; see FluidVolume.
   [[nodiscard]] std::int64_t fluid_volume(const Particles& particles) const;
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
@@ -93,12 +96,15 @@ class Physics {
   [[noreturn]] void fail_particle(const Particles&, std::size_t row, const GlobalState&,
                                   const std::string& what) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;
+  void heat(Particles&, const RowRanges&, const GlobalState&, StepMaxima&) const;
+  void look_at_gas(const Particles&, std::size_t row, StepMaxima&) const;
   void change_group(Particles&, std::size_t row) const;
   void average(Particles&, const GlobalState&) const;
   void add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls);
 
   const Scene* scene_;
   PositionScale scale_;
+  bool gas_;  ///< there is an ideal gas
   FieldSet fields_;
   std::vector<Pass> passes_;
   GroupTable groups_;

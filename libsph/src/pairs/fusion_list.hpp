@@ -11,6 +11,7 @@
 #include "sph/terms/ida.hpp"
 #include "sph/terms/pressure.hpp"
 #include "sph/terms/shifting.hpp"
+#include "sph/terms/shock.hpp"
 #include "sph/terms/stress.hpp"
 #include "sph/terms/surface_tension.hpp"
 #include "sph/terms/viscosity.hpp"
@@ -70,6 +71,8 @@ struct FusionList {
              fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion, Shifting>(),
+             fuse<Quintic, Pressure, UniformViscosity, ShockViscosity>(),
+             fuse<Quintic, Pressure, Viscosity, ShockViscosity, ShockHeating>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),

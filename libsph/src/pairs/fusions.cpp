@@ -36,6 +36,10 @@ std::string name_of(Term term) {
       return "StressDivergence";
     case Term::artificial_viscosity:
       return "ArtificialViscosity";
+    case Term::shock_viscosity:
+      return "ShockViscosity";
+    case Term::shock_heating:
+      return "ShockHeating";
     case Term::divergence:
       return "Divergence";
     case Term::weighted_divergence:

@@ -96,7 +96,10 @@ std::int64_t PositionScale::quanta(double metres) const {
 }
 
 Physics::Physics(const Scene& scene, const PositionScale& scale)
-    : scene_(&scene), scale_(scale), surface_(scene.kernel, scene.dim) {
+    : scene_(&scene),
+      scale_(scale),
+      gas_(scene.has_eos(EosKind::ideal_gas)),
+      surface_(scene.kernel, scene.dim) {
   if (scene.of_grains()) {
     fields_ = grain_fields(scene);  // no passes: Grains has the rest
     return;
@@ -159,6 +162,8 @@ void Physics::set_sph_constants() {
   constants_.density = fluid->density;
   constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
   constants_.artificial_viscosity = scene.terms.artificial_viscosity;
+  constants_.quadratic_viscosity = scene.terms.quadratic_viscosity;
+  constants_.conduction = scene.terms.conduction;
   constants_.inverse_w_spacing = 1 / kernel.w_spacing;
   constants_.bond_range = scene.list_range() / h;
   constants_.hourglass = scene.terms.hourglass;
@@ -170,7 +175,9 @@ void Physics::set_sph_constants() {
 
   fields_ = {Field::id,   Field::position, Field::velocity, Field::density,
              Field::mass, Field::group,    Field::pressure, Field::force};
-  if (scene.has_bubbly()) fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
+  if (scene.has_eos(EosKind::bubbly))
+    fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
+  if (gas_) fields_ |= FieldSet{Field::sound_speed, Field::specific_energy};
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     fields_ |= FieldSet{Field::stress};
   if (scene.output.average_time > 0) fields_ |= output_averages;
@@ -196,7 +203,7 @@ void Physics::build_conservative() {
     viscosity = g.viscosity;
   }
   const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
-  const bool single = movers == 1 && !walls && !s.has_bubbly();
+  const bool single = movers == 1 && !walls && !s.has_eos(EosKind::bubbly) && !gas_;
 
   const bool weighted = s.terms.pressure_weights == PressureWeights::density;
   std::vector<Term> kinematics{solid      ? Term::velocity_gradient
@@ -215,7 +222,8 @@ void Physics::build_conservative() {
       update_movers(p, r.first, r.last, global);
     }
   };
-  passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
+  passes_.back().changes = {Field::density, Field::specific_energy, Field::stress, Field::pressure,
+                            Field::sound_speed};
 
   if (weighted) fields_ |= FieldSet{Field::wall_pressures};
   if (walls) {
@@ -229,7 +237,7 @@ void Physics::build_conservative() {
   }
 
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
-  const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
+  const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric && !gas_;
   std::vector<Term> forces{solid      ? Term::stress_divergence
                            : weighted ? Term::weighted_pressure
                                       : Term::pressure,
@@ -237,7 +245,11 @@ void Physics::build_conservative() {
                            : symmetric ? Term::symmetric_viscosity
                                        : Term::viscosity};
   if (tension) forces.push_back(Term::surface_tension);
-  if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
+  if (s.terms.quadratic_viscosity > 0 || gas_)
+    forces.push_back(Term::shock_viscosity);
+  else if (s.terms.artificial_viscosity > 0)
+    forces.push_back(Term::artificial_viscosity);
+  if (gas_) forces.push_back(Term::shock_heating);
   add_pass("forces", forces, true, false);
 }
 
@@ -258,6 +270,7 @@ FieldSet Physics::integrated() const {
   FieldSet changed{Field::velocity};
   if (scene_->terms.shifting) changed |= FieldSet{Field::position};
   if (bulk_viscous_) changed |= FieldSet{Field::pressure};
+  if (gas_) changed |= FieldSet{Field::specific_energy, Field::pressure, Field::sound_speed};
   if (!transitions_.empty()) changed |= FieldSet{Field::group};
   return changed;
 }
@@ -273,8 +286,9 @@ PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
 double Physics::time_step(const StepMaxima& maxima) const {
   if (scene_->time.dt) return *scene_->time.dt;
   const double h = scene_->smoothing_length;
-  double fastest = 0, viscous = 0;
+  double fastest = maxima.sound, viscous = maxima.viscosity;
   for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
+    if (maxima.sound > 0 && scene_->groups[g].eos == EosKind::ideal_gas) continue;
     fastest = std::max(fastest, groups_.sound_speed[g]);
     if (scene_->total_lagrangian() && is_wall(static_cast<std::uint32_t>(g))) continue;
     viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);

@@ -32,10 +32,12 @@ void Physics::derive(Particles& p, std::size_t first, std::size_t last) const {
   double* sound = p.data<Field::sound_speed>();
   double* psi = p.data<Field::void_fraction>();
   const double* gas = p.data<Field::gas_content>();
+  const double* energy = p.data<Field::specific_energy>();
   for (std::size_t i = first; i < last; ++i) {
     const Group& g = scene_->groups[group[i]];
     if (g.kind == GroupKind::wall && scene_->formulation == Formulation::conservative) {
-      if (sound != nullptr) sound[i] = groups_.sound_speed[group[i]], psi[i] = 0;
+      if (sound != nullptr) sound[i] = groups_.sound_speed[group[i]];
+      if (psi != nullptr) psi[i] = 0;
       continue;  // extrapolated from the fluid
     }
     double absolute, c = groups_.sound_speed[group[i]], void_fraction = 0;
@@ -44,11 +46,16 @@ void Physics::derive(Particles& p, std::size_t first, std::size_t last) const {
       absolute = eos.pressure(rho[i]);
       c = eos.sound_speed(absolute);
       void_fraction = eos.void_fraction(absolute);
+    } else if (g.eos == EosKind::ideal_gas) {
+      const IdealGas eos{g.heat_ratio};
+      absolute = eos.pressure(rho[i], energy[i]);
+      c = eos.sound_speed(energy[i]);
     } else {
       absolute = g.bulk_modulus * ((rho[i] - g.density) / g.density);
     }
     pressure[i] = absolute - scene_->surface_pressure;
-    if (sound != nullptr) sound[i] = c, psi[i] = void_fraction;
+    if (sound != nullptr) sound[i] = c;
+    if (psi != nullptr) psi[i] = void_fraction;
   }
 }
 
@@ -79,6 +86,7 @@ void Physics::update_movers(Particles& p, std::size_t first, std::size_t last,
   const double* divergence = p.data<Field::divergence>();
   const double* gradient = p.data<Field::velocity_gradient>();
   double* stress = p.data<Field::stress>();
+  double* energy = p.data<Field::specific_energy>();
   const auto* group = p.data<Field::group>();
   const std::size_t d = static_cast<std::size_t>(p.dim()), components_of_stress = d * (d + 1) / 2;
   for (std::size_t i = first; i < last; ++i) {
@@ -97,6 +105,10 @@ void Physics::update_movers(Particles& p, std::size_t first, std::size_t last,
     }
     const double exchanged = g.kind == GroupKind::solid ? 0.0 : diffusion[i];
     rho[i] = (rho[i] + dt * (exchanged - rho[i] * div)) * fill;
+    if (g.eos != EosKind::ideal_gas) continue;
+    energy[i] = IdealGas{g.heat_ratio}.compressed(energy[i], 1 - dt * div);
+    if (!(rho[i] > 0 && energy[i] > 0))
+      fail_particle(p, i, global, "has no density or energy left; reduce time.cfl or time.dt");
   }
   derive(p, first, last);
   if (!bulk_viscous_) return;
@@ -168,16 +180,19 @@ void Physics::update_ida(Particles& p, std::size_t first, std::size_t last, doub
   }
 }
 
-double Physics::largest_speed(const Particles& p) const {
+StepMaxima Physics::maxima_at_start(const Particles& p) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   const double* v = p.data<Field::velocity>();
   double speed2 = 0;
+  StepMaxima maxima;
   for (std::size_t i = 0; i < p.owned(); ++i) {
     double v2 = 0;
     for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
     speed2 = v2 > speed2 ? v2 : speed2;
+    if (gas_) look_at_gas(p, i, maxima);
   }
-  return std::sqrt(speed2);
+  maxima.speed = std::sqrt(speed2);
+  return maxima;
 }
 
 void Physics::advance(Particles& p, const RowRanges& ranges, double dt) const {
@@ -229,8 +244,33 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   if (scene_->terms.shifting) shift(p, ranges, global);
   if (bulk_viscous_) for_movers(ranges, [&](std::size_t i) { derive(p, i, i + 1); });
   if (!transitions_.empty()) for_movers(ranges, [&](std::size_t i) { change_group(p, i); });
+  StepMaxima maxima{std::sqrt(speed2), std::sqrt(acceleration2), fluid_volume(p)};
+  if (gas_) heat(p, ranges, global, maxima);
   if (p.has(Field::velocity_mean)) average(p, global);
-  return {std::sqrt(speed2), std::sqrt(acceleration2), fluid_volume(p)};
+  return maxima;
+}
+
+void Physics::heat(Particles& p, const RowRanges& ranges, const GlobalState& global,
+                   StepMaxima& maxima) const {
+  double* energy = p.data<Field::specific_energy>();
+  const double* heating = p.data<Field::heating>();
+  const double* mass = p.data<Field::mass>();
+  const auto* group = p.data<Field::group>();
+  for_movers(ranges, [&](std::size_t i) {
+    if (scene_->groups[group[i]].eos != EosKind::ideal_gas) return;
+    energy[i] += global.dt * (heating[i] / mass[i]);
+    derive(p, i, i + 1);
+    look_at_gas(p, i, maxima);
+  });
+}
+
+void Physics::look_at_gas(const Particles& p, std::size_t i, StepMaxima& maxima) const {
+  const Group& g = scene_->groups[p.data<Field::group>()[i]];
+  if (g.eos != EosKind::ideal_gas) return;
+  const double sound = IdealGas{g.heat_ratio}.sound_speed(p.data<Field::specific_energy>()[i]);
+  // Written so that a NaN becomes the maximum and is noticed.
+  maxima.sound = sound <= maxima.sound ? maxima.sound : sound;
+  maxima.viscosity = std::fmax(maxima.viscosity, g.viscosity / p.data<Field::density>()[i]);
 }
 
 // a += dt/T (f - a), T the time since the start until that is the scene's window: from the plain mean to an

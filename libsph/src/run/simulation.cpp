@@ -197,10 +197,12 @@ void Simulation::refresh_contacts() {
 
 // The one reduction of a step. What it brings acts in the next step.
 std::int64_t Simulation::finish_step(std::int64_t request) {
-  const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
+  const bool finite =
+      std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) && std::isfinite(maxima_.sound);
   std::array<double, 6> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
                             static_cast<double>(request)};
   std::vector<std::int64_t> sums;
+  if (!grains_ && finite) all[4] = maxima_.sound, all[5] = maxima_.viscosity;
   if (grains_) {
     all[4] = grains_->swept().force;
     all[5] = grains_->swept().overlap;
@@ -229,7 +231,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   global_.time += global_.dt;
   global_.max_speed = all[0];
   global_.max_acceleration = all[1];
-  if (!grains_) global_.dt = physics_.time_step({all[0], all[1]});
+  if (!grains_) global_.dt = physics_.time_step({all[0], all[1], 0, all[4], all[5]});
   find_stale(grains_ ? 0.0 : physics_.longest_advance(global_) + physics_.longest_shift(global_));
   return static_cast<std::int64_t>(all[3]);
 }
@@ -283,10 +285,11 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
     begin();
     return;
   }
-  std::array<double, 1> fastest{physics_.largest_speed(particles_)};
-  comm_.max(fastest);
-  global_.max_speed = fastest[0];
-  global_.dt = physics_.time_step({global_.max_speed, 0});
+  const StepMaxima own = physics_.maxima_at_start(particles_);
+  std::array<double, 3> largest{own.speed, own.sound, own.viscosity};
+  comm_.max(largest);
+  global_.max_speed = largest[0];
+  global_.dt = physics_.time_step({largest[0], 0, 0, largest[1], largest[2]});
   global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(physics_.fluid_volume(particles_));
   begin();
 }

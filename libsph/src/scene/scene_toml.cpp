@@ -142,14 +142,26 @@ void read_bonds(const TableReader& table, Scene& scene) {
                fmt::format("it is a ratio of lengths, 1 to {}", most_stretch));
 }
 
+/// What shocks need; a gas is rarely without them.
+void read_shock_terms(const TableReader& table, Scene& scene) {
+  const bool gas = scene.has_eos(EosKind::ideal_gas);
+  Terms& terms = scene.terms;
+  const auto number = [&](std::string_view key, double of_gas) {
+    return table.number(key, dimension::none, Bound::not_negative).value_or(gas ? of_gas : 0.0);
+  };
+  terms.artificial_viscosity = number("artificial_viscosity", 1);
+  terms.quadratic_viscosity = number("quadratic_viscosity", 2);
+  table.only_if(gas, "artificial_conduction", "only scenes with eos = \"ideal_gas\" have it");
+  terms.conduction = number("artificial_conduction", 1);
+}
+
 void read_terms(const TableReader& table, Scene& scene) {
   const bool ida = scene.formulation == Formulation::ida, total = scene.total_lagrangian();
   Terms& terms = scene.terms;
   if (ida || total) terms.density_diffusion = 0;
   terms.density_diffusion = table.number("density_diffusion", dimension::none, Bound::not_negative)
                                 .value_or(terms.density_diffusion);
-  terms.artificial_viscosity =
-      table.number("artificial_viscosity", dimension::none, Bound::not_negative).value_or(0);
+  read_shock_terms(table, scene);
   terms.shifting = table.flag("shifting").value_or(false);
   const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
     return g.viscosity == scene.groups.front().viscosity;
