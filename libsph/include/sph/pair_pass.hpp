@@ -215,8 +215,8 @@ struct PairPass {
   }
 
   static constexpr bool has_own_scale(Field f) {
-    return f == Field::wall_sums || f == Field::wall_sums_by_density || f == Field::deformation ||
-           f == Field::contact_energy;
+    return f == Field::number_density || f == Field::wall_sums || f == Field::wall_sums_by_density ||
+           f == Field::deformation || f == Field::contact_energy;
   }
 
   template <Field F>
@@ -239,6 +239,7 @@ struct PairPass {
                     const Sums<T, D, writes>& sums) {
     store_field<Field::force>(c, first, count, sums);
     store_field<Field::heating>(c, first, count, sums);
+    store_field<Field::number_density>(c, first, count, sums);
     store_field<Field::divergence>(c, first, count, sums);
     store_field<Field::diffusion>(c, first, count, sums);
     store_field<Field::velocity_gradient>(c, first, count, sums);

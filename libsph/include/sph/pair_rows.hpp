@@ -24,6 +24,8 @@ enum class Term : std::uint8_t {
   uniform_viscosity,
   stress_divergence,
   artificial_viscosity,
+  number_density,
+  gas_pressure,
   shock_viscosity,
   shock_heating,
   divergence,

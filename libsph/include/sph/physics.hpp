@@ -83,6 +83,7 @@ class Physics {
   void set_sph_constants();
   void build_conservative();
   void build_ida();
+  void build_gas();
   void build_total_lagrangian();
   void update_movers(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
   [[nodiscard]] double disordered_share(const Particles&, std::size_t row) const;
@@ -96,8 +97,9 @@ class Physics {
   [[noreturn]] void fail_particle(const Particles&, std::size_t row, const GlobalState&,
                                   const std::string& what) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;
+  void update_gas(Particles&, const RowRanges&, const GlobalState&) const;
   void heat(Particles&, const RowRanges&, const GlobalState&, StepMaxima&) const;
-  void look_at_gas(const Particles&, std::size_t row, StepMaxima&) const;
+  void look_at_gas(const Particles&, std::size_t first, std::size_t last, StepMaxima&) const;
   void change_group(Particles&, std::size_t row) const;
   void average(Particles&, const GlobalState&) const;
   void add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls);
@@ -116,6 +118,7 @@ class Physics {
   TermConstants<double> constants_;
   double gradient_factor_, force_factor_, diffusion_factor_;
   double own_concentration_;  ///< V W(0) of a particle of volume spacing^D
+  double kernel_at_zero_;     ///< W(0) without its factor
 };
 
 /// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and

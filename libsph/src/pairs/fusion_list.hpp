@@ -8,6 +8,7 @@
 #include "sph/terms/bonds.hpp"
 #include "sph/terms/density_diffusion.hpp"
 #include "sph/terms/divergence.hpp"
+#include "sph/terms/gas.hpp"
 #include "sph/terms/ida.hpp"
 #include "sph/terms/pressure.hpp"
 #include "sph/terms/shifting.hpp"
@@ -71,8 +72,8 @@ struct FusionList {
              fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion>(),
              fuse<Quintic, Divergence, PulledDensityDiffusion, Shifting>(),
-             fuse<Quintic, Pressure, UniformViscosity, ShockViscosity>(),
-             fuse<Quintic, Pressure, Viscosity, ShockViscosity, ShockHeating>(),
+             fuse<Quintic, NumberDensity>(),
+             fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),

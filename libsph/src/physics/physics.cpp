@@ -107,6 +107,8 @@ Physics::Physics(const Scene& scene, const PositionScale& scale)
   set_sph_constants();
   if (scene.formulation == Formulation::ida)
     build_ida();
+  else if (gas_)
+    build_gas();
   else if (scene.total_lagrangian())
     build_total_lagrangian();
   else
@@ -121,6 +123,7 @@ void Physics::set_sph_constants() {
   const double slope = kernel.normalisation / power(h, scene.dim + 1);
   gradient_factor_ = volume * slope;
   force_factor_ = volume * volume * slope;
+  kernel_at_zero_ = kernel.w_zero;
   own_concentration_ = kernel.w_zero * gradient_factor_ * h;
   diffusion_factor_ = 2 * scene.terms.density_diffusion * h * (volume * slope / h);
 
@@ -203,7 +206,7 @@ void Physics::build_conservative() {
     viscosity = g.viscosity;
   }
   const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
-  const bool single = movers == 1 && !walls && !s.has_eos(EosKind::bubbly) && !gas_;
+  const bool single = movers == 1 && !walls && !s.has_eos(EosKind::bubbly);
 
   const bool weighted = s.terms.pressure_weights == PressureWeights::density;
   std::vector<Term> kinematics{solid      ? Term::velocity_gradient
@@ -222,8 +225,7 @@ void Physics::build_conservative() {
       update_movers(p, r.first, r.last, global);
     }
   };
-  passes_.back().changes = {Field::density, Field::specific_energy, Field::stress, Field::pressure,
-                            Field::sound_speed};
+  passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
 
   if (weighted) fields_ |= FieldSet{Field::wall_pressures};
   if (walls) {
@@ -237,7 +239,7 @@ void Physics::build_conservative() {
   }
 
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
-  const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric && !gas_;
+  const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
   std::vector<Term> forces{solid      ? Term::stress_divergence
                            : weighted ? Term::weighted_pressure
                                       : Term::pressure,
@@ -245,11 +247,7 @@ void Physics::build_conservative() {
                            : symmetric ? Term::symmetric_viscosity
                                        : Term::viscosity};
   if (tension) forces.push_back(Term::surface_tension);
-  if (s.terms.quadratic_viscosity > 0 || gas_)
-    forces.push_back(Term::shock_viscosity);
-  else if (s.terms.artificial_viscosity > 0)
-    forces.push_back(Term::artificial_viscosity);
-  if (gas_) forces.push_back(Term::shock_heating);
+  if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
   add_pass("forces", forces, true, false);
 }
 
@@ -288,8 +286,8 @@ double Physics::time_step(const StepMaxima& maxima) const {
   const double h = scene_->smoothing_length;
   double fastest = maxima.sound, viscous = maxima.viscosity;
   for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
-    if (maxima.sound > 0 && scene_->groups[g].eos == EosKind::ideal_gas) continue;
-    fastest = std::max(fastest, groups_.sound_speed[g]);
+    // Of a gas that of now counts.
+    if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, groups_.sound_speed[g]);
     if (scene_->total_lagrangian() && is_wall(static_cast<std::uint32_t>(g))) continue;
     viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
   }

@@ -1,6 +1,7 @@
 // Local updates: what happens to one particle between two passes, from its own values and pair sums alone.
 #include <cmath>
 
+#include "physics/for_movers.hpp"
 #include "physics/random.hpp"
 #include "sph/fixed_point.hpp"
 #include "sph/physics.hpp"
@@ -8,14 +9,6 @@
 
 namespace sph {
 namespace {
-
-template <class Function>
-void for_movers(const RowRanges& ranges, Function function) {
-  for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
-    const RowRange& r = ranges[static_cast<std::size_t>(c)];
-    for (std::size_t i = r.first; i < r.last; ++i) function(i);
-  }
-}
 
 double trace_of(const double* matrix, std::size_t d) {
   double t = 0;
@@ -86,7 +79,6 @@ void Physics::update_movers(Particles& p, std::size_t first, std::size_t last,
   const double* divergence = p.data<Field::divergence>();
   const double* gradient = p.data<Field::velocity_gradient>();
   double* stress = p.data<Field::stress>();
-  double* energy = p.data<Field::specific_energy>();
   const auto* group = p.data<Field::group>();
   const std::size_t d = static_cast<std::size_t>(p.dim()), components_of_stress = d * (d + 1) / 2;
   for (std::size_t i = first; i < last; ++i) {
@@ -105,10 +97,6 @@ void Physics::update_movers(Particles& p, std::size_t first, std::size_t last,
     }
     const double exchanged = g.kind == GroupKind::solid ? 0.0 : diffusion[i];
     rho[i] = (rho[i] + dt * (exchanged - rho[i] * div)) * fill;
-    if (g.eos != EosKind::ideal_gas) continue;
-    energy[i] = IdealGas{g.heat_ratio}.compressed(energy[i], 1 - dt * div);
-    if (!(rho[i] > 0 && energy[i] > 0))
-      fail_particle(p, i, global, "has no density or energy left; reduce time.cfl or time.dt");
   }
   derive(p, first, last);
   if (!bulk_viscous_) return;
@@ -189,8 +177,8 @@ StepMaxima Physics::maxima_at_start(const Particles& p) const {
     double v2 = 0;
     for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
     speed2 = v2 > speed2 ? v2 : speed2;
-    if (gas_) look_at_gas(p, i, maxima);
   }
+  if (gas_) look_at_gas(p, 0, p.owned(), maxima);
   maxima.speed = std::sqrt(speed2);
   return maxima;
 }
@@ -248,29 +236,6 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   if (gas_) heat(p, ranges, global, maxima);
   if (p.has(Field::velocity_mean)) average(p, global);
   return maxima;
-}
-
-void Physics::heat(Particles& p, const RowRanges& ranges, const GlobalState& global,
-                   StepMaxima& maxima) const {
-  double* energy = p.data<Field::specific_energy>();
-  const double* heating = p.data<Field::heating>();
-  const double* mass = p.data<Field::mass>();
-  const auto* group = p.data<Field::group>();
-  for_movers(ranges, [&](std::size_t i) {
-    if (scene_->groups[group[i]].eos != EosKind::ideal_gas) return;
-    energy[i] += global.dt * (heating[i] / mass[i]);
-    derive(p, i, i + 1);
-    look_at_gas(p, i, maxima);
-  });
-}
-
-void Physics::look_at_gas(const Particles& p, std::size_t i, StepMaxima& maxima) const {
-  const Group& g = scene_->groups[p.data<Field::group>()[i]];
-  if (g.eos != EosKind::ideal_gas) return;
-  const double sound = IdealGas{g.heat_ratio}.sound_speed(p.data<Field::specific_energy>()[i]);
-  // Written so that a NaN becomes the maximum and is noticed.
-  maxima.sound = sound <= maxima.sound ? maxima.sound : sound;
-  maxima.viscosity = std::fmax(maxima.viscosity, g.viscosity / p.data<Field::density>()[i]);
 }
 
 // a += dt/T (f - a), T the time since the start until that is the scene's window: from the plain mean to an

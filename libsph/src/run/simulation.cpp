@@ -319,8 +319,8 @@ void Simulation::begin() {
   if (!grains_) physics_.derive(particles_, 0, particles_.owned());
   // Sorts the rows: advance() needs to know which of them move.
   rebuild();
-  // What bonds there are is known only from the start; and output wants the stress.
-  if (scene_.total_lagrangian()) compute(physics_.passes().front());
+  // What bonds there are is known only from the start, and output wants the stress, and the density of gases.
+  if (scene_.total_lagrangian() || scene_.has_eos(EosKind::ideal_gas)) compute(physics_.passes().front());
   stale_ = !grains_;  // the first advance may leave the skin
 }
 

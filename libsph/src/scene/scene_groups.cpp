@@ -13,19 +13,6 @@
 namespace sph {
 namespace {
 
-/// K = gamma p_0 and with it the speed of sound at the start.
-void read_ideal_gas(const TableReader& table, Group& group) {
-  for (const std::string_view key : {"bulk_modulus", "sound_speed"})
-    table.only_if(false, key, "an ideal gas has heat_ratio and start_pressure");
-  table.only_if(false, "bulk_viscosity", "an ideal gas has viscosity alone");
-  group.heat_ratio = table.required_number("heat_ratio", dimension::none, Bound::positive);
-  if (group.heat_ratio <= 1)
-    table.fail("heat_ratio", fmt::format("is {}", group.heat_ratio),
-               "it is that of the heat capacities, above 1: 1.4 for air, 5/3 with one atom");
-  group.start_pressure = table.required_number("start_pressure", dimension::pressure, Bound::positive);
-  group.bulk_modulus = group.heat_ratio * group.start_pressure;
-}
-
 /// Elastic constants: K from the sound speed, mu from Poisson's ratio, as the paper's readers know them.
 void read_stiffness(const TableReader& table, Group& group, const Group* like) {
   if (group.eos == EosKind::ideal_gas) return read_ideal_gas(table, group);

@@ -138,8 +138,11 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
     return;
   }
   if (scene.formulation == Formulation::ida) return;
-  out.number("quadratic_viscosity", scene.terms.quadratic_viscosity);
-  if (scene.has_eos(EosKind::ideal_gas)) out.number("artificial_conduction", scene.terms.conduction);
+  if (scene.has_eos(EosKind::ideal_gas)) {
+    out.number("quadratic_viscosity", scene.terms.quadratic_viscosity);
+    out.number("artificial_conduction", scene.terms.conduction);
+    return;
+  }
   out.text("viscosity", word(viscosity_words(), scene.terms.viscosity));
   if (scene.has_kind(GroupKind::solid)) return;
   out.text("pressure_weights", word(pressure_weights_words(), scene.terms.pressure_weights));

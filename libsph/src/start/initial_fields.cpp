@@ -127,7 +127,10 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   particles.data<Field::mass>()[i] = p.mass;
   particles.data<Field::group>()[i] = p.group;
   if (auto* m = particles.data<Field::gas_content>()) m[i] = scene.groups[p.group].gas_content;
-  if (auto* u = particles.data<Field::specific_energy>()) u[i] = p.energy;
+  if (auto* u = particles.data<Field::specific_energy>()) {
+    u[i] = p.energy;
+    if (p.energy > 0) particles.data<Field::density>()[i] = 0;  // not summed yet
+  }
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
   if (auto* radius = particles.data<Field::radius>()) radius[i] = p.radius;

@@ -118,7 +118,7 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
     p.density = rows.rho[k];
     p.mass = p.density * volume;  // as on a lattice, to the bit
   }
-  if (!rows.energy.empty()) p.energy = rows.energy[k];
+  if (!rows.energy.empty() && p.energy > 0) p.energy = rows.energy[k];
   if (!rows.mass.empty()) p.mass = rows.mass[k];
   append(scene, p, quanta, particles);
   const std::size_t i = particles.owned() - 1;

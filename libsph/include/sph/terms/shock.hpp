@@ -51,20 +51,22 @@ struct ShockHeating {
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
     const V half(static_cast<typename P::Scalar>(0.5));
-    V approach, square = V::zero();
+    V approach, work = V::zero();
     const V push = shock_push(p, c, approach);
-    for (int k = 0; k < P::dim; ++k) {
-      const V dv = p.template j<Value::velocity>(k) - p.template i<Value::velocity>(k);
-      square += dv * dv;
-    }
     const V volumes = p.template i<Value::volume>() * p.template j<Value::volume>() * p.f;
+    const V viscous = volumes * mean_viscosity(p);
+    for (int k = 0; k < P::dim; ++k) {
+      const V dv = p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k);
+      const V force = viscous * dv - push * p.e[k];
+      work += force * dv;
+      sums.template add<Field::heating>(1 + k, force);
+    }
     const V u_i = p.template i<Value::specific_energy>(), u_j = p.template j<Value::specific_energy>();
     const V rho = half * (p.template i<Value::density>() + p.template j<Value::density>());
     const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * head(p, c);
     const V flux = V(c.conduction) * sqrt(rho * max(excess, -excess)) * (u_i - u_j) * p.r;
     const V inert = where_equal(min(u_i, u_j), V::zero(), flux);  // with what has no energy of its own
-    sums.template add<Field::heating>(
-        0, volumes * ((flux - inert) - half * (mean_viscosity(p) * square)) - half * (push * approach));
+    sums.template add<Field::heating>(0, volumes * (flux - inert) - half * work);
   }
 };
 
