@@ -31,7 +31,7 @@ void read_shock_terms(const TableReader& table, Scene& scene) {
   Terms& terms = scene.terms;
   terms.artificial_viscosity = number("artificial_viscosity", 1);
   terms.quadratic_viscosity = number("quadratic_viscosity", 2);
-  terms.conduction = number("artificial_conduction", 1);
+  terms.conduction = number("artificial_conduction", 0.3);
   if (gas) terms.density_diffusion = 0;
 }
 
