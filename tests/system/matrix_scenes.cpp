@@ -49,6 +49,8 @@ const std::vector<Source>& sources() {
        "tests/scenes/box3d_solid.toml",
        {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3"}},
       {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.fragmentation.void_fraction=0.09"}},
+      // ideal gases: energy is state, and the time step follows the hottest particle
+      {"blast2d", "tests/scenes/blast2d.toml", {}},
       // total-Lagrangian: clamped, in contact, through a periodic face
       {"bodies2d", "tests/scenes/bodies2d.toml", {}},
       {"bodies3d", "tests/scenes/bodies3d.toml", {}},
