@@ -31,6 +31,7 @@ void Simulation::dawdle() {
 
 // SPH: positions advance, passes with their updates, kick.
 void Simulation::step_in_passes() {
+  if (global_.step == 0 && scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
   {
     const auto timing = timers_.time(decomp::Region::update);
     physics_.advance(particles_, distribution_.ranges(), global_.dt);
@@ -44,6 +45,21 @@ void Simulation::step_in_passes() {
   const auto timing = timers_.time(decomp::Region::update);
   maxima_ = physics_.integrate(particles_, distribution_.ranges(), global_);
   changed(physics_.integrated());
+}
+
+// Velocities are those of half a step later. A gas may start with a jump of its pressure, and accelerations
+// are never larger than then: the error of a first step that takes them as they are would stay in its energy.
+void Simulation::kick_half_a_step() {
+  for (const Pass& pass : physics_.passes()) compute(pass);
+  GlobalState half = global_;
+  half.dt *= 0.5;
+  maxima_ = physics_.integrate(particles_, distribution_.ranges(), half);
+  changed(physics_.integrated());
+  std::array<double, 4> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity};
+  comm_.max(all);
+  global_.max_speed = all[0];
+  global_.max_acceleration = all[1];
+  global_.dt = physics_.time_step({all[0], all[1], 0, all[2], all[3]});
 }
 
 void Simulation::compute(const Pass& pass) {
@@ -292,22 +308,6 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   global_.dt = physics_.time_step({largest[0], 0, 0, largest[1], largest[2]});
   global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(physics_.fluid_volume(particles_));
   begin();
-  if (scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
-}
-
-// A gas may start with a jump of its pressure, and accelerations are never larger than then: velocities must
-// be those of half a step later from the first step on, or the error of that step stays in the energy.
-void Simulation::kick_half_a_step() {
-  for (const Pass& pass : physics_.passes()) compute(pass);
-  GlobalState half = global_;
-  half.dt *= 0.5;
-  maxima_ = physics_.integrate(particles_, distribution_.ranges(), half);
-  changed(physics_.integrated());
-  std::array<double, 4> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity};
-  comm_.max(all);
-  global_.max_speed = all[0];
-  global_.max_acceleration = all[1];
-  global_.dt = physics_.time_step({all[0], all[1], 0, all[2], all[3]});
 }
 
 Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint)
