@@ -21,7 +21,7 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
     out.number("bulk_modulus", g.bulk_modulus);
   }
   out.number("viscosity", g.viscosity);
-  out.number("bulk_viscosity", g.bulk_viscosity);
+  if (g.eos != EosKind::ideal_gas) out.number("bulk_viscosity", g.bulk_viscosity);
   if (g.kind == GroupKind::solid) {
     out.number("shear_modulus", g.shear_modulus);
     out.text("lagrangian", word(lagrangian_words(), g.lagrangian));
