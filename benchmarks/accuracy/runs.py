@@ -36,14 +36,14 @@ class Snapshot:
         return 0.5 * float(np.sum(self.mass * np.sum(self.velocity**2, axis=1)))
 
 
-def write_start(path, x, v, group=0, rho=None, mass=None, stress=None):
+def write_start(path, x, v, group=0, rho=None, mass=None, stress=None, u=None):
     """A start file; ids in the order of the rows. What is None follows from the scene."""
     n = len(x)
     with h5py.File(path, "w") as file:
         file["id"] = np.arange(1, n + 1, dtype=np.uint64)
         file["x"], file["v"] = x, np.broadcast_to(v, np.shape(x))
         file["group"] = np.broadcast_to(np.asarray(group, dtype=np.uint32), n)
-        for name, values in (("rho", rho), ("mass", mass), ("stress", stress)):
+        for name, values in (("rho", rho), ("mass", mass), ("stress", stress), ("u", u)):
             if values is not None:
                 file[name] = np.broadcast_to(values, n) if np.ndim(values) < 2 else values
 

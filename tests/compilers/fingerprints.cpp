@@ -70,8 +70,8 @@ int main(int argc, char** argv) {
     if (comm.rank() == 0) std::printf("libm %016llx\n", static_cast<unsigned long long>(libm_hash()));
     for (const Case& c : {Case{"fluid", {}}, Case{"fluid", {"formulation=ida", "terms="}},
                           Case{"fluid", {"terms.implicit_viscosity=true"}}, Case{"flow", {}},
-                          Case{"solid", {}}, Case{"bodies", {}}, Case{"gas", {}}, Case{"box", {}},
-                          Case{"grains", {}, true}, Case{"grains", hertz, true}})
+                          Case{"solid", {}}, Case{"bodies", {}}, Case{"gas", {}}, Case{"blast", {}},
+                          Case{"box", {}}, Case{"grains", {}, true}, Case{"grains", hertz, true}})
       run(comm, argv[1], c);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -251,4 +251,30 @@ TEST(BubblyEos, BitsAreTheRecordedOnes) {
   EXPECT_EQ(hash, 0x6e90144571983e55u) << std::hex << hash;
 }
 
+TEST(IdealGas, PressureEnergyAndSound) {
+  const sph::IdealGas air{1.4};
+  const double u = air.energy(1e5, 1.2);
+  EXPECT_NEAR(air.pressure(1.2, u), 1e5, 1e-9);
+  EXPECT_NEAR(air.sound_speed(u), std::sqrt(1.4 * 1e5 / 1.2), 1e-10);
+}
+
+TEST(IdealGas, CompressionIsAdiabaticToSecondOrderAndReversible) {
+  for (const double gamma : {1.001, 1.4, 5.0 / 3.0, 3.0}) {
+    const sph::IdealGas gas{gamma};
+    EXPECT_EQ(gas.compressed(2.5, 1), 2.5);
+    double error[2];
+    for (int fine : {0, 1}) {
+      const int steps = fine == 1 ? 80 : 40;
+      double u = 1;
+      for (int k = 0; k < steps; ++k) u = gas.compressed(u, std::pow(2.0, 1.0 / steps));
+      error[fine] = u / std::pow(2.0, gamma - 1) - 1;
+      for (int k = 0; k < steps; ++k) u = gas.compressed(u, std::pow(0.5, 1.0 / steps));
+      EXPECT_NEAR(u, 1, 1e-13);
+    }
+    EXPECT_NEAR(error[0] / error[1], 4, 0.05) << gamma;
+    EXPECT_LT(std::abs(error[1]), 2e-4) << gamma;
+  }
+  EXPECT_LT((sph::IdealGas{1.4}.compressed(1, 0.1)), 0);  // no step may be as long: a guard ends the run
+}
+
 }  // namespace

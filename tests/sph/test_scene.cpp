@@ -100,7 +100,7 @@ TEST(Scene, DerivedValues) {
   EXPECT_EQ(s.groups[0].viscosity, 500);
   EXPECT_TRUE(s.has_kind(sph::GroupKind::wall));
   EXPECT_FALSE(s.has_kind(sph::GroupKind::solid));
-  EXPECT_FALSE(s.has_bubbly());
+  EXPECT_FALSE(s.has_eos(sph::EosKind::bubbly));
 }
 
 TEST(Scene, SolidFromPoissonsRatio) {
@@ -255,6 +255,27 @@ TEST(Scene, EveryOptionRoundTrips) {
   EXPECT_TRUE(slips.groups[0].slip);
   EXPECT_EQ(slips.terms.viscosity, sph::ViscosityForm::symmetric);
   EXPECT_EQ(parse(sph::to_toml(slips)), slips);
+}
+
+TEST(Scene, IdealGasHasDefaultsOfItsOwn) {
+  const Options gas{"group.melt.sound_speed=", "group.melt.eos=ideal_gas", "group.melt.heat_ratio=1.4",
+                    "group.melt.start_pressure=2 bar"};
+  const sph::Scene s = parse(small, gas);
+  EXPECT_TRUE(s.has_eos(sph::EosKind::ideal_gas));
+  EXPECT_EQ(s.groups[1].bulk_modulus, 1.4 * 2e5);
+  EXPECT_EQ(s.groups[0].bulk_modulus, s.groups[1].bulk_modulus);
+  EXPECT_EQ(s.groups[0].eos, sph::EosKind::linear);
+  EXPECT_EQ(s.terms.density_diffusion, 0);
+  EXPECT_EQ(s.terms.artificial_viscosity, 1);
+  EXPECT_EQ(s.terms.quadratic_viscosity, 2);
+  EXPECT_EQ(s.terms.conduction, 0.3);
+  EXPECT_EQ(parse(sph::to_toml(s)), s);
+  Options quiet = gas;
+  quiet.insert(quiet.end(), {"terms.artificial_viscosity=0", "terms.quadratic_viscosity=0.5",
+                             "terms.artificial_conduction=0"});
+  const sph::Scene without = parse(small, quiet);
+  EXPECT_EQ(without.terms.conduction, 0);
+  EXPECT_EQ(parse(sph::to_toml(without)), without);
 }
 
 TEST(Scene, CentralPullRoundTrips) {

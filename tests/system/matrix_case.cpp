@@ -51,10 +51,12 @@ void write_shuffled_start(const fs::path& path, const sph::Simulation& s, std::u
     std::swap(order[n - 1], order[draw(seed, "line" + std::to_string(n)) % n]);
 
   const double *gas = p.data<sph::Field::gas_content>(), *radius = p.data<sph::Field::radius>();
+  const double *energy = p.data<sph::Field::specific_energy>(), *mass = p.data<sph::Field::mass>();
   std::ofstream out(path);
   out.precision(17);
   out << (d == 2 ? "id,x,y,vx,vy,group," : "id,x,y,z,vx,vy,vz,group,")
-      << (radius != nullptr ? "radius" : "rho") << (gas != nullptr ? ",m" : "");
+      << (radius != nullptr ? "radius" : "rho") << (gas != nullptr ? ",m" : "")
+      << (energy != nullptr ? ",u,mass" : "");
   for (const std::size_t i : order) {
     out << '\n' << p.data<sph::Field::id>()[i];
     for (std::size_t a = 0; a < d; ++a)
@@ -63,6 +65,7 @@ void write_shuffled_start(const fs::path& path, const sph::Simulation& s, std::u
     out << ',' << s.scene().groups[p.data<sph::Field::group>()[i]].name << ','
         << (radius != nullptr ? radius[i] : p.data<sph::Field::density>()[i]);
     if (gas != nullptr) out << ',' << gas[i];
+    if (energy != nullptr) out << ',' << energy[i] << ',' << mass[i];
   }
   out << '\n';
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());

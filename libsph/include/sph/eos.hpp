@@ -1,5 +1,6 @@
 // Equations of state. Pressures here are absolute; the momentum equation uses them less the surface pressure.
 //   linear  p = K (rho/rho_0 - 1)                                     Ida (2009) eq. (10), p_0 = 0
+//   ideal_gas  p = (gamma - 1) rho u
 //   bubbly  rho = rho_l / (1 + xi (rho_l/rho_g - 1)) where m > m_d    Ida eqs. (12)-(15)
 // SPH supplies rho; the bubbly pressure is the unique root of v(p) = (1-xi)/rho_l + xi RT/p - 1/rho.
 #pragma once
@@ -35,6 +36,25 @@ class BubblyEos {
 
   double rho0_, k_, m_, rt_, ps_, gamma_;
   double p_sat_, rho_sat_;
+};
+
+/// A gas whose internal energy u follows from du = -p dv + heat.
+struct IdealGas {
+  double heat_ratio;  ///< gamma
+  [[nodiscard]] double pressure(double density, double energy) const {
+    return (heat_ratio - 1) * density * energy;
+  }
+  [[nodiscard]] double energy(double pressure, double density) const {
+    return pressure / ((heat_ratio - 1) * density);
+  }
+  [[nodiscard]] double sound_speed(double energy) const;  ///< sqrt(gamma p / rho)
+  /// u once the density is `ratio` times what it was, the work being that of the mean of p before and after:
+  /// second order in the step, whatever gamma, and as much as the kicks before and after it give to the
+  /// motion.
+  [[nodiscard]] double compressed(double energy, double ratio) const {
+    const double g = 0.5 * (heat_ratio - 1);
+    return energy * ((1 - g * (1 / ratio - 1)) / (1 + g * (1 - ratio)));
+  }
 };
 
 /// The equation of state of a bubbly group with this gas content m.

@@ -26,6 +26,8 @@ struct TermConstants {
   T density;                        ///< rho_0 where there is one fluid [kg/m^3]
   T inverse_sound_speed;            ///< where there is one fluid [s/m]
   T artificial_viscosity;           ///< alpha
+  T quadratic_viscosity;            ///< beta
+  T conduction;                     ///< alpha_u
   T inverse_w_spacing;              ///< 1 / w(spacing/h), unnormalised kernel
   T half_step;                      ///< dt / 2h [s/m]
   T bond_range;                     ///< largest distance of two bonded particles / h
@@ -215,6 +217,8 @@ struct PairPass {
     c.density = static_cast<T>(d.density);
     c.inverse_sound_speed = static_cast<T>(d.inverse_sound_speed);
     c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
+    c.quadratic_viscosity = static_cast<T>(d.quadratic_viscosity);
+    c.conduction = static_cast<T>(d.conduction);
     c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
     c.half_step = static_cast<T>(d.half_step);
     c.bond_range = static_cast<T>(d.bond_range);
@@ -226,8 +230,8 @@ struct PairPass {
   }
 
   static constexpr bool has_own_scale(Field f) {
-    return f == Field::wall_sums || f == Field::wall_sums_by_density || f == Field::deformation ||
-           f == Field::contact_energy;
+    return f == Field::number_density || f == Field::wall_sums || f == Field::wall_sums_by_density ||
+           f == Field::deformation || f == Field::contact_energy;
   }
 
   template <Field F>
@@ -235,10 +239,11 @@ struct PairPass {
                           const Sums<T, D, writes>& sums) {
     if constexpr (writes.has(F)) {
       constexpr int n = components(info(F).shape, D);
-      const double factor = F == Field::force || F == Field::viscous_sums ? c.force_factor
-                            : F == Field::diffusion                       ? c.diffusion_factor
-                            : has_own_scale(F)                            ? 1.0
-                                                                          : c.gradient_factor;
+      const double factor = F == Field::force || F == Field::heating || F == Field::viscous_sums
+                                ? c.force_factor
+                            : F == Field::diffusion ? c.diffusion_factor
+                            : has_own_scale(F)      ? 1.0
+                                                    : c.gradient_factor;
       double* out = c.particles->template data<F>() + first * n;
       for (std::size_t l = 0; l < count; ++l)
         for (int k = 0; k < n; ++k)
@@ -249,6 +254,8 @@ struct PairPass {
   static void store(const PassContext& c, std::size_t first, std::size_t count,
                     const Sums<T, D, writes>& sums) {
     store_field<Field::force>(c, first, count, sums);
+    store_field<Field::heating>(c, first, count, sums);
+    store_field<Field::number_density>(c, first, count, sums);
     store_field<Field::divergence>(c, first, count, sums);
     store_field<Field::diffusion>(c, first, count, sums);
     store_field<Field::velocity_gradient>(c, first, count, sums);

@@ -26,6 +26,10 @@ enum class Term : std::uint8_t {
   symmetric_viscous_operator,
   stress_divergence,
   artificial_viscosity,
+  number_density,
+  gas_pressure,
+  shock_viscosity,
+  shock_heating,
   divergence,
   weighted_divergence,
   velocity_gradient,
@@ -72,6 +76,7 @@ enum class Value : std::uint8_t {
   direction,         ///< what the viscous operator is applied to [m/s]
   grip,              ///< 0 for movers, 1 for walls that hold what flows past, 2 for those that let it slip
   wall_slope,        ///< gradient of a flow that is 0 at the wall and 1 here, times h
+  specific_energy,   ///< of ideal gases, 0 of all else [J/kg]
   count_
 };
 
@@ -124,6 +129,7 @@ class ValueSet {
   if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
   if (values.has(Value::direction)) f |= FieldSet{Field::direction};
   if (values.has(Value::grip)) f |= FieldSet{Field::group};
+  if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
   return f;
 }
 
@@ -185,6 +191,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* bond_stress = p.data<Field::bond_stress>();
   const auto* direction = p.data<Field::direction>();
   const auto* wall_slope = p.data<Field::wall_slope>();
+  const auto* energy = p.data<Field::specific_energy>();
   const auto coordinate = [&](std::int64_t quanta) {
     if constexpr (sizeof(T) == 4)
       return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
@@ -255,6 +262,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     if constexpr (S.has(Value::wall_slope))  // of partners it is not read
       for (int k = 0; k < D; ++k)
         put(Value::wall_slope, k, wall_slope != nullptr && i < p.owned() ? wall_slope[i * D + k] : 0.0);
+    if constexpr (S.has(Value::specific_energy)) put(Value::specific_energy, 0, energy[i]);
   }
 }
 

@@ -23,6 +23,8 @@ struct StepMaxima {
   double speed = 0;         ///< [m/s]
   double acceleration = 0;  ///< [m/s^2]
   std::int64_t volume = 0;  ///< of this rank's fluid, see FluidVolume; a sum
+  double sound = 0;         ///< of ideal gases; 0: not looked at yet [m/s]
+  double viscosity = 0;     ///< eta / rho of ideal gases [m^2/s]
 };
 
 /// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
@@ -76,7 +78,8 @@ class Physics {
   /// at the start of the step [m].
   [[nodiscard]] double longest_advance(const GlobalState& global) const;
   [[nodiscard]] double longest_shift(const GlobalState& global) const;
-  [[nodiscard]] double largest_speed(const Particles& particles) const;  ///< of this rank's particles [m/s]
+  /// Speed, sound and viscosity of this rank's particles at the start.
+  [[nodiscard]] StepMaxima maxima_at_start(const Particles& particles) const;
   /// Of this rank's particles that move, where the scene shifts them; see FluidVolume.
   [[nodiscard]] std::int64_t fluid_volume(const Particles& particles) const;
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
@@ -92,8 +95,10 @@ class Physics {
  private:
   void set_sph_constants();
   void build_conservative();
+  void add_walls(bool weighted);
   void build_implicit_viscosity(bool walls);
   void build_ida();
+  void build_gas();
   void build_total_lagrangian();
   void update_movers(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
   [[nodiscard]] double disordered_share(const Particles&, std::size_t row) const;
@@ -108,12 +113,16 @@ class Physics {
   [[noreturn]] void fail_particle(const Particles&, std::size_t row, const GlobalState&,
                                   const std::string& what) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;
+  void update_gas(Particles&, const RowRanges&, const GlobalState&) const;
+  void heat(Particles&, const RowRanges&, const GlobalState&, StepMaxima&) const;
+  void look_at_gas(const Particles&, std::size_t first, std::size_t last, StepMaxima&) const;
   void change_group(Particles&, std::size_t row) const;
   void average(Particles&, const GlobalState&) const;
   void add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls);
 
   const Scene* scene_;
   PositionScale scale_;
+  bool gas_;  ///< there is an ideal gas
   FieldSet fields_;
   std::vector<Pass> passes_;
   GroupTable groups_;
@@ -127,6 +136,7 @@ class Physics {
   TermConstants<double> constants_;
   double gradient_factor_, force_factor_, diffusion_factor_;
   double own_concentration_;  ///< V W(0) of a particle of volume spacing^D
+  double kernel_at_zero_;     ///< W(0) without its factor
 };
 
 /// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and

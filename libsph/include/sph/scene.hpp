@@ -19,7 +19,7 @@ enum class Precision { double_, mixed };
 enum class KernelShape { quintic, wendland_c2, wendland_c4 };
 
 enum class GroupKind { fluid, solid, wall, grain };
-enum class EosKind { linear, bubbly };
+enum class EosKind { linear, bubbly, ideal_gas };
 /// updated: stress follows the rate of strain; total: it is a function of the deformation since the start.
 enum class Lagrangian { updated, total };
 
@@ -33,6 +33,8 @@ struct Group {
   double viscosity = 0;                               ///< eta [Pa s]
   double bulk_viscosity = 0;                          ///< zeta, Ida eq. (9) [Pa s]
   double shear_modulus = 0;                           ///< mu, solids [Pa]; lambda = K - 2/3 mu
+  double heat_ratio = 0;                              ///< gamma of an ideal gas [1]
+  double start_pressure = 0;                          ///< of an ideal gas, at rho_0; K = gamma p_0 [Pa]
   double gas_content = 0;                             ///< m, Ida eq. (14) [1]
   double gas_rt = 0;                                  ///< R T, Ida eq. (13) [m^2/s^2]
   double solubility_pressure = 0;                     ///< p_s [Pa]
@@ -107,6 +109,8 @@ enum class ViscosityForm { laplacian, symmetric };
 struct Terms {
   double density_diffusion = 0.1;   ///< delta
   double artificial_viscosity = 0;  ///< alpha
+  double quadratic_viscosity = 0;   ///< beta, against strong shocks
+  double conduction = 0;            ///< alpha_u, of ideal gases
   bool shifting = false;
   ViscosityForm viscosity = ViscosityForm::laplacian;
   bool implicit_viscosity = false;    ///< viscous forces of the end of the step: they limit no time step
@@ -204,7 +208,7 @@ struct Scene {
       const;  ///< how far pairs of the lists may be apart [m]: support(), or more
   [[nodiscard]] bool has_kind(GroupKind k) const;
   [[nodiscard]] bool total_lagrangian() const;  ///< its solids are
-  [[nodiscard]] bool has_bubbly() const;
+  [[nodiscard]] bool has_eos(EosKind kind) const;
   [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none
   friend bool operator==(const Scene&, const Scene&) = default;
 };

@@ -60,6 +60,7 @@ class Simulation {
 
  private:
   void begin();  ///< common end of both constructors
+  void kick_half_a_step();
   void step_in_passes();
   void step_in_a_sweep();
   void rebuild();

@@ -39,6 +39,11 @@ double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t 
   return energy + m / rho * product / (4 * g.shear_modulus);
 }
 
+double internal_energy(const ParticleValues& of, std::size_t row) {
+  const double* u = of.particles().data<Field::specific_energy>();
+  return u == nullptr ? 0.0 : of.mass(row) * u[row];
+}
+
 double kinetic_energy(const ParticleValues& of, std::size_t row) {
   double v2 = 0;
   for (int a = 0; a < of.particles().dim(); ++a) {

@@ -9,6 +9,7 @@ namespace sph {
 [[nodiscard]] bool is_held(const Group& group);
 
 [[nodiscard]] double kinetic_energy(const ParticleValues& of, std::size_t row);
+[[nodiscard]] double internal_energy(const ParticleValues& of, std::size_t row);    ///< of ideal gases
 [[nodiscard]] double rotational_energy(const ParticleValues& of, std::size_t row);  ///< of grains
 [[nodiscard]] double potential_energy(const Scene& scene, const ParticleValues& of, std::size_t row);
 [[nodiscard]] double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t row);  ///< SPH

@@ -15,6 +15,7 @@ namespace {
 
 std::vector<std::string> energy_names(const Particles& p) {
   if (p.has(Field::radius)) return {"kinetic", "rotational", "potential", "elastic"};
+  if (p.has(Field::specific_energy)) return {"kinetic", "potential", "internal", "elastic"};
   return {"kinetic", "potential", "elastic"};
 }
 
@@ -59,6 +60,7 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
     sums[k++].add(kinetic_energy(of, row));
     if (scene.of_grains()) sums[k++].add(rotational_energy(of, row));
     sums[k++].add(potential_energy(scene, of, row));
+    if (of.particles().has(Field::specific_energy)) sums[k++].add(internal_energy(of, row));
     if (!scene.of_grains()) sums[k].add(elastic_energy(scene, of, row));
   } else {
     for (std::size_t a = 0; a < sums.size(); ++a) sums[a].add(m * of.velocity(row, a));

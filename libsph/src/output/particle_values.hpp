@@ -1,5 +1,5 @@
 // The output quantities of one particle in SI, in the order of the columns of series.csv: x.., v.., rho, p,
-// and psi where the scene has it; of a grain x.., v.. and its spin w.. if it has one.
+// and psi and u where the scene has them; of a grain x.., v.. and its spin w.. if it has one.
 #pragma once
 
 #include <array>
@@ -43,6 +43,7 @@ class ParticleValues {
     to[k++] = particles_.data<Field::density>()[row];
     to[k++] = particles_.data<Field::pressure>()[row];
     if (const double* psi = particles_.data<Field::void_fraction>()) to[k++] = psi[row];
+    if (const double* u = particles_.data<Field::specific_energy>()) to[k++] = u[row];
   }
   [[nodiscard]] static std::vector<std::string> names(const Particles& p) {
     std::vector<std::string> out;
@@ -55,6 +56,7 @@ class ParticleValues {
     out.emplace_back("rho");
     out.emplace_back("p");
     if (p.has(Field::void_fraction)) out.emplace_back("psi");
+    if (p.has(Field::specific_energy)) out.emplace_back("u");
     return out;
   }
   [[nodiscard]] static std::size_t count(const Particles& p) { return names(p).size(); }

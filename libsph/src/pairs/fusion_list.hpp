@@ -8,9 +8,11 @@
 #include "sph/terms/bonds.hpp"
 #include "sph/terms/density_diffusion.hpp"
 #include "sph/terms/divergence.hpp"
+#include "sph/terms/gas.hpp"
 #include "sph/terms/ida.hpp"
 #include "sph/terms/pressure.hpp"
 #include "sph/terms/shifting.hpp"
+#include "sph/terms/shock.hpp"
 #include "sph/terms/stress.hpp"
 #include "sph/terms/surface_tension.hpp"
 #include "sph/terms/viscosity.hpp"
@@ -79,6 +81,8 @@ struct FusionList {
              fuse<Quintic, Pressure, SurfaceTension>(),
              fuse<Quintic, WeightedPressure, SurfaceTension>(),
              fuse<Quintic, SymmetricViscousOperator>(),
+             fuse<Quintic, NumberDensity>(),
+             fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),

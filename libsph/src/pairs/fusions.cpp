@@ -40,6 +40,14 @@ std::string name_of(Term term) {
       return "StressDivergence";
     case Term::artificial_viscosity:
       return "ArtificialViscosity";
+    case Term::number_density:
+      return "NumberDensity";
+    case Term::gas_pressure:
+      return "GasPressure";
+    case Term::shock_viscosity:
+      return "ShockViscosity";
+    case Term::shock_heating:
+      return "ShockHeating";
     case Term::divergence:
       return "Divergence";
     case Term::weighted_divergence:

@@ -23,6 +23,10 @@ void require(bool good, const char* what) {
 
 }  // namespace
 
+double IdealGas::sound_speed(double energy) const {
+  return std::sqrt(heat_ratio * (heat_ratio - 1) * energy);
+}
+
 BubblyEos::BubblyEos(double density, double bulk_modulus, double gas_content, double gas_rt,
                      double solubility_pressure, double solubility_exponent)
     : rho0_(density),

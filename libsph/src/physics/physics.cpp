@@ -112,7 +112,10 @@ std::int64_t PositionScale::quanta(double metres) const {
 }
 
 Physics::Physics(const Scene& scene, const PositionScale& scale)
-    : scene_(&scene), scale_(scale), surface_(scene.kernel, scene.dim) {
+    : scene_(&scene),
+      scale_(scale),
+      gas_(scene.has_eos(EosKind::ideal_gas)),
+      surface_(scene.kernel, scene.dim) {
   if (scene.of_grains()) {
     fields_ = grain_fields(scene);  // no passes: Grains has the rest
     return;
@@ -120,6 +123,8 @@ Physics::Physics(const Scene& scene, const PositionScale& scale)
   set_sph_constants();
   if (scene.formulation == Formulation::ida)
     build_ida();
+  else if (gas_)
+    build_gas();
   else if (scene.total_lagrangian())
     build_total_lagrangian();
   else
@@ -134,6 +139,7 @@ void Physics::set_sph_constants() {
   const double slope = kernel.normalisation / power(h, scene.dim + 1);
   gradient_factor_ = volume * slope;
   force_factor_ = volume * volume * slope;
+  kernel_at_zero_ = kernel.w_zero;
   own_concentration_ = kernel.w_zero * gradient_factor_ * h;
   diffusion_factor_ = 2 * scene.terms.density_diffusion * h * (volume * slope / h);
 
@@ -178,6 +184,8 @@ void Physics::set_sph_constants() {
   constants_.density = fluid->density;
   constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
   constants_.artificial_viscosity = scene.terms.artificial_viscosity;
+  constants_.quadratic_viscosity = scene.terms.quadratic_viscosity;
+  constants_.conduction = scene.terms.conduction;
   constants_.inverse_w_spacing = 1 / kernel.w_spacing;
   constants_.bond_range = scene.list_range() / h;
   constants_.hourglass = scene.terms.hourglass;
@@ -189,7 +197,9 @@ void Physics::set_sph_constants() {
 
   fields_ = {Field::id,   Field::position, Field::velocity, Field::density,
              Field::mass, Field::group,    Field::pressure, Field::force};
-  if (scene.has_bubbly()) fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
+  if (scene.has_eos(EosKind::bubbly))
+    fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
+  if (gas_) fields_ |= FieldSet{Field::sound_speed, Field::specific_energy};
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     fields_ |= FieldSet{Field::stress};
   if (scene.output.average_time > 0) fields_ |= output_averages;
@@ -215,7 +225,7 @@ void Physics::build_conservative() {
     viscosity = g.viscosity;
   }
   const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
-  const bool single = movers == 1 && !walls && !s.has_bubbly();
+  const bool single = movers == 1 && !walls && !s.has_eos(EosKind::bubbly);
 
   const bool weighted = s.terms.pressure_weights == PressureWeights::density;
   std::vector<Term> kinematics{solid      ? Term::velocity_gradient
@@ -237,20 +247,7 @@ void Physics::build_conservative() {
   passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
 
   if (weighted) fields_ |= FieldSet{Field::wall_pressures};
-  if (walls) {
-    if (std::any_of(s.groups.begin(), s.groups.end(),
-                    [](const Group& g) { return g.kind == GroupKind::wall && !g.slip; })) {
-      mirror_.emplace(s);
-      fields_ |= FieldSet{Field::wall_mirror};
-    }
-    std::vector<Term> terms{Term::wall_extrapolation};
-    if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
-    add_pass("walls", terms, false, true);
-    passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-      update_walls(p, ranges, global);
-    };
-    passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures, Field::wall_mirror};
-  }
+  if (walls) add_walls(weighted);
 
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
   const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
@@ -265,6 +262,21 @@ void Physics::build_conservative() {
   if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
   add_pass("forces", forces, true, false);
   if (s.terms.implicit_viscosity) build_implicit_viscosity(walls);
+}
+
+void Physics::add_walls(bool weighted) {
+  if (std::any_of(scene_->groups.begin(), scene_->groups.end(),
+                  [](const Group& g) { return g.kind == GroupKind::wall && !g.slip; })) {
+    mirror_.emplace(*scene_);
+    fields_ |= FieldSet{Field::wall_mirror};
+  }
+  std::vector<Term> terms{Term::wall_extrapolation};
+  if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
+  add_pass("walls", terms, false, true);
+  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+    update_walls(p, ranges, global);
+  };
+  passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures, Field::wall_mirror};
 }
 
 void Physics::build_implicit_viscosity(bool walls) {
@@ -303,6 +315,7 @@ FieldSet Physics::integrated() const {
   FieldSet changed{Field::velocity};
   if (scene_->terms.shifting) changed |= FieldSet{Field::position};
   if (bulk_viscous_) changed |= FieldSet{Field::pressure};
+  if (gas_) changed |= FieldSet{Field::specific_energy, Field::pressure, Field::sound_speed};
   if (!transitions_.empty()) changed |= FieldSet{Field::group};
   return changed;
 }
@@ -318,9 +331,10 @@ PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
 double Physics::time_step(const StepMaxima& maxima) const {
   if (scene_->time.dt) return *scene_->time.dt;
   const double h = scene_->smoothing_length;
-  double fastest = 0, viscous = 0;
+  double fastest = maxima.sound, viscous = maxima.viscosity;
   for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
-    fastest = std::max(fastest, groups_.sound_speed[g]);
+    // Of a gas that of now counts.
+    if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, groups_.sound_speed[g]);
     if (scene_->total_lagrangian() && is_wall(static_cast<std::uint32_t>(g))) continue;
     viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
   }

@@ -1,6 +1,7 @@
 // Local updates: what happens to one particle between two passes, from its own values and pair sums alone.
 #include <cmath>
 
+#include "physics/for_rows.hpp"
 #include "physics/random.hpp"
 #include "sph/fixed_point.hpp"
 #include "sph/physics.hpp"
@@ -8,14 +9,6 @@
 
 namespace sph {
 namespace {
-
-template <class Function>
-void for_movers(const RowRanges& ranges, Function function) {
-  for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
-    const RowRange& r = ranges[static_cast<std::size_t>(c)];
-    for (std::size_t i = r.first; i < r.last; ++i) function(i);
-  }
-}
 
 double trace_of(const double* matrix, std::size_t d) {
   double t = 0;
@@ -32,10 +25,12 @@ void Physics::derive(Particles& p, std::size_t first, std::size_t last) const {
   double* sound = p.data<Field::sound_speed>();
   double* psi = p.data<Field::void_fraction>();
   const double* gas = p.data<Field::gas_content>();
+  const double* energy = p.data<Field::specific_energy>();
   for (std::size_t i = first; i < last; ++i) {
     const Group& g = scene_->groups[group[i]];
     if (g.kind == GroupKind::wall && scene_->formulation == Formulation::conservative) {
-      if (sound != nullptr) sound[i] = groups_.sound_speed[group[i]], psi[i] = 0;
+      if (sound != nullptr) sound[i] = groups_.sound_speed[group[i]];
+      if (psi != nullptr) psi[i] = 0;
       continue;  // extrapolated from the fluid
     }
     double absolute, c = groups_.sound_speed[group[i]], void_fraction = 0;
@@ -44,11 +39,16 @@ void Physics::derive(Particles& p, std::size_t first, std::size_t last) const {
       absolute = eos.pressure(rho[i]);
       c = eos.sound_speed(absolute);
       void_fraction = eos.void_fraction(absolute);
+    } else if (g.eos == EosKind::ideal_gas) {
+      const IdealGas eos{g.heat_ratio};
+      absolute = eos.pressure(rho[i], energy[i]);
+      c = eos.sound_speed(energy[i]);
     } else {
       absolute = g.bulk_modulus * ((rho[i] - g.density) / g.density);
     }
     pressure[i] = absolute - scene_->surface_pressure;
-    if (sound != nullptr) sound[i] = c, psi[i] = void_fraction;
+    if (sound != nullptr) sound[i] = c;
+    if (psi != nullptr) psi[i] = void_fraction;
   }
 }
 
@@ -192,16 +192,19 @@ void Physics::update_ida(Particles& p, std::size_t first, std::size_t last, doub
   }
 }
 
-double Physics::largest_speed(const Particles& p) const {
+StepMaxima Physics::maxima_at_start(const Particles& p) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   const double* v = p.data<Field::velocity>();
   double speed2 = 0;
+  StepMaxima maxima;
   for (std::size_t i = 0; i < p.owned(); ++i) {
     double v2 = 0;
     for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
     speed2 = v2 > speed2 ? v2 : speed2;
   }
-  return std::sqrt(speed2);
+  if (gas_) look_at_gas(p, 0, p.owned(), maxima);
+  maxima.speed = std::sqrt(speed2);
+  return maxima;
 }
 
 void Physics::advance(Particles& p, const RowRanges& ranges, double dt) const {
@@ -262,8 +265,10 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   if (scene_->terms.shifting) shift(p, ranges, global);
   if (bulk_viscous_) for_movers(ranges, [&](std::size_t i) { derive(p, i, i + 1); });
   if (!transitions_.empty()) for_movers(ranges, [&](std::size_t i) { change_group(p, i); });
+  StepMaxima maxima{std::sqrt(speed2), std::sqrt(acceleration2), fluid_volume(p)};
+  if (gas_) heat(p, ranges, global, maxima);
   if (p.has(Field::velocity_mean)) average(p, global);
-  return {std::sqrt(speed2), std::sqrt(acceleration2), fluid_volume(p)};
+  return maxima;
 }
 
 // a += dt/T (f - a), T the time since the start until that is the scene's window: from the plain mean to an

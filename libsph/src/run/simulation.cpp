@@ -6,11 +6,8 @@
 #include <utility>
 
 #include "physics/viscosity_solver.hpp"
-#include "sph/placement.hpp"
 
 namespace sph {
-
-// ---- the step -------------------------------------------------------------------------------------------
 
 std::int64_t Simulation::step(std::int64_t request) {
   if (grains_)
@@ -32,6 +29,7 @@ void Simulation::dawdle() {
 
 // SPH: positions advance, passes with their updates, kick.
 void Simulation::step_in_passes() {
+  if (global_.step == 0 && scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
   {
     const auto timing = timers_.time(decomp::Region::update);
     physics_.advance(particles_, distribution_.ranges(), global_.dt);
@@ -45,6 +43,21 @@ void Simulation::step_in_passes() {
   const auto timing = timers_.time(decomp::Region::update);
   maxima_ = physics_.integrate(particles_, distribution_.ranges(), global_);
   changed(physics_.integrated());
+}
+
+// Velocities are those of half a step later. A gas may start with a jump of its pressure, and accelerations
+// are never larger than then: the error of a first step that takes them as they are would stay in its energy.
+void Simulation::kick_half_a_step() {
+  for (const Pass& pass : physics_.passes()) compute(pass);
+  GlobalState half = global_;
+  half.dt *= 0.5;
+  maxima_ = physics_.integrate(particles_, distribution_.ranges(), half);
+  changed(physics_.integrated());
+  std::array<double, 4> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity};
+  comm_.max(all);
+  global_.max_speed = all[0];
+  global_.max_acceleration = all[1];
+  global_.dt = physics_.time_step({all[0], all[1], 0, all[2], all[3]});
 }
 
 void Simulation::compute(const Pass& pass) {
@@ -218,10 +231,12 @@ void Simulation::refresh_contacts() {
 
 // The one reduction of a step. What it brings acts in the next step.
 std::int64_t Simulation::finish_step(std::int64_t request) {
-  const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
+  const bool finite =
+      std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) && std::isfinite(maxima_.sound);
   std::array<double, 6> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
                             static_cast<double>(request)};
   std::vector<std::int64_t> sums;
+  if (!grains_ && finite) all[4] = maxima_.sound, all[5] = maxima_.viscosity;
   if (grains_) {
     all[4] = grains_->swept().force;
     all[5] = grains_->swept().overlap;
@@ -250,7 +265,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   global_.time += global_.dt;
   global_.max_speed = all[0];
   global_.max_acceleration = all[1];
-  if (!grains_) global_.dt = physics_.time_step({all[0], all[1]});
+  if (!grains_) global_.dt = physics_.time_step({all[0], all[1], 0, all[4], all[5]});
   find_stale(grains_ ? 0.0 : physics_.longest_advance(global_) + physics_.longest_shift(global_));
   return static_cast<std::int64_t>(all[3]);
 }
@@ -284,78 +299,6 @@ void Simulation::guard_sweep(const std::array<double, 6>& all) const {
   if (all[5] > 0)
     throw GuardError("step " + std::to_string(global_.step) + ": an overlap is " + std::to_string(all[5]) +
                      " m deeper than contact.largest_overlap allows; raise the stiffness or reduce time.dt");
-}
-
-// ---- set-up ---------------------------------------------------------------------------------------------
-
-Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
-    : comm_(comm),
-      scene_(scene),
-      scale_(position_scale(scene_)),
-      physics_(scene_, scale_),
-      distribution_(comm_, scene_, scale_),
-      particles_(scene_.dim, physics_.fields()),
-      lists_(lanes_of(scene_.precision)) {
-  place_particles(scene_, scale_, distribution_, particles_);
-  if (scene_.of_grains()) {
-    grains_.emplace(scene_, scale_);
-    global_.dt = grains_->time_step();
-    global_.walls = grains_->first_walls();
-    begin();
-    return;
-  }
-  std::array<double, 1> fastest{physics_.largest_speed(particles_)};
-  comm_.max(fastest);
-  global_.max_speed = fastest[0];
-  global_.dt = physics_.time_step({global_.max_speed, 0});
-  global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(physics_.fluid_volume(particles_));
-  begin();
-}
-
-Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint)
-    : comm_(comm),
-      scene_(scene),
-      scale_(checkpoint.record.scale),
-      physics_(scene_, scale_),
-      distribution_(comm_, scene_, scale_),
-      particles_(scene_.dim, physics_.fields()),
-      lists_(lanes_of(scene_.precision)) {
-  if (scene_.of_grains()) grains_.emplace(scene_, scale_);
-  read_checkpoint(comm_, checkpoint, particles_, has_history() ? &arrived_ : nullptr);
-  global_ = checkpoint.record.global;
-  begin();
-}
-
-void Simulation::begin() {
-  for (const Group& g : scene_.groups) is_wall_group_.push_back(g.kind == GroupKind::wall || g.grain.fixed);
-  census_ = decomp::census(comm_, particles_.table(), particles_.column(Field::id));
-  count_ = census_.count;
-  if (count_ == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
-  distribution_.cut_by_counts(particles_);
-  if (grains_ && arrived_.rows() == 0) arrived_.offset.assign(particles_.owned() + 1, 0);
-  distribution_.scatter(particles_, grains_ ? &arrived_ : nullptr);
-  if (!grains_) physics_.derive(particles_, 0, particles_.owned());
-  // Sorts the rows: advance() needs to know which of them move.
-  rebuild();
-  // What bonds there are is known only from the start; and output wants the stress.
-  if (scene_.total_lagrangian()) compute(physics_.passes().front());
-  stale_ = !grains_;  // the first advance may leave the skin
-}
-
-Wrap Simulation::wrap() const {
-  Wrap wrap;
-  for (std::size_t a = 0; a < 3; ++a) {
-    wrap.origin[a] = distribution_.grid().origin()[a];
-    if (scene_.periodic[a]) wrap.period[a] = distribution_.grid().length()[a];
-  }
-  return wrap;
-}
-
-std::string Simulation::fingerprint() const {
-  if (!has_history()) return sph::fingerprint(comm_, particles_, global_, scale_, wrap());
-  const decomp::Payload entries = contacts();
-  return sph::fingerprint(comm_, particles_, global_, scale_, wrap(),
-                          {&entries, grains_->lists().entry_bytes()});
 }
 
 void Simulation::stop_at_bad_particle() const {

@@ -30,9 +30,9 @@ bool Scene::has_kind(GroupKind k) const {
   return false;
 }
 
-bool Scene::has_bubbly() const {
+bool Scene::has_eos(EosKind kind) const {
   for (const Group& g : groups)
-    if (g.eos == EosKind::bubbly) return true;
+    if (g.eos == kind) return true;
   return false;
 }
 

@@ -15,6 +15,9 @@ namespace {
 
 /// Elastic constants: K from the sound speed, mu from Poisson's ratio, as the paper's readers know them.
 void read_stiffness(const TableReader& table, Group& group, const Group* like) {
+  if (group.eos == EosKind::ideal_gas) return read_ideal_gas(table, group);
+  for (const std::string_view key : {"heat_ratio", "start_pressure"})
+    table.only_if(false, key, "only groups with eos = \"ideal_gas\" have it");
   table.not_both("bulk_modulus", "sound_speed");
   table.not_both("poisson_ratio", "shear_modulus");
   const std::optional<double> modulus = table.number("bulk_modulus", dimension::pressure, Bound::positive);
@@ -76,8 +79,9 @@ Group read_material(const TableReader& table, const std::string& name, GroupKind
                                      "restitution", "friction", "rolling_friction", "fixed"})
     table.only_if(false, key, "only groups with kind = \"grain\" have it");
   group.eos = table.choice("eos", eos_words()).value_or(EosKind::linear);
-  if (kind != GroupKind::fluid && group.eos == EosKind::bubbly)
-    table.fail("eos", "is \"bubbly\"", "only groups with kind = \"fluid\" hold gas");
+  if (kind != GroupKind::fluid && group.eos != EosKind::linear)
+    table.fail("eos", fmt::format("is \"{}\"", *table.text("eos")),
+               "only groups with kind = \"fluid\" hold gas");
   if (like == nullptr)
     group.density = table.required_number("density", dimension::density, Bound::positive);
   else

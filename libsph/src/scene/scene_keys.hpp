@@ -33,6 +33,8 @@ inline constexpr auto group_list = std::to_array<Word>({"name",
                                                         "bulk_viscosity",
                                                         "poisson_ratio",
                                                         "shear_modulus",
+                                                        "heat_ratio",
+                                                        "start_pressure",
                                                         "gas_content",
                                                         "gas_rt",
                                                         "solubility_pressure",
@@ -58,8 +60,9 @@ inline constexpr auto layer_list = std::to_array<Word>({"group", "top"});
 inline constexpr auto region_list =
     std::to_array<Word>({"group", "shape", "lower", "upper", "centre", "radius"});
 inline constexpr auto terms_list = std::to_array<Word>(
-    {"density_diffusion", "artificial_viscosity", "shifting", "viscosity", "implicit_viscosity",
-     "viscosity_tolerance", "pressure_weights", "surface_tension", "hourglass", "largest_stretch"});
+    {"density_diffusion", "artificial_viscosity", "quadratic_viscosity", "artificial_conduction", "shifting",
+     "viscosity", "implicit_viscosity", "viscosity_tolerance", "pressure_weights", "surface_tension",
+     "hourglass", "largest_stretch"});
 inline constexpr auto surface_tension_list = std::to_array<Word>({"between", "coefficient"});
 inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
 inline constexpr auto decomposition_list =

@@ -14,9 +14,14 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
   out.text("kind", word(group_kind_words(), g.kind));
   out.text("eos", word(eos_words(), g.eos));
   out.number("density", g.density);
-  out.number("bulk_modulus", g.bulk_modulus);
+  if (g.eos == EosKind::ideal_gas) {
+    out.number("heat_ratio", g.heat_ratio);
+    out.number("start_pressure", g.start_pressure);
+  } else {
+    out.number("bulk_modulus", g.bulk_modulus);
+  }
   out.number("viscosity", g.viscosity);
-  out.number("bulk_viscosity", g.bulk_viscosity);
+  if (g.eos != EosKind::ideal_gas) out.number("bulk_viscosity", g.bulk_viscosity);
   if (g.kind == GroupKind::solid) {
     out.number("shear_modulus", g.shear_modulus);
     out.text("lagrangian", word(lagrangian_words(), g.lagrangian));
@@ -133,6 +138,11 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
     return;
   }
   if (scene.formulation == Formulation::ida) return;
+  if (scene.has_eos(EosKind::ideal_gas)) {
+    out.number("quadratic_viscosity", scene.terms.quadratic_viscosity);
+    out.number("artificial_conduction", scene.terms.conduction);
+    return;
+  }
   out.text("viscosity", word(viscosity_words(), scene.terms.viscosity));
   if (scene.has_kind(GroupKind::solid)) return;
   out.flag("implicit_viscosity", scene.terms.implicit_viscosity);

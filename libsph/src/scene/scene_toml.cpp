@@ -144,19 +144,19 @@ void read_bonds(const TableReader& table, Scene& scene) {
 
 void read_terms(const TableReader& table, Scene& scene) {
   const bool ida = scene.formulation == Formulation::ida, total = scene.total_lagrangian();
+  const bool gas = scene.has_eos(EosKind::ideal_gas);
   Terms& terms = scene.terms;
   if (ida || total) terms.density_diffusion = 0;
+  read_shock_terms(table, scene);
   terms.density_diffusion = table.number("density_diffusion", dimension::none, Bound::not_negative)
                                 .value_or(terms.density_diffusion);
-  terms.artificial_viscosity =
-      table.number("artificial_viscosity", dimension::none, Bound::not_negative).value_or(0);
   terms.shifting = table.flag("shifting").value_or(false);
   const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
     return g.viscosity == scene.groups.front().viscosity;
   });
   terms.viscosity =
       table.choice("viscosity", viscosity_words())
-          .value_or(uniform || ida || total ? ViscosityForm::laplacian : ViscosityForm::symmetric);
+          .value_or(uniform || ida || total || gas ? ViscosityForm::laplacian : ViscosityForm::symmetric);
   terms.pressure_weights =
       table.choice("pressure_weights", pressure_weights_words()).value_or(terms.pressure_weights);
   if (table.has("surface_tension"))
@@ -303,6 +303,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   scene.output = read_output(tables.top, tables.output, scene);
   check_periods(tables, scene);
   check_total_lagrangian(tables, scene);
+  check_ideal_gas(tables.top, tables.start, tables.terms, scene);
   scene.open = scene.terms.shifting && has_free_surface(scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);

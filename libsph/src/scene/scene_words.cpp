@@ -36,7 +36,8 @@ const Choices<GroupKind>& group_kind_words() {
   return words;
 }
 const Choices<EosKind>& eos_words() {
-  static const Choices<EosKind> words{{"linear", EosKind::linear}, {"bubbly", EosKind::bubbly}};
+  static const Choices<EosKind> words{
+      {"linear", EosKind::linear}, {"bubbly", EosKind::bubbly}, {"ideal_gas", EosKind::ideal_gas}};
   return words;
 }
 const Choices<Lagrangian>& lagrangian_words() {

@@ -95,8 +95,12 @@ void set_initial_fields(const Scene& scene, NewParticle& p) {
     const double pressure = initial_pressure(scene, x) + scene.surface_pressure;
     if (g.eos == EosKind::bubbly)
       p.density = bubbly_eos(g, g.gas_content).density(pressure);
+    else if (g.eos == EosKind::ideal_gas)
+      p.density = g.density;
     else
       p.density = g.density * (1 + pressure / g.bulk_modulus);
+    if (g.eos == EosKind::ideal_gas)
+      p.energy = IdealGas{g.heat_ratio}.energy(g.start_pressure + initial_pressure(scene, x), g.density);
     if (g.kind == GroupKind::wall) {
       p.velocity = g.wall_velocity;
     } else if (scene.start.velocity == InitialVelocity::uniform) {
@@ -123,6 +127,10 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   particles.data<Field::mass>()[i] = p.mass;
   particles.data<Field::group>()[i] = p.group;
   if (auto* m = particles.data<Field::gas_content>()) m[i] = scene.groups[p.group].gas_content;
+  if (auto* u = particles.data<Field::specific_energy>()) {
+    u[i] = p.energy;
+    if (p.energy > 0) particles.data<Field::density>()[i] = 0;  // not summed yet
+  }
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
   if (auto* radius = particles.data<Field::radius>()) radius[i] = p.radius;

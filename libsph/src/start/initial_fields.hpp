@@ -15,6 +15,7 @@ struct NewParticle {
   std::uint32_t group;
   double density;  ///< 0 of grains
   double mass;
+  double energy = 0;  ///< u of an ideal gas [J/kg]
   double radius = 0;  ///< of grains [m]
   Double3 spin{};     ///< of grains [rad/s]
 };

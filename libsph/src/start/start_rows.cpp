@@ -57,6 +57,7 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
   check_finite(rows, k, "v", rows.v, d);
   check_finite(rows, k, "rho", rows.rho, 1);
   check_finite(rows, k, "m", rows.gas, 1);
+  check_finite(rows, k, "u", rows.energy, 1);
   check_finite(rows, k, "mass", rows.mass, 1);
   check_finite(rows, k, "stress", rows.stress, d * (d + 1) / 2);
   check_finite(rows, k, "radius", rows.radius, 1);
@@ -70,6 +71,8 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
     fail_row(rows, k, fmt::format("mass is {}; it must be positive", rows.mass[k]));
   if (!rows.gas.empty() && !(rows.gas[k] >= 0 && rows.gas[k] < 1))
     fail_row(rows, k, fmt::format("m is {}; it must be at least 0 and below 1", rows.gas[k]));
+  if (!rows.energy.empty() && scene.groups[rows.group[k]].eos == EosKind::ideal_gas && !(rows.energy[k] > 0))
+    fail_row(rows, k, fmt::format("u is {}; it must be positive", rows.energy[k]));
   check_radius(rows, k, scene.groups[rows.group[k]]);
   // Far outside, the coordinate in quanta would overflow.
   constexpr double periods = 2;
@@ -111,9 +114,11 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
   if (!rows.rho.empty()) {
     double volume = 1;
     for (std::size_t a = 0; a < d; ++a) volume *= scene.spacing;
+    p.energy *= p.density / rows.rho[k];  // at the same pressure
     p.density = rows.rho[k];
     p.mass = p.density * volume;  // as on a lattice, to the bit
   }
+  if (!rows.energy.empty() && p.energy > 0) p.energy = rows.energy[k];
   if (!rows.mass.empty()) p.mass = rows.mass[k];
   append(scene, p, quanta, particles);
   const std::size_t i = particles.owned() - 1;

@@ -1,9 +1,11 @@
 // Rows of a particle file, HDF5 or CSV; the order of the rows changes nothing.
-//   CSV   header "id,x,y(,z),vx,vy(,vz),group,rho,m"; group is a name or an index; '#' begins a comment line
-//   HDF5  data sets id, x (rows x dim), v, group, rho, m; or a snapshot, whose position_quanta keep every bit
+//   CSV   header "id,x,y(,z),vx,vy(,vz),group,rho,m,u"; group is a name or an index; '#' begins a comment
+//   line HDF5  data sets id, x (rows x dim), v, group, rho, m, u; or a snapshot, whose position_quanta keep
+//   every bit
 // rho may be missing (then from the initial pressure) and so may m (the gas content; then the group's).
-// Further columns: mass (else rho spacing^dim) and, in HDF5, stress. Grains have radius instead of these, and
-// may have a spin (CSV: wx, wy, wz); their mass follows from radius and density of the group.
+// Without u [J/kg] an ideal gas has its start_pressure. Further columns: mass (else rho spacing^dim) and, in
+// HDF5, stress. Grains have radius instead of these, and may have a spin (CSV: wx, wy, wz); their mass
+// follows from radius and density of the group.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +30,7 @@ struct StartRows {
   std::vector<std::int64_t> quanta;  ///< positions instead of x, in units of `quantum` [m]
   double quantum = 0;
   std::vector<std::uint32_t> group;
-  std::vector<double> rho, gas, mass, stress;
+  std::vector<double> rho, gas, energy, mass, stress;
   std::vector<double> radius, spin;  ///< of grains [m], [rad/s]
 };
 

@@ -48,7 +48,7 @@ bool is_comment(std::string_view line) {
 /// Where the columns are; -1: absent.
 struct Columns {
   std::size_t count = 0;
-  int id = -1, group = -1, rho = -1, gas = -1, mass = -1, radius = -1;
+  int id = -1, group = -1, rho = -1, gas = -1, energy = -1, mass = -1, radius = -1;
   std::array<int, 3> x{-1, -1, -1}, v{-1, -1, -1}, spin{-1, -1, -1};
 };
 
@@ -71,7 +71,9 @@ std::vector<KnownColumn> known_columns(const Scene& scene, Columns& c) {
     known.push_back({"radius", &c.radius, true});
     vector("w", c.spin, false);
   } else {
-    known.insert(known.end(), {{"rho", &c.rho, false}, {"m", &c.gas, false}, {"mass", &c.mass, false}});
+    known.insert(
+        known.end(),
+        {{"rho", &c.rho, false}, {"m", &c.gas, false}, {"u", &c.energy, false}, {"mass", &c.mass, false}});
   }
   return known;
 }
@@ -146,6 +148,7 @@ void read_row(const Scene& scene, const Columns& c, std::string_view text, std::
   rows.group.push_back(group_of(scene, cell(c.group), line));
   if (c.rho >= 0) rows.rho.push_back(real(c.rho, "rho"));
   if (c.gas >= 0) rows.gas.push_back(real(c.gas, "m"));
+  if (c.energy >= 0) rows.energy.push_back(real(c.energy, "u"));
   if (c.radius >= 0) rows.radius.push_back(real(c.radius, "radius"));
   if (c.mass >= 0) rows.mass.push_back(real(c.mass, "mass"));
 }

@@ -72,6 +72,8 @@ StartRows read_hdf5_rows(const Scene& scene, const std::string& file, int rank, 
   }
   out.rho = source.read<double>({"rho", "density", "particles/density"}, Element::f64, 1, false);
   out.gas = source.read<double>({"m", "gas_content", "particles/gas_content"}, Element::f64, 1, false);
+  out.energy =
+      source.read<double>({"u", "specific_energy", "particles/specific_energy"}, Element::f64, 1, false);
   out.mass = source.read<double>({"mass", "particles/mass"}, Element::f64, 1, false);
   out.stress = source.read<double>({"stress", "particles/stress"}, Element::f64, dim * (dim + 1) / 2, false);
   return out;

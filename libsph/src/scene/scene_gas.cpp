@@ -1,0 +1,71 @@
+// Ideal gases: their keys, and what has no meaning beside them.
+#include <fmt/format.h>
+
+#include <cstddef>
+
+#include "scene/scene_resolve.hpp"
+
+namespace sph {
+
+// K = gamma p_0, and with it the speed of sound at the start.
+void read_ideal_gas(const TableReader& table, Group& group) {
+  for (const std::string_view key : {"bulk_modulus", "sound_speed"})
+    table.only_if(false, key, "an ideal gas has heat_ratio and start_pressure");
+  table.only_if(false, "bulk_viscosity", "an ideal gas has viscosity alone");
+  group.heat_ratio = table.required_number("heat_ratio", dimension::none, Bound::positive);
+  if (group.heat_ratio <= 1)
+    table.fail("heat_ratio", fmt::format("is {}", group.heat_ratio),
+               "it is that of the heat capacities, above 1: 1.4 for air");
+  group.start_pressure = table.required_number("start_pressure", dimension::pressure, Bound::positive);
+  group.bulk_modulus = group.heat_ratio * group.start_pressure;
+}
+
+// A gas is rarely without shocks.
+void read_shock_terms(const TableReader& table, Scene& scene) {
+  const bool gas = scene.has_eos(EosKind::ideal_gas);
+  const auto number = [&](std::string_view key, double of_gas) {
+    return table.number(key, dimension::none, Bound::not_negative).value_or(gas ? of_gas : 0.0);
+  };
+  for (const std::string_view key : {"quadratic_viscosity", "artificial_conduction"})
+    table.only_if(gas, key, "only scenes with eos = \"ideal_gas\" have it");
+  Terms& terms = scene.terms;
+  terms.artificial_viscosity = number("artificial_viscosity", 1);
+  terms.quadratic_viscosity = number("quadratic_viscosity", 2);
+  terms.conduction = number("artificial_conduction", 0.3);
+  if (gas) terms.density_diffusion = 0;
+}
+
+// Their density is a sum over neighbours, that of other matter an integral over time.
+void check_ideal_gas(const TableReader& top, const TableReader& start, const TableReader& terms,
+                     const Scene& scene) {
+  if (!scene.has_eos(EosKind::ideal_gas)) return;
+  const std::vector<TableReader> groups = top.tables("group", scene_keys::group);
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (const Group& g = scene.groups[k]; g.kind != GroupKind::wall && g.eos != EosKind::ideal_gas)
+      groups[k].fail(g.kind == GroupKind::solid ? "kind" : "eos",
+                     fmt::format("is \"{}\" beside an ideal gas", g.kind == GroupKind::solid ? "solid"
+                                                                  : g.eos == EosKind::bubbly ? "bubbly"
+                                                                                             : "linear"),
+                     "a scene with ideal gases has no other matter but walls");
+  if (scene.formulation == Formulation::ida)
+    top.fail("formulation", "is \"ida\"", "it has no energy equation, which an ideal gas needs");
+  if (scene.start.pressure == InitialPressure::hydrostatic)
+    start.fail("pressure", "is \"hydrostatic\"",
+               "an ideal gas starts from start_pressure, or from the column u of start.file");
+  const auto refuse = [&](bool given, std::string_view key, std::string_view what, std::string_view right) {
+    if (given) terms.fail(key, what, right);
+  };
+  refuse(scene.terms.density_diffusion != 0, "density_diffusion", "is given",
+         "the density of an ideal gas is a sum over its neighbours: remove it");
+  refuse(scene.terms.shifting, "shifting", "is on",
+         "particles of an ideal gas are where their mass is: remove it");
+  refuse(terms.has("viscosity") && scene.terms.viscosity != ViscosityForm::laplacian, "viscosity",
+         "is \"symmetric\"", "beside an ideal gas it is \"laplacian\"");
+  refuse(scene.terms.implicit_viscosity, "implicit_viscosity", "is on",
+         "the heat of an ideal gas is that of explicit viscosity: remove it");
+  refuse(scene.terms.pressure_weights != PressureWeights::volume, "pressure_weights", "is \"density\"",
+         "an ideal gas has pressures of its own: remove it");
+  refuse(terms.has("surface_tension"), "surface_tension", "is given", "gases have none: remove it");
+}
+
+}  // namespace sph
