@@ -54,7 +54,8 @@ class Simulation {
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
 
   struct Counters {
-    std::int64_t rebuilds = 0, refreshes = 0, iterations = 0;  ///< of solvers
+    std::int64_t rebuilds = 0, refreshes = 0;
+    std::int64_t iterations = 0, solved = 0;  ///< of solvers, and how often they were asked
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
 

@@ -17,9 +17,13 @@ class WallDistance {
   /// Distance over h; 0 for the share at the face and more, half a spacing less than the kernel's radius
   /// for a share of 0.
   [[nodiscard]] double operator()(double share) const;
+  /// h times the share's gradient there.
+  [[nodiscard]] double gradient(double share) const;
 
  private:
   double at_face_ = 0;            ///< share, about 1/2
+  [[nodiscard]] double look_up(const std::vector<double>& table, double share) const;
+  std::vector<double> gradient_;  ///< as distance_
   std::vector<double> distance_;  ///< at shares 0 to at_face_, their square roots evenly
 };
 

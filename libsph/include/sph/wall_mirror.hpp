@@ -19,12 +19,13 @@ namespace sph {
 class WallMirror {
  public:
   explicit WallMirror(const Scene& scene);
-  /// k where D / h is `distance`; 0 on the face and where fluid is all around.
-  [[nodiscard]] double operator()(double distance) const;
+  /// k where D / h is `distance`, 0 on the face and where fluid is all around; 1 where the sum of the kernel,
+  /// `weight`, is too small for a flat wall: beside the edge of the fluid and in corners.
+  [[nodiscard]] double operator()(double distance, double weight) const;
 
  private:
   double first_ = 0, step_ = 0;  ///< D / h of the table's points
-  std::vector<double> factor_;   ///< k at them
+  std::vector<double> factor_, least_weight_;  ///< k at them, and what it takes
 };
 
 }  // namespace sph

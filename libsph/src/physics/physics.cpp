@@ -331,20 +331,23 @@ PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
 double Physics::time_step(const StepMaxima& maxima) const {
   if (scene_->time.dt) return *scene_->time.dt;
   const double h = scene_->smoothing_length;
-  double fastest = maxima.sound, viscous = maxima.viscosity;
+  double fastest = maxima.sound, viscous = maxima.viscosity, bulk = 0;
   for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
     // Of a gas that of now counts.
     if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, groups_.sound_speed[g]);
     if (scene_->total_lagrangian() && is_wall(static_cast<std::uint32_t>(g))) continue;
     viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
+    bulk = std::max(bulk, scene_->groups[g].bulk_viscosity / scene_->groups[g].density);
   }
   const bool bonds = scene_->total_lagrangian();
   if (bonds || scene_->terms.viscosity == ViscosityForm::symmetric)
     viscous *= 3;  // nu (lap v + 2 grad div v)
+  if (scene_->terms.implicit_viscosity) viscous = 0;
+  viscous += bulk;
   double dt = scene_->time.cfl * h / (fastest + maxima.speed);
   // Dashpots beside springs: the rates add.
   if (bonds && viscous > 0) dt = 1 / (1 / dt + viscous / (0.125 * h * h));
-  if (viscous > 0 && !scene_->terms.implicit_viscosity) dt = std::min(dt, 0.125 * h * h / viscous);
+  if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
   // Capillary waves as long as the layer is thick (Brackbill et al. 1992, eq. 61).
   if (const InterfaceTension& t = scene_->terms.surface_tension; t.coefficient > 0) {
     double density = 0;

@@ -131,7 +131,7 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges, const GlobalSt
       if (mirror != nullptr && global.step == 0) {
         double square = 0;
         for (std::size_t a = 0; a < d; ++a) square += s[2 + d + a] * s[2 + d + a];
-        mirror[i] = wet ? (*mirror_)(std::sqrt(square) / s[0]) : 1.0;
+        mirror[i] = wet ? (*mirror_)(std::sqrt(square) / s[0], s[0]) : 1.0;
       }
       // Between a fluid and a wall that slips the viscous force is then that of its own mean: no shear. The
       // velocity across the wall is taken along, though its mirror image would be the exact one: it is small,
@@ -146,9 +146,10 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges, const GlobalSt
 }
 
 // A flow that is 0 at the wall and 1 at the particle, straight between: its gradient is the normal over the
-// distance, in units of 1/h. Particles nearer than a quarter of their spacing count as being there.
+// distance, in units of 1/h. Particles nearer than a quarter of their spacing count as being there. Where walls
+// on both sides leave less than half of the gradient that belongs to their share there is no normal: 0.
 void Physics::find_walls(Particles& p, const RowRanges& ranges) const {
-  constexpr double nearest = 0.25;
+  constexpr double nearest = 0.25, flat = 0.5;
   const auto d = static_cast<std::size_t>(p.dim());
   const double h = scene_->smoothing_length;
   const double* share = p.data<Field::wall_share>();
@@ -157,8 +158,10 @@ void Physics::find_walls(Particles& p, const RowRanges& ranges) const {
     const double* s = share + i * (d + 1);
     double square = 0;
     for (std::size_t a = 0; a < d; ++a) square += s[a] * s[a];
-    const double away = std::fmax(h * (*wall_distance_)(h * s[d]), nearest * scene_->spacing);
-    const double factor = square > 0 ? -h / (away * std::sqrt(square)) : 0.0;
+    const double length = std::sqrt(square), away = (*wall_distance_)(h * s[d]);
+    const bool normal = length > 0 && h * length >= flat * wall_distance_->gradient(h * s[d]);
+    const double factor =
+        normal ? -1 / (std::fmax(away, nearest * scene_->spacing / h) * length) : 0.0;
     for (std::size_t a = 0; a < d; ++a) slope[i * d + a] = factor * s[a];
   });
 }

@@ -60,12 +60,13 @@ bool ViscositySolver::improve(Particles& p, const RowRanges& ranges, const Globa
     finish(p, ranges, global.dt);
     return false;
   }
-  if (iteration_ > most_iterations)
-    throw GuardError("step " + std::to_string(global.step) +
-                     ": the implicit viscous step did not converge in " + std::to_string(most_iterations) +
-                     " iterations; reduce time.dt or raise terms.viscosity_tolerance");
   const double old = first ? 0 : product / product_;
-  length_ = product / (first ? curvature : curvature - old * product / length_);
+  const double along = first ? curvature : curvature - old * product / length_;
+  if (iteration_ > most_iterations || !(along > 0))
+    throw GuardError("step " + std::to_string(global.step) +
+                     ": the implicit viscous step did not converge; reduce time.dt, raise "
+                     "terms.viscosity_tolerance or set precision = \"double\"");
+  length_ = product / along;
   product_ = product;
   double* direction = p.data<Field::direction>();
   for_movers(ranges, [&](std::size_t i) {

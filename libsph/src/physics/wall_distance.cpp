@@ -13,7 +13,7 @@ constexpr std::size_t steps = 256;  ///< to a spacing
 
 }  // namespace
 
-WallDistance::WallDistance(KernelShape kernel, int dim, double spacing) : distance_(points) {
+WallDistance::WallDistance(KernelShape kernel, int dim, double spacing) : gradient_(points), distance_(points) {
   const double step = spacing / steps;
   const std::vector<double> w = plane_sums(kernel, dim, step);
   const auto share_at = [&](std::size_t k) {
@@ -31,15 +31,21 @@ WallDistance::WallDistance(KernelShape kernel, int dim, double spacing) : distan
       here = next;
       next = share_at(++k + 1);
     }
+    gradient_[n] = (here - next) / step;
     distance_[n] = step * (static_cast<double>(k) + (here > next ? (here - wanted) / (here - next) : 0.0));
   }
 }
 
-double WallDistance::operator()(double share) const {
-  const double at = (points - 1) * std::sqrt(std::clamp(share / at_face_, 0.0, 1.0));
+double WallDistance::look_up(const std::vector<double>& table, double share) const {
+  if (!(share > 0)) return table.front();
+  const double at = (points - 1) * std::sqrt(std::min(share / at_face_, 1.0));
   const auto k = std::min(static_cast<std::size_t>(at), points - 2);
   const double part = at - static_cast<double>(k);
-  return distance_[k] + part * (distance_[k + 1] - distance_[k]);
+  return table[k] + part * (table[k + 1] - table[k]);
 }
+
+double WallDistance::operator()(double share) const { return look_up(distance_, share); }
+
+double WallDistance::gradient(double share) const { return look_up(gradient_, share); }
 
 }  // namespace sph

@@ -9,10 +9,12 @@ namespace sph {
 namespace {
 
 constexpr std::size_t points = 257;
+constexpr double flat = 0.7;  ///< of the weight that a flat wall sees at its distance
 
 /// Of the lattice before the face, seen from a depth; lengths in h.
 struct View {
   double depth, mean;  ///< d, m
+  double weight;       ///< sum of the kernel without its factor
   [[nodiscard]] double distance() const { return depth + mean; }
 };
 
@@ -30,7 +32,7 @@ View view(int dim, double spacing, double depth) {
         first_moment += w * y;
       }
   }
-  return {depth, weight > 0 ? first_moment / weight : 0.5 * spacing};
+  return {depth, weight > 0 ? first_moment / weight : 0.5 * spacing, weight};
 }
 
 template <class Kernel>
@@ -60,14 +62,17 @@ WallMirror::WallMirror(const Scene& scene) {
         std::clamp((wanted - at[k].distance()) / (at[k + 1].distance() - at[k].distance()), 0.0, 1.0);
     const double depth = at[k].depth + part * (at[k + 1].depth - at[k].depth);
     factor_.push_back(depth / (at[k].mean + part * (at[k + 1].mean - at[k].mean)));
+    least_weight_.push_back(flat * (at[k].weight + part * (at[k + 1].weight - at[k].weight)));
   }
 }
 
-double WallMirror::operator()(double distance) const {
-  const double at = std::clamp((distance - first_) / step_, 0.0, static_cast<double>(points - 1));
+double WallMirror::operator()(double distance, double weight) const {
+  if (!(distance > first_)) return factor_.front();
+  const double at = std::min((distance - first_) / step_, static_cast<double>(points - 1));
   const auto k = std::min(static_cast<std::size_t>(at), points - 2);
   const double part = at - static_cast<double>(k);
-  return factor_[k] + part * (factor_[k + 1] - factor_[k]);
+  const auto value = [&](const std::vector<double>& table) { return table[k] + part * (table[k + 1] - table[k]); };
+  return weight < value(least_weight_) ? 1.0 : value(factor_);
 }
 
 }  // namespace sph

@@ -87,6 +87,9 @@ Performance performance_of(Simulation& s) {
   const int dim = s.scene().dim;
   std::size_t sent = 0;
   for (FieldSet fields : refreshes_of(s.physics())) sent += bytes_of(fields, dim);
+  // A solver sends its direction once for each iteration, and twice more.
+  if (const Simulation::Counters& c = s.counters(); c.solved > 0)
+    sent += (c.iterations / c.solved + 1) * width(Field::direction, dim);
   if (s.grains() != nullptr) sent = bytes_of(s.grains()->reads(), dim);
 
   const auto listed =

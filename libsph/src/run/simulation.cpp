@@ -90,7 +90,8 @@ bool Simulation::improve(const Pass& pass) {
   const auto timing = timers_.time(decomp::Region::update);
   const bool again = pass.solver->improve(particles_, distribution_.ranges(), global_);
   changed(pass.changes);
-  ++counters_.iterations;
+  if (again && !products.empty()) ++counters_.iterations;
+  if (!again) ++counters_.solved;
   return again;
 }
 

@@ -4,7 +4,8 @@
 // gradients need it: mirrored velocities of wall particles would not be. A wall particle is given the
 // velocity on the straight profile through this particle and the wall's face (Morris et al. 1997, eq. 24),
 //   u_i - u_w = (u_i - u_wall) n_i.(x_i - x_w) / d_i,
-// with distance d_i and normal n_i of the face, a drag on particle i only, exact where the flow is linear.
+// with distance d_i and normal n_i of the face, a drag on particle i only, exact where the flow is linear
+// beside one flat wall. Between walls so near that no normal is found, u_i - u_w = u_i - u_wall.
 #pragma once
 
 #include "sph/pair_rows.hpp"
@@ -17,10 +18,15 @@ template <class P>
 typename P::V viscous_drag(const P& p) {
   using V = typename P::V;
   const V grip = p.template j<Value::grip>(), own = p.template i<Value::viscosity>();
-  V profile = V::zero();
-  for (int k = 0; k < P::dim; ++k) profile -= p.template i<Value::wall_slope>(k) * p.e[k];
+  V profile = V::zero(), steepness = V::zero();
+  for (int k = 0; k < P::dim; ++k) {
+    const V slope = p.template i<Value::wall_slope>(k);
+    profile -= slope * p.e[k];
+    steepness += slope * slope;
+  }
+  profile = max(profile, V::zero()) + where_equal(steepness, V::zero(), V(1));
   const V eta = where_equal(grip, V::zero(), mean_viscosity(p)) +
-                where_equal(grip, V(1), (own + own) * max(profile, V::zero()));
+                where_equal(grip, V(1), (own + own) * profile);
   return -(p.template i<Value::volume>() * p.template j<Value::volume>() * eta * p.f);
 }
 
