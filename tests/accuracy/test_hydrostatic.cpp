@@ -55,9 +55,10 @@ TEST(HydrostaticTank, StaysAtRest) {
 }
 
 // From p = 0 the column falls onto itself: the pressure swings between 0 and twice hydrostatic. Asserted is
-// that the swing decays and the tank stays bounded. Printed beside it, not yet good: the decay against delta
-// h c k^2/2 (which holds exactly for a wave without boundaries, test_periodic.cpp), and the mean pressure at
-// the end, low because particles clump while p touches 0 and their density does not know.
+// that the swing decays, that the tank stays bounded and that the pressure it swings about is hydrostatic:
+// the mean over whole periods, for at any one time what is left of the swing is 20 % of it. Printed beside
+// it, not yet good: the decay against delta h c k^2/2 (which holds exactly for a wave without boundaries,
+// test_periodic.cpp). It is faster while the pressure touches 0 and the lattice breaks up, and slower later.
 TEST(HydrostaticTank, FromZeroPressureTheSwingDecays) {
   const decomp::Comm comm(MPI_COMM_SELF);
   const sph::Scene scene = tank({"start.pressure=zero"});
@@ -79,10 +80,16 @@ TEST(HydrostaticTank, FromZeroPressureTheSwingDecays) {
   std::printf("tank from p = 0: decay rate %.3f 1/s, delta h c k^2/2 = %.3f 1/s\n",
               0.5 * std::log(first / second) / (t1 - t0),
               0.5 * scene.terms.density_diffusion * scene.smoothing_length * c * k * k);
-  measure::run_until(s, *scene.time.until);
+  const int periods = 64;
+  measure::run_until(s, *scene.time.until - periods * period);
+  double mean_error = 0;
+  int n = 0;
+  measure::run_until(s, *scene.time.until, [&] { mean_error += measure_tank(s).mean_error, ++n; });
+  mean_error /= n;
   const Tank end = measure_tank(s);
-  std::printf("tank from p = 0 at the end: mean p off by %.3f %%, KE/MgH %.2e\n", 100 * end.mean_error,
-              end.kinetic);
+  std::printf("tank from p = 0, last %d periods: mean p off by %.3f %% (at the end %.1f %%), KE/MgH %.2e\n",
+              periods, 100 * mean_error, 100 * end.mean_error, end.kinetic);
+  EXPECT_LE(std::abs(mean_error), 0.005);
   EXPECT_LT(second, first);
   EXPECT_LT(end.kinetic, 1.7e-3) << "more than the start released";
   EXPECT_LT(end.surface, 1.02);
