@@ -74,7 +74,6 @@ enum class Value : std::uint8_t {
   bond_stress,       ///< [Pa]
   modulus,           ///< K + 4/3 mu of the group [Pa]
   direction,         ///< what the viscous operator is applied to [m/s]
-  grip,              ///< 0 for movers, 1 for walls that hold what flows past, 2 for those that let it slip
   wall_slope,        ///< gradient of a flow that is 0 at the wall and 1 here, times h
   specific_energy,   ///< of ideal gases, 0 of all else [J/kg]
   count_
@@ -128,7 +127,6 @@ class ValueSet {
   if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
   if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
   if (values.has(Value::direction)) f |= FieldSet{Field::direction};
-  if (values.has(Value::grip)) f |= FieldSet{Field::group};
   if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
   return f;
 }
@@ -158,7 +156,6 @@ struct GroupTable {
   std::vector<double> density;      ///< rho_0 [kg/m^3]
   std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
   std::vector<double> modulus;      ///< K + 4/3 mu [Pa]
-  std::vector<double> grip;         ///< 0, 1 or 2
 };
 
 /// Scales of the rows; see the head of this file.
@@ -258,7 +255,6 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     if constexpr (S.has(Value::modulus)) put(Value::modulus, 0, groups.modulus[group[i]]);
     if constexpr (S.has(Value::direction))
       for (int k = 0; k < D; ++k) put(Value::direction, k, direction[i * D + k]);
-    if constexpr (S.has(Value::grip)) put(Value::grip, 0, groups.grip[group[i]]);
     if constexpr (S.has(Value::wall_slope))  // of partners it is not read
       for (int k = 0; k < D; ++k)
         put(Value::wall_slope, k, wall_slope != nullptr && i < p.owned() ? wall_slope[i * D + k] : 0.0);

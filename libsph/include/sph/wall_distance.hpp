@@ -21,7 +21,7 @@ class WallDistance {
   [[nodiscard]] double gradient(double share) const;
 
  private:
-  double at_face_ = 0;            ///< share, about 1/2
+  double at_face_ = 0;  ///< share, about 1/2
   [[nodiscard]] double look_up(const std::vector<double>& table, double share) const;
   std::vector<double> gradient_;  ///< as distance_
   std::vector<double> distance_;  ///< at shares 0 to at_face_, their square roots evenly

@@ -24,7 +24,7 @@ class WallMirror {
   [[nodiscard]] double operator()(double distance, double weight) const;
 
  private:
-  double first_ = 0, step_ = 0;  ///< D / h of the table's points
+  double first_ = 0, step_ = 0;                ///< D / h of the table's points
   std::vector<double> factor_, least_weight_;  ///< k at them, and what it takes
 };
 

@@ -146,10 +146,11 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges, const GlobalSt
 }
 
 // A flow that is 0 at the wall and 1 at the particle, straight between: its gradient is the normal over the
-// distance, in units of 1/h. Particles nearer than a quarter of their spacing count as being there. Where walls
-// on both sides leave less than half of the gradient that belongs to their share there is no normal: 0.
+// distance, in units of 1/h. Particles nearer than a quarter of their spacing count as being there. Where
+// walls on both sides leave less than half of the gradient that belongs to their share there is no normal: 0.
+// Of what they hardly reach any will do.
 void Physics::find_walls(Particles& p, const RowRanges& ranges) const {
-  constexpr double nearest = 0.25, flat = 0.5;
+  constexpr double nearest = 0.25, flat = 0.5, little = 0.01;
   const auto d = static_cast<std::size_t>(p.dim());
   const double h = scene_->smoothing_length;
   const double* share = p.data<Field::wall_share>();
@@ -159,9 +160,9 @@ void Physics::find_walls(Particles& p, const RowRanges& ranges) const {
     double square = 0;
     for (std::size_t a = 0; a < d; ++a) square += s[a] * s[a];
     const double length = std::sqrt(square), away = (*wall_distance_)(h * s[d]);
-    const bool normal = length > 0 && h * length >= flat * wall_distance_->gradient(h * s[d]);
-    const double factor =
-        normal ? -1 / (std::fmax(away, nearest * scene_->spacing / h) * length) : 0.0;
+    const bool normal =
+        length > 0 && (h * s[d] < little || h * length >= flat * wall_distance_->gradient(h * s[d]));
+    const double factor = normal ? -1 / (std::fmax(away, nearest * scene_->spacing / h) * length) : 0.0;
     for (std::size_t a = 0; a < d; ++a) slope[i * d + a] = factor * s[a];
   });
 }

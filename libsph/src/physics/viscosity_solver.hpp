@@ -5,8 +5,8 @@
 // gradients, preconditioned by the diagonal, with the two dot products of an iteration in one reduction
 // (Chronopoulos & Gear 1989). Dot products are exact sums of one term a particle, so the iterations are
 // the same on any number of ranks. They start from c = 0 and stop when the residual, a spurious impulse, is
-// less than `tolerance` of the larger one of the impulses of viscous and of all other forces: so far momentum is
-// conserved.
+// less than `tolerance` of the larger one of the impulses of viscous and of all other forces: so far momentum
+// is conserved.
 #pragma once
 
 #include <array>

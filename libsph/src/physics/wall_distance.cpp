@@ -13,7 +13,8 @@ constexpr std::size_t steps = 256;  ///< to a spacing
 
 }  // namespace
 
-WallDistance::WallDistance(KernelShape kernel, int dim, double spacing) : gradient_(points), distance_(points) {
+WallDistance::WallDistance(KernelShape kernel, int dim, double spacing)
+    : gradient_(points), distance_(points) {
   const double step = spacing / steps;
   const std::vector<double> w = plane_sums(kernel, dim, step);
   const auto share_at = [&](std::size_t k) {

@@ -71,7 +71,9 @@ double WallMirror::operator()(double distance, double weight) const {
   const double at = std::min((distance - first_) / step_, static_cast<double>(points - 1));
   const auto k = std::min(static_cast<std::size_t>(at), points - 2);
   const double part = at - static_cast<double>(k);
-  const auto value = [&](const std::vector<double>& table) { return table[k] + part * (table[k + 1] - table[k]); };
+  const auto value = [&](const std::vector<double>& table) {
+    return table[k] + part * (table[k + 1] - table[k]);
+  };
   return weight < value(least_weight_) ? 1.0 : value(factor_);
 }
 

@@ -169,7 +169,7 @@ void read_terms(const TableReader& table, Scene& scene) {
   const double least = scene.precision == Precision::mixed ? 1e-6 : 1e-12;
   if (terms.viscosity_tolerance > 0.1 || terms.viscosity_tolerance < least)
     table.fail("viscosity_tolerance", fmt::format("is {}", terms.viscosity_tolerance),
-               fmt::format("it is a share of the forces, {} (precision) to 0.1", least));
+               fmt::format("it is a share of the forces, {} to 0.1", least));
   if (ida && terms.density_diffusion != 0)
     table.fail("density_diffusion", fmt::format("is {}", terms.density_diffusion),
                "formulation = \"ida\" has none: remove it");
@@ -203,10 +203,16 @@ void read_time(const TableReader& table, Scene& scene) {
   table.finish();
 }
 
-/// Beyond it the rounding of the operator shows in the momentum: 1e-4 of it at 1e6, 1e-3 at 1e7.
+/// Rounding of the operator in single precision shows in the momentum: 1e-4 of it at 1e6, 1e-3 at 1e7. Fluid
+/// beside a wall that slips would lack the viscosity of what is mirrored there.
 void check_implicit_viscosity(const TableReader& terms, const Scene& scene) {
   constexpr double most = 1e5;
-  if (!scene.terms.implicit_viscosity || scene.precision != Precision::mixed) return;
+  if (!scene.terms.implicit_viscosity) return;
+  for (const Group& g : scene.groups)
+    if (g.slip)
+      terms.fail("implicit_viscosity", fmt::format("is on, and the wall \"{}\" slips", g.name),
+                 "it knows walls that do not slip alone");
+  if (scene.precision != Precision::mixed) return;
   double diffusivity = 0, sound = 0;
   for (const Group& g : scene.groups) {
     diffusivity = std::max(diffusivity, g.viscosity / g.density);

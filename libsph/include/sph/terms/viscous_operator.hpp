@@ -13,11 +13,11 @@
 
 namespace sph {
 
-/// 2 V_i V_j eta_ij |f| of movers; of walls that hold with the fluid's own viscosity, times the profile.
+/// 2 V_i V_j eta_ij |f| of movers; of walls with the fluid's own viscosity, times the profile.
 template <class P>
 typename P::V viscous_drag(const P& p) {
   using V = typename P::V;
-  const V grip = p.template j<Value::grip>(), own = p.template i<Value::viscosity>();
+  const V mover = p.template j<Value::mover>(), own = p.template i<Value::viscosity>();
   V profile = V::zero(), steepness = V::zero();
   for (int k = 0; k < P::dim; ++k) {
     const V slope = p.template i<Value::wall_slope>(k);
@@ -25,13 +25,13 @@ typename P::V viscous_drag(const P& p) {
     steepness += slope * slope;
   }
   profile = max(profile, V::zero()) + where_equal(steepness, V::zero(), V(1));
-  const V eta = where_equal(grip, V::zero(), mean_viscosity(p)) +
-                where_equal(grip, V(1), (own + own) * profile);
+  const V eta =
+      where_equal(mover, V(1), mean_viscosity(p)) + where_equal(mover, V::zero(), (own + own) * profile);
   return -(p.template i<Value::volume>() * p.template j<Value::volume>() * eta * p.f);
 }
 
 inline constexpr ValueSet viscous_operator_reads{Value::volume, Value::viscosity, Value::direction,
-                                                 Value::grip, Value::wall_slope};
+                                                 Value::mover, Value::wall_slope};
 
 struct ViscousOperator {
   static constexpr Term term = Term::viscous_operator;

@@ -46,16 +46,16 @@ struct WallExtrapolationByDensity {
   }
 };
 
-/// How much of a moving particle's kernel the walls that hold it fill, and the gradient of that: distance and
+/// How much of a moving particle's kernel the walls fill, and the gradient of that: distance and
 /// direction of a flat wall follow (sph/wall_distance.hpp).
 struct WallShare {
   static constexpr Term term = Term::wall_share;
-  static constexpr ValueSet reads{Value::volume, Value::grip};
+  static constexpr ValueSet reads{Value::volume, Value::mover};
   static constexpr Field writes = Field::wall_share;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;
-    const V volume = where_equal(p.template j<Value::grip>(), V(1), p.template j<Value::volume>());
+    const V volume = where_equal(p.template j<Value::mover>(), V::zero(), p.template j<Value::volume>());
     for (int k = 0; k < P::dim; ++k) sums.template add<Field::wall_share>(k, -(volume * p.f * p.e[k]));
     sums.template add<Field::wall_share>(P::dim, volume * Kernel::template value<P::dim>(p.r));
   }
