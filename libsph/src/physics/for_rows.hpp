@@ -1,6 +1,7 @@
-// Rows that move and rows of walls, interior and boundary.
+// Rows that move and rows of walls, interior and boundary; largest values of rows.
 #pragma once
 
+#include <cmath>
 #include <initializer_list>
 
 #include "sph/neighbour_lists.hpp"
@@ -23,6 +24,11 @@ void for_movers(const RowRanges& ranges, Function function) {
 template <class Function>
 void for_walls(const RowRanges& ranges, Function function) {
   for_rows(ranges, {RowClass::interior_walls, RowClass::boundary_walls}, function);
+}
+
+/// Of two; a NaN stays one, so that it is noticed.
+[[nodiscard]] inline double larger(double x, double maximum) {
+  return x > maximum || std::isnan(x) ? x : maximum;
 }
 
 }  // namespace sph

@@ -60,6 +60,7 @@ void Physics::heat(Particles& p, const RowRanges& ranges, const GlobalState& glo
       for (std::size_t a = 0; a < d; ++a)
         power -= 0.5 * global.dt * (force[i * d + a] / mass[i]) * own[1 + a];
       energy[i] += global.dt * (power / mass[i]);
+      if (!(energy[i] > 0)) fail_particle(p, i, global, "has no energy left; reduce time.cfl or time.dt");
     }
     derive(p, r.first, r.last);
     look_at_gas(p, r.first, r.last, maxima);
@@ -74,8 +75,7 @@ void Physics::look_at_gas(const Particles& p, std::size_t first, std::size_t las
     const Group& g = scene_->groups[group[i]];
     if (g.kind == GroupKind::wall) continue;
     const double sound = IdealGas{g.heat_ratio}.sound_speed(energy[i]);
-    // Written so that a NaN becomes the maximum and is noticed.
-    maxima.sound = sound <= maxima.sound ? maxima.sound : sound;
+    maxima.sound = larger(sound, maxima.sound);
     if (rho[i] > 0) maxima.viscosity = std::fmax(maxima.viscosity, g.viscosity / rho[i]);
   }
 }

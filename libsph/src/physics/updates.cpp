@@ -257,9 +257,8 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
       a2 += acceleration * acceleration;
       v2 += v[i * d + a] * v[i * d + a];
     }
-    // Written so that a NaN becomes the maximum and is noticed.
-    speed2 = v2 <= speed2 ? speed2 : v2;
-    acceleration2 = a2 <= acceleration2 ? acceleration2 : a2;
+    speed2 = larger(v2, speed2);
+    acceleration2 = larger(a2, acceleration2);
   });
   for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
     const RowRange& r = ranges[static_cast<std::size_t>(c)];

@@ -49,15 +49,20 @@ void Simulation::step_in_passes() {
 // are never larger than then: the error of a first step that takes them as they are would stay in its energy.
 void Simulation::kick_half_a_step() {
   for (const Pass& pass : physics_.passes()) compute(pass);
-  GlobalState half = global_;
-  half.dt *= 0.5;
-  maxima_ = physics_.integrate(particles_, distribution_.ranges(), half);
+  GlobalState part = global_;
+  const auto kick = [&](double share) {
+    part.dt = share * global_.dt;
+    maxima_ = physics_.integrate(particles_, distribution_.ranges(), part);
+    std::array<double, 4> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity};
+    comm_.max(all);
+    global_.max_speed = all[0];
+    global_.max_acceleration = all[1];
+    return physics_.time_step({all[0], all[1], 0, all[2], all[3]});
+  };
+  global_.dt = kick(0);  // how large a step may be follows from the accelerations
+  (void)kick(0.5);
   changed(physics_.integrated());
-  std::array<double, 4> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity};
-  comm_.max(all);
-  global_.max_speed = all[0];
-  global_.max_acceleration = all[1];
-  global_.dt = physics_.time_step({all[0], all[1], 0, all[2], all[3]});
+  find_stale(physics_.longest_advance(global_));
 }
 
 void Simulation::compute(const Pass& pass) {
@@ -267,6 +272,11 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   global_.max_speed = all[0];
   global_.max_acceleration = all[1];
   if (!grains_) global_.dt = physics_.time_step({all[0], all[1], 0, all[4], all[5]});
+  if (!grains_ && scene_.time.dt &&
+      all[4] * *scene_.time.dt > courant_limit(scene_) * scene_.smoothing_length)
+    throw GuardError("step " + std::to_string(global_.step) + ": c dt/h is beyond the limit of " +
+                     std::to_string(courant_limit(scene_)) + ", c = " + std::to_string(all[4]) +
+                     " m/s; reduce time.dt");
   find_stale(grains_ ? 0.0 : physics_.longest_advance(global_) + physics_.longest_shift(global_));
   return static_cast<std::int64_t>(all[3]);
 }

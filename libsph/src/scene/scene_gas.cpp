@@ -36,8 +36,8 @@ void read_shock_terms(const TableReader& table, Scene& scene) {
 }
 
 // Their density is a sum over neighbours, that of other matter an integral over time.
-void check_ideal_gas(const TableReader& top, const TableReader& start, const TableReader& terms,
-                     const Scene& scene) {
+void check_ideal_gas(const TableReader& top, const TableReader& domain, const TableReader& start,
+                     const TableReader& terms, const Scene& scene) {
   if (!scene.has_eos(EosKind::ideal_gas)) return;
   const std::vector<TableReader> groups = top.tables("group", scene_keys::group);
   for (std::size_t k = 0; k < groups.size(); ++k)
@@ -52,6 +52,17 @@ void check_ideal_gas(const TableReader& top, const TableReader& start, const Tab
   if (scene.start.pressure == InitialPressure::hydrostatic)
     start.fail("pressure", "is \"hydrostatic\"",
                "an ideal gas starts from start_pressure, or from the column u of start.file");
+  const double speed = scene.start.flow_speed;
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (const Group& g = scene.groups[k]; scene.start.pressure == InitialPressure::taylor_green &&
+                                          g.kind != GroupKind::wall &&
+                                          g.start_pressure <= 0.5 * g.density * speed * speed)
+      groups[k].fail("start_pressure", fmt::format("is {}", g.start_pressure),
+                     "with start.pressure = \"taylor_green\" it must be above rho U^2 / 2");
+  if (scene.surface_pressure != 0)
+    domain.fail("surface_pressure", "is given", "the pressure of an ideal gas is absolute: remove it");
+  if (scene.central_pull != 0)
+    domain.fail("central_pull", "is given", "it is for liquids without walls: remove it");
   const auto refuse = [&](bool given, std::string_view key, std::string_view what, std::string_view right) {
     if (given) terms.fail(key, what, right);
   };

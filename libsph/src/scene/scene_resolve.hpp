@@ -15,8 +15,8 @@ void read_ideal_gas(const TableReader& table, Group& group);
 /// Terms against shocks; their defaults depend on whether there is an ideal gas.
 void read_shock_terms(const TableReader& table, Scene& scene);
 /// Refuses what has no meaning beside an ideal gas, once all is read.
-void check_ideal_gas(const TableReader& top, const TableReader& start, const TableReader& terms,
-                     const Scene& scene);
+void check_ideal_gas(const TableReader& top, const TableReader& domain, const TableReader& start,
+                     const TableReader& terms, const Scene& scene);
 
 /// [[group]]: materials; walls without material values take those of the first fluid.
 [[nodiscard]] std::vector<Group> read_groups(const TableReader& top, int dim);

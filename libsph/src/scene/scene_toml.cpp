@@ -325,7 +325,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   scene.output = read_output(tables.top, tables.output, scene);
   check_periods(tables, scene);
   check_total_lagrangian(tables, scene);
-  check_ideal_gas(tables.top, tables.start, tables.terms, scene);
+  check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
   check_implicit_viscosity(tables.terms, scene);
   scene.open = scene.terms.shifting && has_free_surface(scene);
   if (check_files) {

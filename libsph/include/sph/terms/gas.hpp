@@ -2,9 +2,9 @@
 // from an integral of div v: of what starts with a jump the latter never forgets the first steps, and the
 // momentum equation sees twice its error as pressure (5 % at the contact of Sod's tube). Then the pressure
 // force is the gradient of the internal energy, F_ij = -(p_i V_i^2 + p_j V_j^2) grad_i W (Hu & Adams 2006,
-// eq. 14), and energy is conserved whatever the spacing. Walls keep their spacing when the gas at them is
-// compressed: they fill a share s of the kernel, V_i = (1 - s) / sum_j W_ij over the gas alone, and F_iw =
-// -V_i V_w (p_i + p_w) grad_i W.
+// eq. 14), and energy is conserved whatever the spacing. Not so beside walls, where it is in the mean. Walls
+// keep their spacing when the gas at them is compressed: they fill a share s of the kernel, V_i = (1 - s) /
+// sum_j W_ij over the gas alone, and F_iw = -V_i V_w (p_i + p_w) grad_i W.
 #pragma once
 
 #include "sph/pair_rows.hpp"
