@@ -15,7 +15,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
       List::template fuse<Quintic, WeightedPressure, SymmetricViscosity, SurfaceTension>(),
       List::template fuse<Quintic, Pressure, SymmetricViscosity>(),
-      List::template fuse<Quintic, Pressure>(),
+      List::template fuse<Quintic, WeightedPressure, SurfaceTension>(),
       List::template fuse<Quintic, WallShare>(),
       List::template fuse<Quintic, SymmetricViscousOperator>(),
       List::template fuse<Quintic, StressDivergence, Viscosity, ArtificialViscosity>(),
