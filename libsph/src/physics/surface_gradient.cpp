@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "physics/plane_sums.hpp"
+#include "physics/table.hpp"
 
 namespace sph {
 namespace {
@@ -27,10 +28,7 @@ SurfaceGradient::SurfaceGradient(KernelShape kernel, int dim) : gradient_(points
 }
 
 double SurfaceGradient::operator()(double concentration) const {
-  const double at = (points - 1) * std::clamp(2 * concentration - 1, 0.0, 1.0);
-  const auto k = std::min(static_cast<std::size_t>(at), points - 2);
-  const double part = at - static_cast<double>(k);
-  return gradient_[k] + part * (gradient_[k + 1] - gradient_[k]);
+  return between(gradient_, (points - 1) * std::clamp(2 * concentration - 1, 0.0, 1.0));
 }
 
 }  // namespace sph

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/plane_sums.hpp"
+#include "physics/table.hpp"
 
 namespace sph {
 namespace {
@@ -39,10 +40,7 @@ WallDistance::WallDistance(KernelShape kernel, int dim, double spacing)
 
 double WallDistance::look_up(const std::vector<double>& table, double share) const {
   if (!(share > 0)) return table.front();
-  const double at = (points - 1) * std::sqrt(std::min(share / at_face_, 1.0));
-  const auto k = std::min(static_cast<std::size_t>(at), points - 2);
-  const double part = at - static_cast<double>(k);
-  return table[k] + part * (table[k + 1] - table[k]);
+  return between(table, (points - 1) * std::sqrt(std::min(share / at_face_, 1.0)));
 }
 
 double WallDistance::operator()(double share) const { return look_up(distance_, share); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/table.hpp"
 #include "sph/kernels.hpp"
 
 namespace sph {
@@ -69,12 +70,7 @@ WallMirror::WallMirror(const Scene& scene) {
 double WallMirror::operator()(double distance, double weight) const {
   if (!(distance > first_)) return factor_.front();
   const double at = std::min((distance - first_) / step_, static_cast<double>(points - 1));
-  const auto k = std::min(static_cast<std::size_t>(at), points - 2);
-  const double part = at - static_cast<double>(k);
-  const auto value = [&](const std::vector<double>& table) {
-    return table[k] + part * (table[k + 1] - table[k]);
-  };
-  return weight < value(least_weight_) ? 1.0 : value(factor_);
+  return weight < between(least_weight_, at) ? 1.0 : between(factor_, at);
 }
 
 }  // namespace sph
