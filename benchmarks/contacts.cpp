@@ -4,11 +4,12 @@
 //
 //     build/bin/contacts SCENE [key=value ...]      a scene of one material with friction, without rolling
 #include <fmt/format.h>
-#include <mpi.h>
 
+#include <CLI/CLI.hpp>
 #include <functional>
 #include <vector>
 
+#include "program.hpp"
 #include "sph/error.hpp"
 #include "sph/simulation.hpp"
 #include "timing.hpp"
@@ -59,12 +60,16 @@ void compare(Simulation& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  int code = 0;
-  try {
-    if (argc < 2) throw InputError("contacts: needs a scene");
+  CLI::App app("What the order-free sums of contact forces cost", "contacts");
+  std::string scene;
+  std::vector<std::string> overrides;
+  app.add_option("scene", scene, "of one material with friction, without rolling")->required();
+  app.add_option("overrides", overrides, "key=value of the scene");
+  if (const auto code = parse(app, argc, argv)) return *code;
+  return run_under_mpi(app, argc, argv, [&] {
     const decomp::Comm comm(MPI_COMM_SELF);
-    Simulation s(comm, read_scene(argv[1], {argv + 2, argv + argc}));
+    Simulation s(comm, read_scene(scene, overrides));
+    if (!s.scene().of_grains()) throw InputError(scene + ": is no scene of grains");
     for (int k = 0; k < 20; ++k) s.step();
     if (s.scene().contact.law == ContactLaw::hertz)
       compare<HertzNormal>(s);
@@ -72,10 +77,5 @@ int main(int argc, char** argv) {
       compare<LinearRate>(s);
     else
       compare<LinearNormal>(s);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    code = 2;
-  }
-  MPI_Finalize();
-  return code;
+  });
 }

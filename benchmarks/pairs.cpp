@@ -3,14 +3,14 @@
 // true directed pairs a second (each pair within the support counted once a step, whatever the number of
 // passes; rebuild, sorting by id and halo included) and what the canonical order of partners costs against
 // lists left in the order they were found, which no application can choose.
-#include <mpi.h>
-
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "program.hpp"
 #include "sph/simd.hpp"
 #include "sph/simulation.hpp"
 #include "timing.hpp"
@@ -168,8 +168,12 @@ void measure_cylinder(const decomp::Comm& comm, const char* path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  {
+  CLI::App app("Speed of the SPH step on one core", "pairs");
+  std::string scene = PEPERITE_SOURCE_DIR "/apps/buoyant_cylinder/fluid.toml";
+  app.add_option("scene", scene, "of the buoyant cylinder, for its time a particle")
+      ->check(CLI::ExistingFile);
+  if (const auto code = parse(app, argc, argv)) return *code;
+  return run_under_mpi(app, argc, argv, [&] {
     const decomp::Comm comm(MPI_COMM_SELF);
     std::printf("calibration kernel: %.2f ns per 16 lane-steps\n", 1e3 * calibration_seconds());
     for (const char* precision : {"mixed", "double"})
@@ -179,7 +183,6 @@ int main(int argc, char** argv) {
         measure(comm, c, false);
         measure(comm, c, true);
       }
-    measure_cylinder(comm, argc > 1 ? argv[1] : PEPERITE_SOURCE_DIR "/apps/buoyant_cylinder/fluid.toml");
-  }
-  MPI_Finalize();
+    measure_cylinder(comm, scene.c_str());
+  });
 }

@@ -33,6 +33,9 @@ from PIL import Image  # noqa: E402
 from speed import environment, finished  # noqa: E402
 
 here = Path(__file__).resolve().parent
+sys.path.append(str(here.parent / "apps/plotting"))
+import manifest  # noqa: E402
+
 BALANCERS = {"fixed": "#888888", "literal": "#c1272d", "quasi_newton": "#1b6ca8", "hybrid": "#3a7d44"}
 DRAWN = ("fixed", "quasi_newton")
 COLOURS = np.array([to_rgb(c) for c in ("#4477aa", "#ee8866", "#44bb99", "#ddaa33", "#aa5599", "#88bbdd", "#bb4455",
@@ -264,8 +267,13 @@ def main():
         prints = {r.perf["fingerprint"] for r in runs.values()}
         print(f"{scene}: " + ("all fingerprints agree" if len(prints) == 1 else "FINGERPRINTS DIFFER"), flush=True)
         agree = agree and len(prints) == 1
-        save(draw_partitions(CASES[scene], runs), given.pictures / f"partition_{scene}{suffix}.png")
-    save(draw_imbalance(all_runs), given.pictures / f"imbalance{suffix}.png")
+        drawn = given.pictures / f"partition_{scene}{suffix}.png"
+        save(draw_partitions(CASES[scene], runs), drawn)
+        manifest.record([drawn], [r.folder for r in runs.values()], [CASES[scene].scene])
+    drawn = given.pictures / f"imbalance{suffix}.png"
+    save(draw_imbalance(all_runs), drawn)
+    manifest.record([drawn], [r.folder for runs in all_runs.values() for r in runs.values()],
+                    [CASES[scene].scene for scene in given.scenes])
     return 0 if agree else 1
 
 

@@ -18,19 +18,23 @@ for case in solid fluid gas; do
   fi
 done
 
-# draw NAME PICTURE [arguments of plot.py]: PICTURE becomes gallery/NAME.png.
+# draw NAME PICTURE "CASE ..." [arguments of plot.py]: PICTURE becomes gallery/NAME.png.
 draw() {
-  name=$1 picture=$2
-  shift 2
-  /usr/bin/python3 "$here/plot.py" "$@" --draw "$picture" --out "$runs" > /dev/null
+  name=$1 picture=$2 folders= scenes=
+  for case in $3; do folders="$folders $runs/$case" scenes="$scenes $here/$case.toml"; done
+  shift 3
+  # shellcheck disable=SC2086  # one word a case
+  /usr/bin/python3 -B "$here/plot.py" $folders "$@" --draw "$picture" --out "$runs" > /dev/null
   mv "$runs/$picture.png" "$here/gallery/$name.png"
+  # shellcheck disable=SC2086
+  /usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/$name.png" --runs $folders --scenes $scenes
   echo "$here/gallery/$name.png"
 }
 
 mkdir -p "$here/gallery"
 for case in solid fluid gas; do
-  draw "${case}_10s" particles "$runs/$case" --time 10
+  draw "${case}_10s" particles "$case" --time 10
 done
-draw gas_fragmented particles "$runs/gas" --time 13.6
-draw gas_pressure pressure "$runs/gas" --time 13.6 --average time
-draw time_series series "$runs/solid" "$runs/fluid" "$runs/gas"
+draw gas_fragmented particles gas --time 13.6
+draw gas_pressure pressure gas --time 13.6 --average time
+draw time_series series "solid fluid gas"

@@ -6,53 +6,26 @@
 
 DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Writes into the first DIR, or into --out,
 and prints the path of each picture. With several runs their names go before the pictures'; the time series
-of all are on one sheet.
+of all are on one sheet. Without --draw the series are left out where the scene follows no particle.
 """
 
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
-from matplotlib.colors import to_rgb, to_rgba
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgba
 from matplotlib.lines import Line2D
-from PIL import Image
 
-from run_data import Run
+from run_data import BadInput, Run
+from figures import (COMPRESSION, GROUPS, RUNS, SPRAY, STYLE, TENSION, WALL, circles, nice, save, text_with_unit,
+                     time_text, unit_for)
 from run_folder import drawing_parser, given_to, refusing
 
 PICTURES = ("particles", "pressure", "strip", "series")
-WALL, SPRAY = "#9a9a9a", "#1b2a49"
-GROUPS = ("#f4c89a", "#4fa3a5", "#c97b84", "#a7b957", "#8d7fb8")  # in the order of the scene
-RUNS = ("#1b6ca8", "#c8553d", "#3a7d44", "#7a4f9e", "#8a6d1d", "#444444")
-TENSION, COMPRESSION = "#d62839", "#1d3557"
-
-STYLE = {
-    "font.size": 10, "axes.titlesize": 11, "axes.titlelocation": "left",
-    "axes.edgecolor": "#555555", "axes.linewidth": 0.8, "axes.axisbelow": True, "grid.color": "#dddddd",
-    "xtick.color": "#333333", "ytick.color": "#333333", "legend.frameon": False, "figure.dpi": 110,
-}
 
 
 # ---- pieces -------------------------------------------------------------------------------------------------
-
-
-def nice(value):
-    """The largest of 1, 2, 5 times a power of ten that is not above value."""
-    if not value > 0:
-        return 1.0
-    power = 10.0 ** np.floor(np.log10(value))
-    return power * max(f for f in (1, 2, 5) if f * power <= value * 1.0000001)
-
-
-def pressure_text(value):
-    for unit, size in (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)):
-        if value >= size:
-            return f"{value / size:g} {unit}"
-    return f"{value:g} Pa"
 
 
 def colours_of(run):
@@ -105,13 +78,6 @@ def beyond(snapshot, view):
     return f"{count} not shown" if count else ""
 
 
-def circles(axes, snapshot, chosen=slice(None), **options):
-    diameter = snapshot.diameter[chosen]
-    collection = EllipseCollection(diameter, diameter, 0, units="xy", offsets=snapshot.position[chosen],
-                                   offset_transform=axes.transData, **options)
-    return axes.add_collection(collection)
-
-
 def scale_bar(axes, length, text):
     """Over the right end of the panel; length in data units."""
     left, right = axes.get_xlim()
@@ -136,7 +102,7 @@ BELOW = {"loc": "upper center", "handletextpad": 0.4, "columnspacing": 1.4}
 
 def draw_velocities(axes, run, snapshot):
     """Sticks start at the centres and taper towards where the particle goes."""
-    circles(axes, snapshot, facecolors=np.array(colours_of(run))[snapshot.group])
+    circles(axes, snapshot.position, snapshot.diameter, facecolors=np.array(colours_of(run))[snapshot.group])
     movers = ~run.is_wall(snapshot)
     position, velocity = snapshot.position[movers], snapshot.velocity[movers]
     speed = np.hypot(*velocity.T)
@@ -146,15 +112,15 @@ def draw_velocities(axes, run, snapshot):
     across *= 0.11 * run.spacing
     corners = np.stack([position + across, position + metres * velocity, position - across], axis=1)
     axes.add_collection(PolyCollection(corners, facecolors="black", edgecolors="black", linewidths=0.15))
-    scale_bar(axes, metres * nice(1.5 * fast), f"{nice(1.5 * fast):g} m/s")
+    scale_bar(axes, metres * nice(1.5 * fast), text_with_unit(nice(1.5 * fast), "m/s"))
 
 
 def draw_stresses(axes, run, snapshot, dynamic):
     """Two lines along the principal axes; none longer than a spacing, so that crosses do not overlap."""
-    greater, smaller, angle = snapshot.principal_stresses(dynamic)
+    greater, smaller, angle = snapshot.principal_stresses(run.at_rest(snapshot) if dynamic else None)
     tint = np.array([to_rgba(c, 0.3) for c in colours_of(run)])
     tint[np.bincount(snapshot.group).argmax(), 3] = 0  # what fills the container stays white
-    circles(axes, snapshot, facecolors=tint[snapshot.group])
+    circles(axes, snapshot.position, snapshot.diameter, facecolors=tint[snapshot.group])
     largest = np.quantile(np.maximum(np.abs(greater), np.abs(smaller)), 0.99)
     per_pascal = run.spacing / largest if largest > 0 else 0.0
     for value, turn in ((greater, angle), (smaller, angle + np.pi / 2)):
@@ -163,12 +129,12 @@ def draw_stresses(axes, run, snapshot, dynamic):
         ends = np.stack([snapshot.position - arm, snapshot.position + arm], axis=1)
         axes.add_collection(LineCollection(ends, colors=np.where(value > 0, TENSION, COMPRESSION), linewidths=0.9))
     bar = nice(4 * largest)
-    scale_bar(axes, bar * per_pascal, pressure_text(bar))
+    scale_bar(axes, bar * per_pascal, text_with_unit(bar, "Pa"))
     labels = ("above hydrostatic", "below") if dynamic else ("compression", "tension")
     handles = [Line2D([], [], color=c, label=label) for c, label in zip((COMPRESSION, TENSION), labels)]
     axes.legend(handles=handles, ncols=2, bbox_to_anchor=(0.5, -0.06), **BELOW)
     cut = int(np.sum((np.abs(greater) > largest) | (np.abs(smaller) > largest)))
-    return f"{cut} larger ones cut at {pressure_text(float(f'{largest:.2g}'))}" if cut else ""
+    return f"{cut} larger ones cut at {text_with_unit(float(f'{largest:.2g}'), 'Pa')}" if cut else ""
 
 
 def draw_particles(run, snapshot, dynamic):
@@ -188,10 +154,10 @@ def draw_particles(run, snapshot, dynamic):
 def draw_map(figure, axes, run, snapshot, values, limits, colours, label):
     """Movers coloured by value, walls grey; a colour bar below. NaN: the particle's group has no such value."""
     walls = run.is_wall(snapshot)
-    circles(axes, snapshot, walls, facecolors=WALL)
-    circles(axes, snapshot, ~walls & np.isnan(values), facecolors="#e4e4e4")
     chosen = ~walls & np.isfinite(values)
-    drawn = circles(axes, snapshot, chosen, array=values[chosen], cmap=plt.get_cmap(colours, 16), clim=limits)
+    for some, options in ((walls, {"facecolors": WALL}), (~walls & np.isnan(values), {"facecolors": "#e4e4e4"}),
+                          (chosen, {"array": values[chosen], "cmap": plt.get_cmap(colours, 16), "clim": limits})):
+        drawn = circles(axes, snapshot.position[some], snapshot.diameter[some], **options)
     ends = bool(np.any(values[chosen] < limits[0])), bool(np.any(values[chosen] > limits[1]))
     box = axes.get_position()
     inch = 1 / figure.get_figheight()
@@ -200,29 +166,41 @@ def draw_map(figure, axes, run, snapshot, values, limits, colours, label):
     return figure.colorbar(drawn, cax=place, orientation="horizontal", label=label, extend=extend)
 
 
+def pressure_maps(run, snapshot):
+    """Title, values, limits, colours and label of what is drawn of the pressure."""
+    movers = ~run.is_wall(snapshot)
+    low, high = np.quantile(snapshot.pressure[movers], (0.002, 0.998))
+    size, unit = unit_for(max(abs(low), abs(high)), "Pa")
+    maps = [("Pressure", snapshot.pressure / size, (min(0, low / size), high / size if high > max(low, 0) else 1.0),
+             "viridis", f"p less surface pressure ({unit})")]
+    at_rest = run.at_rest(snapshot)
+    if at_rest is not None:
+        excess = snapshot.pressure - at_rest
+        reach = np.quantile(np.abs(excess[movers]), 0.98)
+        size, unit = unit_for(reach, "Pa")
+        reach = reach / size if reach > 0 else 1.0
+        maps.append(("Pressure less hydrostatic", excess / size, (-reach, reach), "RdBu_r",
+                     f"p less pressure of the layers at rest ({unit})"))
+    return maps
+
+
 def draw_pressure(run, snapshot):
     view = view_of(run, [snapshot])
-    movers = ~run.is_wall(snapshot)
     gas = snapshot.void_fraction is not None
-    figure, all_axes = panels(view, 3 if gas else 2, 3.6 if gas else 4.4, 1.4)
-    pressure = snapshot.pressure / 1e6
-    low, high = np.quantile(pressure[movers], (0.002, 0.998))
-    draw_map(figure, all_axes[0], run, snapshot, pressure, (min(0, low), max(high, 1e-6)), "viridis",
-             "p less surface pressure (MPa)")
-    all_axes[0].set_title("Pressure")
-    excess = (snapshot.pressure - snapshot.hydrostatic()) / 1e3
-    reach = max(np.quantile(np.abs(excess[movers]), 0.98), 1e-3)
-    draw_map(figure, all_axes[1], run, snapshot, excess, (-reach, reach), "RdBu_r",
-             "p less pressure of melt at rest (kPa)")
-    all_axes[1].set_title("Pressure less hydrostatic")
+    maps = pressure_maps(run, snapshot)
+    number = len(maps) + gas
+    figure, all_axes = panels(view, number, 3.6 if number == 3 else 4.4, 1.4)
+    for axes, (title, values, limits, colours, label) in zip(all_axes, maps):
+        draw_map(figure, axes, run, snapshot, values, limits, colours, label)
+        axes.set_title(title)
     if gas:
         bubbly = np.array([g.get("eos") == "bubbly" for g in run.scene["group"]])[snapshot.group]
-        bar = draw_map(figure, all_axes[2], run, snapshot, np.where(bubbly, snapshot.void_fraction, np.nan), (0, 0.8),
+        bar = draw_map(figure, all_axes[-1], run, snapshot, np.where(bubbly, snapshot.void_fraction, np.nan), (0, 0.8),
                        "YlGnBu", "volume fraction of gas ψ")
         for group in run.scene["group"]:
             if "fragmentation" in group:
                 bar.ax.axvline(group["fragmentation"]["void_fraction"], color="black", linewidth=1.5)
-        all_axes[2].set_title("Gas (black line: fragmentation)" if run.sprays else "Gas")
+        all_axes[-1].set_title("Gas (black line: fragmentation)" if run.sprays else "Gas")
     note(all_axes[0], beyond(snapshot, view))
     head(figure, run.heading(snapshot))
     return figure
@@ -234,8 +212,8 @@ def draw_strip(run):
     view = view_of(run, snapshots)
     figure, all_axes = panels(view, len(snapshots), 2.0, 0.8)
     for axes, snapshot in zip(all_axes, snapshots):
-        circles(axes, snapshot, facecolors=np.array(colours_of(run))[snapshot.group])
-        axes.set_title(f"t = {snapshot.time:.1f} s")
+        circles(axes, snapshot.position, snapshot.diameter, facecolors=np.array(colours_of(run))[snapshot.group])
+        axes.set_title(f"t = {time_text(snapshot.time)}")
         note(axes, beyond(snapshot, view))
     figure.legend(handles=group_handles(run), ncols=len(run.names), bbox_to_anchor=(0.5, 0.3 / figure.get_figheight()),
                   **BELOW)
@@ -258,23 +236,34 @@ def spread(values, least):
     return places - np.mean(places - values)
 
 
+def follows_a_particle(run):
+    return run.tracked() is not None and f"{run.tracked()}_y" in run.series()
+
+
+def series_of(run):
+    """Times and what is drawn of the tracked particle, in SI units."""
+    table, monitor = run.series(), run.tracked()
+    if not follows_a_particle(run):
+        raise BadInput(f"{run.folder / 'series.csv'}: the scene follows no particle: give it a [[monitor]]")
+    return table, {name: table[f"{monitor}_{name}"] for name in ("y", "vy", "rho", "p")}
+
+
 def draw_series(runs):
+    data = [series_of(run) for run in runs]
+    size, unit = unit_for(max(np.abs(values["p"]).max(initial=0) for _, values in data), "Pa")
     quantities = (("y", "height y (m)", 1), ("vy", "velocity $v_y$ (m/s)", 1), ("rho", "density ρ (kg/m³)", 1),
-                  ("p", "p less surface pressure (MPa)", 1e6))
+                  ("p", f"p less surface pressure ({unit})", size))
     colours = RUNS * len(runs)
     figure, grid = plt.subplots(2, 2, figsize=(11, 7.2), sharex=True, layout="constrained")
     handles, ends = [], {axes: [] for axes in grid.flat}
-    for run, label, colour in zip(runs, labels_of(runs), colours):
-        table, monitor = run.series(), run.tracked()
-        if monitor is None or f"{monitor}_y" not in table:
-            raise BadInput(f"{run.folder / 'series.csv'}: the scene follows no particle: give it a [[monitor]]")
+    for run, (table, tracked), label, colour in zip(runs, data, labels_of(runs), colours):
         text = f"{label}: {run.title}" if len(runs) > 1 else run.title
         handles.append(Line2D([], [], color=colour, label=text))
         broke = run.fragmentation(table)
         if broke is not None:
             handles.append(Line2D([], [], color=colour, linestyle=":", label=f"first fragmentation, {broke:.1f} s"))
         for axes, (quantity, _, unit) in zip(grid.flat, quantities):
-            values = table[f"{monitor}_{quantity}"] / unit
+            values = tracked[quantity] / unit
             axes.plot(table["t"], values, color=colour, linewidth=0.9)
             if broke is not None:
                 axes.axvline(broke, color=colour, linewidth=1, linestyle=":")
@@ -318,6 +307,8 @@ def arguments():
 def pictures(runs, given):
     """Names and figures, one after the other."""
     for run in runs:
+        if given.dynamic and run.at_rest(run.snapshots[0]) is None:
+            raise BadInput(f"--dynamic: nothing is hydrostatic in {run.folder}: no gravity, or an ideal gas")
         prefix = f"{run.name}_" if len(runs) > 1 else ""
         snapshot = run.nearest(given.time).averaged(given.average)
         if "particles" in given.draw:
@@ -326,34 +317,12 @@ def pictures(runs, given):
             yield f"{prefix}pressure.png", draw_pressure(run, snapshot)
         if "strip" in given.draw and len(run.snapshots) >= 3:
             yield f"{prefix}strip.png", draw_strip(run)
-    if "series" in given.draw:
+    silent = next((run for run in runs if not follows_a_particle(run)), None) if "series" in given.draw else None
+    if silent is not None and not given.chosen:
+        print(f"plot.py: no series.png: the scene of {silent.folder} follows no particle: give it a [[monitor]]",
+              file=sys.stderr)
+    elif "series" in given.draw:
         yield "series.png", draw_series(runs)
-
-
-def to_palette(rgb, flat=112, others=64):
-    """A picture of few colours, a quarter as large. Exact are our own colours, which may be rare, and the `flat`
-    most frequent ones."""
-    own = np.array([to_rgb(c) for c in (WALL, SPRAY, TENSION, COMPRESSION, *GROUPS, *RUNS)])
-    own = np.concatenate([255 * (share * own + 1 - share) for share in (1, 0.7, 0.4)]).round().astype(np.uint8)
-    packed = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
-    colours, where, count = np.unique(packed, return_inverse=True, return_counts=True)
-    channels = np.stack([colours >> 16, colours >> 8 & 255, colours & 255], axis=1).astype(np.uint8)
-    order = np.argsort(-count, kind="stable")
-    palette, rest = np.concatenate([own, channels[order[:flat]]]), order[flat:]
-    if rest.size:
-        edges = np.repeat(channels[rest], np.ceil(np.sqrt(count[rest])).astype(int), axis=0)
-        chosen = Image.fromarray(edges[None]).quantize(others).getpalette()[: 3 * others]
-        palette = np.concatenate([palette, np.reshape(chosen, (-1, 3)).astype(np.uint8)])
-    distance = sum((channels[:, None, c].astype(np.int32) - palette[None, :, c]) ** 2 for c in range(3))
-    picture = Image.fromarray(distance.argmin(axis=1).astype(np.uint8)[where].reshape(rgb.shape[:2]), mode="P")
-    picture.putpalette(palette.tobytes())
-    return picture
-
-
-def save(figure, path):
-    figure.canvas.draw()
-    to_palette(np.asarray(figure.canvas.buffer_rgba())[:, :, :3]).save(path, optimize=True)
-    plt.close(figure)
 
 
 def draw():

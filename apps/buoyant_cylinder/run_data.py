@@ -8,6 +8,8 @@ import h5py
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "plotting"))
+from at_rest import height_of, pressure_at_rest  # noqa: E402
+from figures import time_text  # noqa: E402
 from run_folder import BadInput, RunFolder  # noqa: E402
 
 
@@ -56,22 +58,16 @@ class Snapshot:
         """Of a circle inside the square that holds the particle's mass: it swells as density falls."""
         return np.sqrt(self.mass / self.density)
 
-    def hydrostatic(self):
-        """Pressure of the first fluid at rest, zero at the surface height."""
-        start, domain = self.scene["start"], self.scene["domain"]
-        rho = next(g["density"] for g in self.scene["group"] if g["kind"] != "wall")
-        surface = start.get("surface_height", domain["upper"][1])
-        return -rho * domain["gravity"][1] * (surface - self.position[:, 1])
-
-    def principal_stresses(self, dynamic):
-        """Greater and smaller principal value (tension > 0) and the angle of the greater one's axis."""
+    def principal_stresses(self, at_rest=None):
+        """Greater and smaller principal value (tension > 0), less the pressure at rest if that is given, and the angle
+        of the greater one's axis."""
         zero = np.zeros(len(self.pressure))
         xx, yy, xy = self.stress.T if self.stress is not None else (zero, zero, zero)
         pressure = self.pressure
         if self.scene.get("formulation") == "ida" and self.stress is not None:
             pressure = zero  # already part of the stress
-        if dynamic:
-            pressure = pressure - self.hydrostatic()
+        if at_rest is not None:
+            pressure = pressure - at_rest
         centre, half = (xx + yy) / 2 - pressure, (xx - yy) / 2
         radius = np.hypot(half, xy)
         return centre + radius, centre - radius, np.arctan2(xy, half) / 2
@@ -83,7 +79,7 @@ class Run(RunFolder):
     def __init__(self, folder):
         super().__init__(folder, Snapshot)
         if self.scene["dimension"] != 2:
-            raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions; only 2 can be drawn")
+            raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions, this draws 2: take apps/plot.py")
         self.kinds = [g["kind"] for g in self.scene["group"]]
         self.names = [g["name"] for g in self.scene["group"]]
         self.sprays = {g["fragmentation"]["group"] for g in self.scene["group"] if "fragmentation" in g}
@@ -97,8 +93,17 @@ class Run(RunFolder):
     def is_wall(self, snapshot):
         return np.array([kind == "wall" for kind in self.kinds])[snapshot.group]
 
+    def at_rest(self, snapshot):
+        """Pressure of the layers at rest at the particles' places, or None. Without layers in the scene the surface is
+        that of the first snapshot."""
+        height = height_of(self.scene, self.snapshots[0].position)
+        if height is None:
+            return None
+        surface = height[~self.is_wall(self.snapshots[0])].max() + self.spacing / 2
+        return pressure_at_rest(self.scene, snapshot.position, surface)
+
     def heading(self, snapshot):
-        return f"{self.title}, t = {snapshot.time:.1f} s{snapshot.remark}"
+        return f"{self.title}, t = {time_text(snapshot.time)}{snapshot.remark}"
 
     def tracked(self):
         """Name of the first monitor that follows a particle."""

@@ -21,13 +21,14 @@ def drawing_parser(description, pictures):
     parser = Parser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", metavar="DIR", nargs="+", help="folder of a run")
     parser.add_argument("--out", metavar="DIR", type=Path, help="where the pictures go (default: the first DIR)")
-    parser.add_argument("--draw", metavar="LIST", default=",".join(pictures), help="some of " + ",".join(pictures))
+    parser.add_argument("--draw", metavar="LIST", help=f"some of {','.join(pictures)} (default: all that there is)")
     return parser
 
 
 def given_to(parser, pictures):
     given = parser.parse_args()
-    given.draw = given.draw.split(",")
+    given.chosen = given.draw is not None
+    given.draw = given.draw.split(",") if given.chosen else list(pictures)
     for name in given.draw:
         if name not in pictures:
             parser.error(f"--draw: \"{name}\" is not one of {', '.join(pictures)}")

@@ -32,15 +32,15 @@ def stress_on(grid, snapshot):
     """xx, zz and xz of the stress of the bulk [Pa], compression negative, on the grid; None without contacts. The
     grains' own stresses, weighted with their volume: divided by the volume of the cells, whose share of grains is
     0.6 inside the sand."""
-    stress = snapshot.field("stress")
+    stress = snapshot.stress("xx", "zz", "xz")
     if stress is None:
         return None
     place, volume = snapshot.position[:, [0, 2]], snapshot.volume
     weight = grid.deposit(place, volume)
     sand = weight > 0.4 * np.quantile(weight[weight > 0], 0.9)
     out = []
-    for component in (0, 2, 4):
-        sums = grid.deposit(place, volume * stress[:, component])
+    for component in stress:
+        sums = grid.deposit(place, volume * component)
         out.append(np.where(sand, 0.6 * sums / np.where(sand, weight, 1), np.nan))
     return out
 

@@ -20,4 +20,9 @@ for case in shear_sand shear_floor sandbox; do
 done
 
 mkdir -p "$here/gallery"
-/usr/bin/python3 "$here/plot.py" "$runs/sandbox" "$runs/shear_sand" "$runs/shear_floor" --out "$here/gallery"
+folders="$runs/sandbox $runs/shear_sand $runs/shear_floor"
+# shellcheck disable=SC2086  # one word a run
+/usr/bin/python3 -B "$here/plot.py" $folders --out "$here/gallery"
+# shellcheck disable=SC2086
+/usr/bin/python3 -B "$here/../plotting/manifest.py" "$here"/gallery/*.png "$here/gallery/summary.txt" --runs $folders \
+  --scenes "$here/sandbox.toml" "$here/shear_sand.toml" "$here/shear_floor.toml"

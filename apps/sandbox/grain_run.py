@@ -36,6 +36,15 @@ class Snapshot:
         with h5py.File(self.path) as file:
             return file["particles"][name][()][self.order] if name in file["particles"] else None
 
+    def stress(self, *wanted):
+        """These components ("xx", ...) of the grains' stress; None where the scene did not ask for contacts."""
+        with h5py.File(self.path) as file:
+            if "stress" not in file["particles"]:
+                return None
+            stress = file["particles/stress"]
+            names = stress.attrs.get("components", "xx yy zz xy xz yz").split()  # earlier versions named none
+            return [stress[:, names.index(name)][self.order] for name in wanted]
+
     @property
     def volume(self):
         return 4 / 3 * np.pi * self.radius**3

@@ -118,7 +118,7 @@ def draw_chains(history):
 
 
 def draw_stress(history):
-    moments = [m for m in chosen_moments(history, 3) if m.snapshot.field("stress") is not None]
+    moments = [m for m in chosen_moments(history, 3) if m.snapshot.stress("xx") is not None]
     if not moments:
         return None
     figure, panels = sheet(history, len(moments), bar=True)

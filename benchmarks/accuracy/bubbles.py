@@ -15,6 +15,10 @@ import matplotlib.pyplot as plt  # noqa: E402
 import rising_bubble  # noqa: E402
 from runs import Run  # noqa: E402
 
+here = Path(__file__).resolve().parent
+sys.path.append(str(here.parents[1] / "apps/plotting"))
+import manifest  # noqa: E402
+
 # Time and rise velocity of the groups' bubble 1 (MooNMD), and their largest velocities of bubble 2.
 PUBLISHED = {1: ((0.5, 1, 1.5, 2, 2.5, 3), (0.1964, 0.2409, 0.2186, 0.1979, 0.1915, 0.1938)),
              2: ((0.7317, 2.0600), (0.2502, 0.2393))}
@@ -31,11 +35,13 @@ def draw_particles(axes, snapshot):
 def main():
     work = Path(sys.argv[1])
     plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "legend.frameon": False})
+    used = []
     figure, axes = plt.subplots(2, 4, figsize=(9, 4.6), layout="constrained",
                                 gridspec_kw={"width_ratios": (1, 1, 1, 1.7)})
     for row, case in enumerate((1, 2)):
         name = "rising_bubble" if case == 1 else "rising_bubble_2"
         runs = {n: Run(work / f"{name}_default_{n}") for n in rising_bubble.SIZES}
+        used += [run.folder for run in runs.values()]
         snapshots = runs[80].snapshots()
         for panel, time in zip(axes[row], TIMES[case]):
             draw_particles(panel, min(snapshots, key=lambda s: abs(s.time - time)))
@@ -44,7 +50,9 @@ def main():
         axes[row, 3].plot(*PUBLISHED[case], "o", ms=4, mfc="none", color="#333333", label="MooNMD (Hysing et al.)")
         axes[row, 3].set(xlabel="t (s)", ylabel="rise velocity (m/s)", xlim=(0, 3), ylim=(0, 0.3))
         axes[row, 3].legend()
-    figure.savefig(Path(__file__).with_suffix(".png"), dpi=110)
+    picture = here / "bubbles.png"
+    figure.savefig(picture, dpi=110)
+    manifest.record([picture], used, [here / "rising_bubble.toml"])
 
 
 if __name__ == "__main__":

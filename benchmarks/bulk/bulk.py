@@ -17,6 +17,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 from runs import Runner, here, source  # noqa: E402
+import manifest  # noqa: E402
 
 CASES = {"column": 2, "repose": 1, "incline": 2, "stable_wedge": 2, "quiet": 1, "sandbox": 1}  # and the panels of its picture
 
@@ -34,11 +35,13 @@ def main():
     plt.rcParams.update({"font.size": 8, "legend.frameon": False, "legend.fontsize": 7, "figure.dpi": 110})
     for name in given.cases:
         case = importlib.import_module(name)
+        runner.asked.clear()
         lines, result = case.measure(runner)
         print(f"{case.__doc__}\n" + "\n".join(lines) + "\n", flush=True)
         figure, axes = plt.subplots(1, CASES[name], figsize=(4 * max(CASES[name], 1.5), 3), layout="constrained")
         case.draw(axes, result)
         figure.savefig(given.pictures / f"{name}.png")
+        manifest.record([given.pictures / f"{name}.png"], runner.asked, set(runner.asked.values()))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 
 here = Path(__file__).resolve().parent
 source = here.parent.parent
-sys.path[:0] = [str(source / "apps/sandbox"), str(source / "benchmarks")]
+sys.path[:0] = [str(source / folder) for folder in ("apps/sandbox", "apps/plotting", "benchmarks")]
 from grain_run import Snapshot  # noqa: E402
 from speed import log_of, run_scene  # noqa: E402
 
@@ -19,9 +19,11 @@ class Runner:
         self.program = build / "bin/peperite"
         self.work = work
         self.pool = ThreadPoolExecutor(jobs)
+        self.asked = {}  # folders and their scenes
 
     def start(self, name, scene, *settings):
         """A future of the run's folder."""
+        self.asked[self.work / name] = here / scene
         return self.pool.submit(self.folder, name, scene, settings)
 
     def run(self, name, scene, *settings):

@@ -9,11 +9,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "../program.hpp"
 #include "commands.hpp"
 
 int main(int argc, char** argv) {
   using namespace scale_sim;
-  CLI::App app{"Balancers and scaling without particles"};
+  CLI::App app("Balancers and scaling without particles", "scale_sim");
   app.require_subcommand(1);
   Network network;
   const auto add_network = [&](CLI::App* command) {
@@ -47,19 +48,16 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::ExistingDirectory);
   add_network(check);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code = parse(app, argc, argv)) return *code;
 
-  if (table.slow_rank >= *std::ranges::min_element(table.ranks)) {
-    fmt::print(stderr, "--slow-rank: there is no rank {}\n", table.slow_rank);
-    return 2;
-  }
+  if (table.slow_rank >= *std::ranges::min_element(table.ranks))
+    return refuse(app, fmt::format("--slow-rank: there is no rank {}", table.slow_rank));
   try {
     if (*policies) compare_policies(table);
     scaling.network = network;
     if (*predict) predict_scaling(scaling);
     if (*check) check_model(runs, network);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "scale_sim: {}\n", error.what());
-    return 2;
+    return refuse(app, error.what());
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "decomp/poison.hpp"
 #include "halo_select.hpp"
 #include "row_copy.hpp"
 #include "transfer.hpp"
@@ -14,12 +15,6 @@ namespace {
 
 constexpr int count_tag = 201;
 constexpr int refresh_tag = 202;
-
-#ifdef NDEBUG
-constexpr bool poison_halo = false;
-#else
-constexpr bool poison_halo = true;
-#endif
 
 Int3 negative(const Int3& s) { return {-s[0], -s[1], -s[2]}; }
 
@@ -93,6 +88,7 @@ HaloPlan::HaloPlan(const Comm& comm, const JaggedPartition& partition, std::int6
   }
   if (row > std::numeric_limits<std::uint32_t>::max()) throw GuardError("more than 2^32 rows on one rank");
   halo_ = row - owned_;
+  table.resize(owned_, 0);  // of the copies that were there nothing is left
   table.resize(owned_, halo_);
 }
 
@@ -102,7 +98,7 @@ void HaloPlan::begin(Table& table, std::span<const int> columns) {
     throw std::logic_error("halo plan used after the table's rows changed");
   table_ = &table;
   columns_.assign(columns.begin(), columns.end());
-  if (poison_halo) poison();
+  if (poisons()) poison();
 
   const std::size_t width = width_sum(table, columns);
   for (Peer& peer : peers_) {
@@ -145,7 +141,7 @@ void HaloPlan::poison() {
     Column& column = table_->column(c);
     for (const Peer& peer : peers_)
       for (const std::uint32_t r : peer.receive)
-        std::memset(column.data() + r * column.width(), 0xFF, column.width());
+        decomp::poison(column.data() + r * column.width(), column.width());
   }
 }
 

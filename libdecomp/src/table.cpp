@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "decomp/memory.hpp"
+#include "decomp/poison.hpp"
 #include "row_copy.hpp"
 
 namespace decomp {
@@ -25,6 +26,7 @@ void Column::reserve(std::size_t rows) {
   if (kept > 0) std::memcpy(grown.get(), data_.get(), kept);
   // Lanes past the last row are computed and thrown away: zeros keep them from raising traps.
   std::memset(grown.get() + kept, 0, bytes - kept);
+  poison(grown.get() + kept, bytes - kept);
   data_ = std::move(grown);
   capacity_ = capacity;
 }
@@ -52,6 +54,8 @@ std::size_t Table::row_bytes() const {
 
 void Table::resize(std::size_t owned, std::size_t halo) {
   for (Column& c : columns_) c.reserve(owned + halo);
+  if (poisons() && owned + halo > rows())
+    for (Column& c : columns_) poison(c.data() + rows() * c.width(), (owned + halo - rows()) * c.width());
   owned_ = owned;
   halo_ = halo;
 }

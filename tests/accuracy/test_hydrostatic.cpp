@@ -2,6 +2,8 @@
 // from p = 0 the sloshing of compression decays at the rate the density diffusion gives.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "accuracy/measure.hpp"
 
 namespace {
@@ -92,6 +94,39 @@ TEST(HydrostaticTank, FromZeroPressureTheSwingDecays) {
   EXPECT_LT(second, first);
   EXPECT_LT(end.kinetic, 1.7e-3) << "more than the start released";
   EXPECT_LT(end.surface, 1.02);
+}
+
+// Foaming magma under its own weight, 8 % of the density of the liquid at the top.
+// Started by its own equation of state it rests; by that of the liquid its floor would bear twice the weight
+// above it, and the column would fly up at 12 m/s.
+TEST(HydrostaticTank, BubblyMagmaRests) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  const sph::Scene scene = sph::read_scene(PEPERITE_ACCURACY_DIR "/magma_column.toml", {});
+  sph::Simulation s(comm, scene);
+  std::map<double, double> start;  // by height
+  double mass = 0;
+  for (const measure::Sample& q : measure::samples(s))
+    if (!measure::is_wall(s, q)) {
+      start[q.x[1]] = q.p;
+      mass += q.x[1] < scene.spacing ? 0.5 * q.mass : q.mass;  // above the middle of the lowest row
+    }
+  const double lowest = start.begin()->first, weight = mass * 9.8 / (scene.upper[0] - scene.lower[0]);
+  EXPECT_NEAR(start.begin()->second, weight, 0.005 * weight);
+  double fastest = 0, floor = 0;
+  int n = 0;
+  measure::run_until(s, *scene.time.until, [&] { fastest = std::max(fastest, s.global().max_speed); });
+  double worst = 0;
+  for (const measure::Sample& q : measure::samples(s)) {
+    if (measure::is_wall(s, q)) continue;
+    const auto row = start.lower_bound(q.x[1] - 0.5 * scene.spacing);
+    worst = std::max(worst, std::abs(q.p - row->second));
+    if (q.x[1] < lowest + 0.5 * scene.spacing) floor += q.p, ++n;
+  }
+  std::printf("magma column to %.1f s: fastest %.3f m/s, p at the floor %.4f of the weight\n",
+              s.global().time, fastest, floor / n / weight);
+  EXPECT_LE(fastest, 0.06);
+  EXPECT_LE(worst, 0.01 * weight);
+  EXPECT_NEAR(floor / n, weight, 0.005 * weight);
 }
 
 }  // namespace

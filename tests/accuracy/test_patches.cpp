@@ -74,10 +74,10 @@ TEST(Solids, UpdatedPatchInRotation) {
   const double before = 0.25 * 9, after = 0.25 * (xx - yy) * (xx - yy) + xy * xy;
   std::printf("quarter turn, updated: s_xx %.4f (-1), s_yy %.4f (2), s_xy %.4f (0), invariant %+.1e\n", xx,
               yy, xy, after / before - 1);
-  EXPECT_NEAR(xx, -1, 0.02);
-  EXPECT_NEAR(yy, 2, 0.02);
-  EXPECT_NEAR(xy, 0, 0.03);
-  EXPECT_NEAR(after / before, 1, 2.5e-4);
+  EXPECT_NEAR(xx, -1, 0.002);
+  EXPECT_NEAR(yy, 2, 0.002);
+  EXPECT_NEAR(xy, 0, 0.003);
+  EXPECT_NEAR(after / before, 1, 2e-12);
 }
 
 // B4: the patch is so heavy that nothing changes its velocity, v_x = y.
@@ -103,9 +103,9 @@ TEST(Solids, UpdatedPatchInSimpleShear) {
   }
   std::printf("simple shear to 1, updated: s_xy %.4f G (0.8415), s_xx %.4f G (0.4597), s_yy %.4f G\n",
               xy / count / 1e6, xx / count / 1e6, yy / count / 1e6);
-  EXPECT_NEAR(xy / count / 1e6, 0.841471, 0.02 * 0.841471);
-  EXPECT_NEAR(xx / count / 1e6, 0.459698, 0.02 * 0.459698);
-  EXPECT_NEAR(yy / count / 1e6, -0.459698, 0.02 * 0.459698);
+  EXPECT_NEAR(xy / count / 1e6, 0.841471, 0.003 * 0.841471);
+  EXPECT_NEAR(xx / count / 1e6, 0.459698, 0.003 * 0.459698);
+  EXPECT_NEAR(yy / count / 1e6, -0.459698, 0.003 * 0.459698);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, StressDivergence, Viscosity, ArtificialViscosity>(),
       List::template fuse<Quintic, Deformation, BodyContactEnergy>(),
       List::template fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
-      List::template fuse<Quintic, NumberDensity>(),
+      List::template fuse<Quintic, NumberDensity, GasMoments>(),
       List::template fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
       List::template fuse<Quintic, IdaGradient>(),
       List::template fuse<Quintic, IdaStress>(),

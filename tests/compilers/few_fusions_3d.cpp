@@ -10,6 +10,7 @@ std::vector<Fusion> few() {
   return {
       List::template fuse<Quintic, VelocityGradient, DensityDiffusion>(),
       List::template fuse<Quintic, WallExtrapolation>(),
+      List::template fuse<Quintic, WallShare>(),
       List::template fuse<Quintic, StressDivergence, Viscosity>(),
   };
 }

@@ -61,7 +61,12 @@ void run(const decomp::Comm& comm, const std::string& folder, const Case& c) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
+  const bool help = argc == 2 && (std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h");
+  if (argc != 2 || argv[1][0] == '-') {
+    std::fputs("fingerprints FOLDER: those of the scenes in FOLDER after some steps\n",
+               help ? stdout : stderr);
+    return help ? 0 : 2;
+  }
   MPI_Init(&argc, &argv);
   int status = 0;
   try {

@@ -6,12 +6,12 @@ from source_files import at, code, cpp
 
 STANDARD = re.compile(r"^[a-z_0-9]+$")
 OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "signal.h", "sys/stat.h", "sys/types.h", "sys/wait.h", "sys/statvfs.h",
-                    "sys/resource.h", "sys/mman.h", "malloc.h", "stdlib.h", "time.h"}
+                    "sys/resource.h", "sys/mman.h", "sys/file.h", "sys/prctl.h", "malloc.h", "stdlib.h", "time.h"}
 
 # header: files that may include it
 HIDDEN = {
     r"metis\.h": r"libdecomp/src/metis\.cpp",
-    r"hdf5\.h": r"libsph/src/output/hdf5_file\.cpp|benchmarks/scale_sim/check\.cpp",
+    r"hdf5\.h": r"libsph/src/output/(hdf5_file|memory_file)\.cpp|benchmarks/scale_sim/check\.cpp",
     r"toml\+\+/.*": r"libsph/src/scene/toml_tree\.cpp",
     r"nlohmann/.*": r"libsph/src/.*\.cpp|benchmarks/.*\.cpp",
     r"sleef\.h": r"libsph/src/physics/exact_math\.cpp",

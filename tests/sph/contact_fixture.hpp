@@ -49,7 +49,7 @@ template <class Normal, class Friction = Coulomb, class Rolling = NoRolling>
 struct Pair {
   Body i, j;
   bool wall = false;  ///< i is a plane through i.x with the normal +y, and moves as it is told
-  ContactConstants<V> k{V::zero(), V::zero(), V::zero(), V::zero(),
+  ContactConstants<V> k{V::zero(), V::zero(), V::zero(), V::zero(), V::zero(),
                         V::zero(), V::zero(), V::zero(), V::zero()};
   V3 gravity{V::zero(), V::zero(), V::zero()};
   V dt = 1e-3;

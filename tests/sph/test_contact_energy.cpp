@@ -96,7 +96,7 @@ TEST(ContactEnergy, ImpactsNeverGain) {
 TEST(ContactEnergy, CyclesMakeNone) {
   const double depth = 1e-5, swing = 1e-7;
   Contact<V> c{};
-  const ContactConstants<V> k{V(5e10), V(2e10), V(0.0), V(0.0), V(10.0), V(0.0), V(0.0), V(0.0)};
+  const ContactConstants<V> k{V(5e10), V(2e10), V(0.0), V(0.0), V(10.0), V(0.0), V(0.0), V(0.0), V(0.0)};
   c.normal[0] = 0, c.normal[1] = 1, c.normal[2] = 0;
   c.radius = 0.01;
   c.mass = 1;

@@ -33,7 +33,7 @@ TEST(ContactFriction, MindlinDeresiewicz) {
   c.mass = 1;
   c.dt = 1e-6;
   c.roll[0] = c.roll[1] = c.roll[2] = 0;
-  const ContactConstants<V> k{modulus, shear, 0.1, 0.0, mu, 0.0, 0.0, 0.0};
+  const ContactConstants<V> k{modulus, shear, 0.1, 0.0, mu, 0.0, 0.0, 0.0, 0.0};
   const NormalForce<V> normal = HertzNormal::force(c, k);
   const double patch = std::sqrt(radius * overlap), n = 4.0 / 3 * modulus * patch * overlap;
   EXPECT_NEAR(normal.force[0] / n, 1, 1e-14);
@@ -63,7 +63,7 @@ Pair<LinearNormal, Coulomb, Rolling> resting(V friction, const V& angle, double 
   p.wall = true;
   p.j.radius = radius;
   p.j.inverse_mass = 1.0;
-  p.k = {V(1e6), V(2e6 / 7), V(0.4), V(1.0), friction, V(0.0), V(0.0), V(0.0)};
+  p.k = {V(1e6), V(2e6 / 7), V(0.4), V(1.0), friction, V(0.0), V(0.0), V(0.0), V(0.0)};
   p.gravity[0] = lanes([&](int l) { return g * std::sin(angle[l]); });
   p.gravity[1] = lanes([&](int l) { return -g * std::cos(angle[l]); });
   p.j.x[1] = V(radius) + p.gravity[1] / p.k.stiffness;

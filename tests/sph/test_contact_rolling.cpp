@@ -26,7 +26,8 @@ Pair<Normal, Friction, RollingSpring> resting(double stiffness) {
   p.k = {V(stiffness), V(2.0 / 7 * stiffness),
          V(0.4),       V(1.0),
          V(0.8),       lanes([](int l) { return rolling[l]; }),
-         V(0.0),       V(0.0)};
+         V(0.0),       V(0.0),
+         V(0.0)};
   p.gravity[1] = -g;
   const double overlap = std::is_same_v<Normal, HertzNormal>
                              ? std::pow(0.75 * g / (stiffness * std::sqrt(radius)), 2.0 / 3)
@@ -126,7 +127,7 @@ TEST(ContactRolling, SwingsOnAfterTheStop) {
 // Overlap and roll go round a closed loop, in all phases to each other: the spring may not give energy.
 TEST(ContactRolling, CyclesMakeNoEnergy) {
   Contact<V> c{};
-  const ContactConstants<V> k{V(1e8), V(0.0), V(0.0), V(0.0), V(0.0), V(0.3), V(0.0), V(0.0)};
+  const ContactConstants<V> k{V(1e8), V(0.0), V(0.0), V(0.0), V(0.0), V(0.3), V(0.0), V(0.0), V(0.0)};
   c.normal[0] = 1, c.normal[1] = c.normal[2] = 0;
   c.radius = radius;
   c.mass = 1;

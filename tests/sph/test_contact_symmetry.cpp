@@ -73,8 +73,8 @@ struct Case {
   void each_scalar(F apply) {
     for (V* v : {&contact.overlap, &contact.separation, &contact.radius, &contact.mass, &contact.dt,
                  &k.stiffness, &k.shear_stiffness, &k.damping, &k.shear_damping, &k.friction,
-                 &k.rolling_friction, &k.least_force, &k.rolling_damping, &normal.force, &normal.elastic,
-                 &normal.shear_stiffness, &normal.shear_change, &normal.dashpot})
+                 &k.rolling_friction, &k.damping_change, &k.least_force, &k.rolling_damping, &normal.force,
+                 &normal.elastic, &normal.shear_stiffness, &normal.shear_change, &normal.dashpot})
       apply(*v);
   }
 };
@@ -184,7 +184,7 @@ TEST(ContactSymmetry, BodiesAreExchangeable) {
       }
     }
     p.j.x[0] = p.i.x[0] + V(0.1);  // never at one point
-    p.k = {V(100.0), V(80.0), V(0.3), V(0.5), V(0.4), V(0.1), V(0.0), V(0.3)};
+    p.k = {V(100.0), V(80.0), V(0.3), V(0.5), V(0.4), V(0.1), V(0.3), V(-0.01), V(0.0)};
     P q = p;
     std::swap(q.i, q.j);
     p.steps(3);

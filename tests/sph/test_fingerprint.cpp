@@ -80,6 +80,12 @@ TEST(Fingerprint, ChangesWithEveryGlobalValue) {
   g = make_global();
   g.fluid_volume.start = 1;
   EXPECT_NE(print_of(comm, p, g), before);
+  g = make_global();
+  g.motion.velocity[2] = 1;
+  EXPECT_NE(print_of(comm, p, g), before);
+  g = make_global();
+  g.motion.unlike = 1;
+  EXPECT_NE(print_of(comm, p, g), before);
   PositionScale scale = make_scale();
   scale.quantum /= 2;
   EXPECT_NE(fingerprint(comm, p, make_global(), scale, make_wrap()), before);

@@ -19,7 +19,7 @@ Performance some_performance() {
   p.ranks = 8;
   p.steps = 10000;
   p.particles = 1020000;
-  p.end = {10000, 2.0, 2e-4, 1, 1, {}, {}};
+  p.end = {10000, 2.0, 2e-4, 1, 1, {}, {}, {}};
   p.wall_seconds = 124.3;
   p.imbalance = 1.06;
   p.rebuilds = 231;
@@ -34,7 +34,7 @@ Performance some_performance() {
 
 TEST(Report, StatusLine) {
   Status s;
-  s.global = {12000, 1.234, 1e-4, 0, 0, {}, {}};
+  s.global = {12000, 1.234, 1e-4, 0, 0, {}, {}, {}};
   s.particle_steps_per_second = 1.9e7;
   s.imbalance = 1.07;
   s.kinetic_energy = 321;

@@ -11,28 +11,26 @@
 // (compare at every step), --limit SECONDS (start no row after that long). The last line is "N passed, M
 // failed"; exit status 1 if any failed.
 #include <mpi.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
-#include <memory>
 #include <set>
 #include <stdexcept>
 
 #include "covering_array.hpp"
+#include "first_ranks.hpp"
 #include "matrix_case.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace equivalence;
-
-constexpr int most_ranks = 8;
 
 struct Options {
   enum class Mode { array, full, row } mode = Mode::array;
@@ -43,7 +41,30 @@ struct Options {
   std::string row, log, scenes;
   std::size_t part = 1, parts = 1;
   double limit = 1e9;  ///< [s]
+  bool help = false;
 };
+
+constexpr const char* usage =
+    "equivalence: the same bits on any number of ranks. On 8 ranks:\n"
+    "  --array SEED [--scenes START]   a covering array of the factors; of scenes whose names start so\n"
+    "  --full --part i/n --log FILE    every row in random order; those in FILE are not run again\n"
+    "  --row \"scene=... ranks=...\"     one row, as printed\n"
+    "  --grains | --sph                scenes of which, default: sph\n"
+    "  --seed S                        of the order, the cuts and the restarts, default: 1\n"
+    "  --steps N, --long N             the last that is compared: 300; of every eighth row of an array: "
+    "2000\n"
+    "  --every                         compare at every step\n"
+    "  --limit SECONDS                 start no row after that long";
+
+/// Reads all of the text as a number, or says which option wants one.
+template <class T>
+T number(const std::string& key, const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw std::runtime_error(key + " wants a number, not \"" + text + "\"");
+  return value;
+}
 
 Options parse(int argc, char** argv) {
   Options o;
@@ -53,8 +74,10 @@ Options parse(int argc, char** argv) {
       if (++k == argc) throw std::runtime_error(key + " wants a value");
       return argv[k];
     };
-    if (key == "--array")
-      o.seed = std::stoull(value());
+    if (key == "--help" || key == "-h")
+      o.help = true;
+    else if (key == "--array")
+      o.seed = number<std::uint64_t>(key, value());
     else if (key == "--full")
       o.mode = Options::Mode::full;
     else if (key == "--grains")
@@ -64,11 +87,11 @@ Options parse(int argc, char** argv) {
     else if (key == "--row")
       o.mode = Options::Mode::row, o.row = value();
     else if (key == "--seed")
-      o.seed = std::stoull(value());
+      o.seed = number<std::uint64_t>(key, value());
     else if (key == "--steps")
-      o.steps = std::stoll(value());
+      o.steps = number<std::int64_t>(key, value());
     else if (key == "--long")
-      o.long_steps = std::stoll(value());
+      o.long_steps = number<std::int64_t>(key, value());
     else if (key == "--every")
       o.every = true;
     else if (key == "--log")
@@ -76,7 +99,7 @@ Options parse(int argc, char** argv) {
     else if (key == "--scenes")
       o.scenes = value();
     else if (key == "--limit")
-      o.limit = std::stod(value());
+      o.limit = number<double>(key, value());
     else if (key == "--part") {
       if (std::sscanf(value().c_str(), "%zu/%zu", &o.part, &o.parts) != 2 || o.part < 1 || o.part > o.parts)
         throw std::runtime_error("--part wants i/n with 1 <= i <= n");
@@ -118,56 +141,6 @@ std::vector<Case> cases_of(const Options& o) {
   return cases;
 }
 
-/// A barrier at which waiting costs nothing: ranks that have no part in a row must not take the cores of
-/// those that have.
-void sleep_until_all_are_here(MPI_Comm world) {
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibarrier(world, &request);
-  int done = 0;
-  for (unsigned nap = 100; MPI_Test(&request, &done, MPI_STATUS_IGNORE), done == 0;
-       nap = std::min(nap * 2, 3200U))
-    usleep(nap);
-}
-
-/// Communicators of the first k ranks, k = 1 to 8; null where this rank is not among them.
-class SubComms {
- public:
-  explicit SubComms(const decomp::Comm& world) {
-    for (int k = 1; k <= most_ranks; ++k) {
-      MPI_Comm part = MPI_COMM_NULL;
-      MPI_Comm_split(world.get(), world.rank() < k ? 0 : MPI_UNDEFINED, world.rank(), &part);
-      if (part == MPI_COMM_NULL) continue;
-      comms_[static_cast<std::size_t>(k)] = std::make_unique<decomp::Comm>(part);
-      MPI_Comm_free(&part);
-    }
-  }
-  [[nodiscard]] const decomp::Comm* first(int k) const { return comms_[static_cast<std::size_t>(k)].get(); }
-
- private:
-  std::array<std::unique_ptr<decomp::Comm>, most_ranks + 1> comms_;
-};
-
-/// A directory of rank 0's making that goes with it.
-class Scratch {
- public:
-  explicit Scratch(const decomp::Comm& world) : mine_(world.rank() == 0) {
-    std::string name = (fs::temp_directory_path() / "equivalence_XXXXXX").string();
-    if (mine_ && mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-    path_ = world.broadcast(name, 0);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    if (mine_) fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  bool mine_;
-  fs::path path_;
-};
-
 std::string steps_text(std::int64_t steps) { return ", " + std::to_string(steps) + " steps,"; }
 
 /// Rows that earlier runs have found good over as many steps: lines "ok <row> | ..., N steps, ...".
@@ -186,7 +159,7 @@ class Matrix {
       : world_(world),
         options_(options),
         comms_(world),
-        scratch_(world),
+        scratch_(world, "equivalence"),
         cases_(options.seed, scratch_.path()) {
     if (world.rank() != 0 || options.log.empty()) return;
     done_ = passed_before(options.log, options.steps);
@@ -269,12 +242,27 @@ class Matrix {
 }  // namespace
 
 int main(int argc, char** argv) {
+  Options options;
+  try {
+    options = parse(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "equivalence: error: %s (see --help)\n", error.what());
+    return 2;
+  }
+  if (options.help) {
+    std::puts(usage);
+    return 0;
+  }
   MPI_Init(&argc, &argv);
   int failed = 0;
   try {
     const decomp::Comm world(MPI_COMM_WORLD);
-    if (world.size() != most_ranks) throw std::runtime_error("the matrix runs on 8 ranks");
-    const Options options = parse(argc, argv);
+    if (world.size() != most_ranks) {
+      if (world.rank() == 0)
+        std::fprintf(stderr, "equivalence: error: runs on 8 ranks, not %d\n", world.size());
+      MPI_Finalize();
+      return 2;
+    }
     failed = Matrix(world, options).run(cases_of(options));
   } catch (const std::exception& error) {
     // A rank that has given up cannot tell the others, who wait for it.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <numeric>
 #include <stdexcept>
 
+#include "random_cuts.hpp"
+#include "saved_state.hpp"
+#include "shuffled_start.hpp"
 #include "sph/checkpoint.hpp"
 #include "sph/snapshot.hpp"
 
@@ -13,24 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-sph::Provenance provenance_of(const sph::Simulation& simulation) {
-  sph::Provenance provenance{sph::to_toml(simulation.scene()), simulation.fingerprint(), {}};
-  for (const sph::Group& g : simulation.scene().groups) provenance.group_names.push_back(g.name);
-  return provenance;
-}
-
-void write_state(const fs::path& path, const sph::Simulation& s) {
-  sph::write_snapshot(s.comm(), path, s.particles(), s.global(), s.scale(), s.wrap(), provenance_of(s), {},
-                      s.particle_count());
-}
-
-void write_restart(const fs::path& dir, const sph::Simulation& s) {
-  const sph::RunRecord record{s.global(), s.scale(), sph::to_toml(s.scene()), ""};
-  const decomp::Payload contacts = s.contacts();
-  sph::write_checkpoint(s.comm(), dir, s.particles(), s.has_history() ? &contacts : nullptr, record, s.wrap(),
-                        provenance_of(s), 0);
-}
-
 /// The scene as anybody would run it on one rank.
 sph::Scene reference_scene(const Row& row) {
   sph::Scene scene = scene_of(row);
@@ -38,65 +22,6 @@ sph::Scene reference_scene(const Row& row) {
   scene.decomposition = {};
   scene.decomposition.cut_axes = axes;
   return scene;
-}
-
-/// The particles of the start in a random order, as a user's file may have them: each rank reads an equal
-/// share of the lines, so that it gets particles from everywhere. 17 digits give every double back.
-void write_shuffled_start(const fs::path& path, const sph::Simulation& s, std::uint64_t seed) {
-  const sph::Particles& p = s.particles();
-  const auto d = static_cast<std::size_t>(p.dim());
-  std::vector<std::size_t> order(p.owned());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t n = order.size(); n > 1; --n)
-    std::swap(order[n - 1], order[draw(seed, "line" + std::to_string(n)) % n]);
-
-  const double *gas = p.data<sph::Field::gas_content>(), *radius = p.data<sph::Field::radius>();
-  const double *energy = p.data<sph::Field::specific_energy>(), *mass = p.data<sph::Field::mass>();
-  std::ofstream out(path);
-  out.precision(17);
-  out << (d == 2 ? "id,x,y,vx,vy,group," : "id,x,y,z,vx,vy,vz,group,")
-      << (radius != nullptr ? "radius" : "rho") << (gas != nullptr ? ",m" : "")
-      << (energy != nullptr ? ",u,mass" : "");
-  for (const std::size_t i : order) {
-    out << '\n' << p.data<sph::Field::id>()[i];
-    for (std::size_t a = 0; a < d; ++a)
-      out << ',' << s.scale().metres(p.data<sph::Field::position>()[i * d + a]);
-    for (std::size_t a = 0; a < d; ++a) out << ',' << p.data<sph::Field::velocity>()[i * d + a];
-    out << ',' << s.scene().groups[p.data<sph::Field::group>()[i]].name << ','
-        << (radius != nullptr ? radius[i] : p.data<sph::Field::density>()[i]);
-    if (gas != nullptr) out << ',' << gas[i];
-    if (energy != nullptr) out << ',' << energy[i] << ',' << mass[i];
-  }
-  out << '\n';
-  if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
-}
-
-/// The first cuts that chaos draws.
-std::vector<decomp::Cuts> random_cuts(const decomp::Cuts& start, std::uint64_t seed, std::int64_t count) {
-  const auto policy = decomp::make_chaos(seed);
-  std::vector<decomp::Cuts> drawn;
-  for (std::int64_t k = 0; k < count; ++k)
-    drawn.push_back(policy->next(drawn.empty() ? start : drawn.back(), {},
-                                 {start.row.back(), start.column.front().back()}));
-  return drawn;
-}
-
-/// Is there a cut through the middle half of a line?
-bool divides(const std::vector<std::int64_t>& cut) {
-  return std::any_of(cut.begin(), cut.end(),
-                     [&](std::int64_t c) { return 4 * c >= cut.back() && 4 * c <= 3 * cut.back(); });
-}
-
-/// Chaos likes to leave everything to one rank, and with large lists it is not asked often: a seed with which
-/// two of the first three cuts divide the particles.
-std::uint64_t dividing_seed(const decomp::Cuts& start, std::uint64_t seed) {
-  for (seed >>= 1;; ++seed) {
-    const std::vector<decomp::Cuts> drawn = random_cuts(start, seed, 3);
-    if (std::count_if(drawn.begin(), drawn.end(), [](const decomp::Cuts& c) {
-          return divides(c.row) || std::any_of(c.column.begin(), c.column.end(), divides);
-        }) >= 2)
-      return seed;
-  }
 }
 
 std::string lines_of(const fs::path& path) {
@@ -137,7 +62,8 @@ void Cases::prepare(const decomp::Comm& one, const Case& c) {
   if (!reference.simulation) {
     reference.simulation = std::make_unique<sph::Simulation>(one, reference_scene(c.row));
     reference.start = liveliness(*reference.simulation);
-    write_shuffled_start(start_file(c.row), *reference.simulation, seed_);
+    if (!write_shuffled_start(start_file(c.row), *reference.simulation, seed_))
+      throw std::runtime_error("a position of this scene is no double: its start cannot be a file");
   }
   sph::Simulation& simulation = *reference.simulation;
   while (simulation.global().step < c.steps.back()) {
@@ -170,9 +96,8 @@ void Cases::set_cuts(const decomp::Comm& comm, const Row& row, const Leg& leg, s
   d.replay = (run_dir(row) / "cuts.txt").string();
   d.record = (run_dir(row) / "followed.txt").string();
   if (comm.rank() == 0) {
-    std::ofstream out(d.replay);
-    for (const decomp::Cuts& c : random_cuts(start, d.chaos_seed, leg.to - leg.from + 2))
-      out << decomp::to_text(c) << '\n';
+    write_random_cuts(d.replay, start, d.chaos_seed, leg.to - leg.from + 2);
+    fs::remove(d.record);  // of the leg before: a record is appended to
   }
   comm.barrier();
 }
@@ -205,7 +130,7 @@ Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
     return {"step " + std::to_string(step), simulation->counters().rebuilds};
   }
   if (leg.to - leg.from >= 100) check_shared_out(*simulation, shared);
-  if (leg.to < c.steps.back()) write_restart(run_dir(row), *simulation);
+  if (leg.to < c.steps.back()) write_restart(run_dir(row), *simulation, 0);
   Outcome outcome{"", simulation->counters().rebuilds};
   if (comm.rank() == 0 && !scene.decomposition.record.empty() &&
       !lines_of(scene.decomposition.replay).starts_with(lines_of(scene.decomposition.record)))

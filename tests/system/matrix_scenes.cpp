@@ -24,7 +24,7 @@ const std::vector<Source>& sources() {
         "time.dt=2e-3", "start.jitter=0.1", "start.velocity=[3, -1]"}},
       {"gas2d",
        "apps/buoyant_cylinder/gas.toml",
-       {"domain.lower=[-4, -4]", "domain.upper=[52, 76]", "group.melt.bulk_modulus=",
+       {"domain.lower=[-12, -4]", "domain.upper=[60, 76]", "group.melt.bulk_modulus=",
         "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7", "group.spray.bulk_modulus=5e7",
         "time.dt=", "time.cfl=0.6", "start.jitter=0.1", "start.velocity=[2, 2]",
         "start.region.3.centre=[22, 32]", "group.cylinder.fragmentation.void_fraction=0.35"}},
@@ -52,6 +52,12 @@ const std::vector<Source>& sources() {
        {"group.melt.viscosity=1e5", "terms.implicit_viscosity=true", "terms.viscosity=symmetric"}},
       // shifting beside a free surface, walls that slip
       {"fluid3d", "tests/scenes/box3d_fluid.toml", {"terms.shifting=true", "group.wall.slip=true"}},
+      // thrown about in a closed tank: walls that hold torn fluid, shifting beside a free surface
+      {"dam2d",
+       "benchmarks/accuracy/dam_break.toml",
+       {"domain.upper=[5.866, 2.6]", "start.spacing=0.05", "start.lower=[-0.2, -0.2]",
+        "start.upper=[5.575, 2.2]", "start.velocity=[5, -3]", "start.region.1.upper=[5.375, 2]",
+        "start.region.2.upper=[4, 1]", "terms.shifting=true", "time.until=", "time.steps=1"}},
       // smaller balls: those of the file fill the channel and push melt through its walls
       {"solid3d",
        "tests/scenes/box3d_solid.toml",
@@ -59,6 +65,11 @@ const std::vector<Source>& sources() {
       {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.fragmentation.void_fraction=0.09"}},
       // ideal gases: energy is state, and the time step follows the hottest particle
       {"blast2d", "tests/scenes/blast2d.toml", {}},
+      // kernels of all widths: lists go by the wider of a pair
+      {"blast2d_wide",
+       "tests/scenes/blast2d.toml",
+       {"kernel.least_growth=0.3", "kernel.largest_growth=1.15", "domain.periodic=[true, true]",
+        "domain.lower=[0, 0]", "domain.upper=[1.3, 0.3]", "start.region.0.group=air"}},
       // total-Lagrangian: clamped, in contact, through a periodic face
       {"bodies2d", "tests/scenes/bodies2d.toml", {}},
       {"bodies3d", "tests/scenes/bodies3d.toml", {}},

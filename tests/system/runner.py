@@ -49,7 +49,10 @@ class Runner:
         return start + [str(self.programs / program)] + [str(a) for a in arguments]
 
     def start(self, ranks, program, *arguments, **options):
-        return subprocess.Popen(self.command(ranks, program, arguments), cwd=self.folder, env=self.environment,
+        return self.start_command(self.command(ranks, program, arguments), **options)
+
+    def start_command(self, command, **options):
+        return subprocess.Popen([str(word) for word in command], cwd=self.folder, env=self.environment,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
     def finish(self, process, timeout=240):

@@ -36,6 +36,9 @@ class Plot(unittest.TestCase):
         cls.refusing = importlib.import_module("run_folder").refusing
         for case in ("solid", "gas"):
             cls.run_of.run(2, "buoyant_cylinder", cases / f"{case}.toml", *OPTIONS, "--out", case)
+        scenes = Path(given.source).resolve() / "benchmarks/accuracy"
+        cls.run_of.run(2, "peperite", "run", scenes / "hydrostatic.toml", "--steps", 10, "--out", "tank")
+        cls.run_of.run(1, "peperite", "run", scenes / "magma_column.toml", "--steps", 1, "--out", "foam")
 
     @classmethod
     def tearDownClass(cls):
@@ -97,6 +100,83 @@ class Plot(unittest.TestCase):
             pictures.add((self.folder / path).read_bytes())
         self.assertEqual(len(pictures), 4)
 
+    def test_pressure_less_hydrostatic_at_the_start(self):
+        for case, (density, depth) in {"solid": (2500, 62.5), "gas": (2500, 62.5)}.items():
+            run = self.script.Run(self.folder / case)
+            first = run.snapshots[0]
+            self.assertEqual(first.step, 0)
+            (_, pressure, limits, _, label), (_, excess, *_) = self.script.pressure_maps(run, first)
+            self.assertIn("(MPa)", label)
+            movers = ~run.is_wall(first)
+            deep = depth - first.position[movers, 1]
+            # p + p_0 = K (exp(rho_0 g d / K) - 1) + p_0 exp(rho_0 g d / K), Ida's atmosphere included.
+            growth = np.expm1(density * 9.8 * deep / 1e10)
+            at_rest = (1e10 + 1e5) * growth
+            melt = first.group[movers] == 0
+            self.assertLess(np.abs(pressure[movers] * 1e6 - at_rest)[melt].max(), 0.05, case)
+            self.assertLess(np.abs(run.at_rest(first)[movers] - at_rest).max(), 0.05, case)
+            self.assertLess(np.abs(first.pressure - run.at_rest(first))[movers].max(), 0.05, case)
+            self.assertAlmostEqual(limits[1], 2500 * 9.8 * 60.5 / 1e6, delta=0.02)
+            greater, smaller, _ = first.principal_stresses(run.at_rest(first))
+            self.assertLess(max(np.abs(greater[movers]).max(), np.abs(smaller[movers]).max()), 0.05, case)
+
+    def test_layers_at_rest(self):
+        at_rest = importlib.import_module("at_rest")
+        light = {"name": "light", "kind": "fluid", "density": 1000, "bulk_modulus": 1e10}
+        heavy = {"name": "heavy", "kind": "fluid", "density": 2000, "bulk_modulus": 1e10}
+        foam = {"name": "foam", "kind": "fluid", "eos": "bubbly", "density": 2500, "bulk_modulus": 1e10,
+                "gas_content": 0.03, "gas_rt": 5e5, "solubility_pressure": 1e11, "solubility_exponent": 0.5}
+        domain = {"gravity": [0, 0, -10.0], "surface_pressure": 1e5}
+        depth = np.linspace(0, 5, 201)
+        places = np.stack([0 * depth, 0 * depth, 7 - depth], axis=1)
+        scene = {"domain": domain, "group": [heavy, light, foam], "start": {
+            "layer": [{"group": "light", "top": 7.0}, {"group": "heavy", "top": 5.0}]}}
+        wanted = np.where(depth < 2, 1e4 * depth, 2e4 + 2e4 * (depth - 2))
+        self.assertLess(np.abs(at_rest.pressure_at_rest(scene, places, 0) / np.maximum(wanted, 1) - 1)[1:].max(), 5e-5)
+        scene["start"] = {"layer": [{"group": "foam", "top": 7.0}]}
+        p = at_rest.pressure_at_rest(scene, places, 0)
+        slope = (p[2:] - p[:-2]) / (depth[2:] - depth[:-2])
+        # Of the mixture at 1 bar and below: 1 / rho = (1 - xi) / rho_l + xi R T / p.
+        absolute = p[1:-1] + 1e5
+        free = (0.03 - np.sqrt(absolute / 1e11)) / 1.03
+        density = 1 / ((1 - free) / (2500 * (1 + absolute / 1e10)) + free * 5e5 / absolute)
+        self.assertLess(density.max(), 100)  # it is a foam
+        self.assertLess(np.abs(slope / (10 * density) - 1).max(), 1e-3)
+        self.assertIsNone(at_rest.pressure_at_rest({**scene, "domain": {}}, places, 0))
+        run = self.script.Run(self.folder / "foam")  # which the program starts at rest by an integration of its own
+        first = run.snapshots[0]
+        excess = (first.pressure - run.at_rest(first))[~run.is_wall(first)]
+        self.assertLess(np.abs(excess).max(), 1e-3 * 1000 * 9.8)
+
+    def test_units_fit_the_numbers(self):
+        figures = importlib.import_module("figures")
+        for value, name, wanted in ((2.3e9, "Pa", "2.3 GPa"), (1e6, "Pa", "1 MPa"), (999, "Pa", "999 Pa"),
+                                    (0.02, "Pa", "20 mPa"), (1500, "m", "1500 m"), (0.0035, "s", "3.5 ms"), (0, "Pa", "0 Pa")):
+            self.assertEqual(figures.text_with_unit(value, name), wanted)
+        run = self.script.Run(self.folder / "tank")
+        (_, pressure, limits, _, label), _ = self.script.pressure_maps(run, run.snapshots[0])
+        self.assertIn("(kPa)", label)
+        highest = pressure[~run.is_wall(run.snapshots[0])].max()
+        self.assertTrue(9.5 < highest < 9.8 and 9.5 < limits[1] < 9.8, (highest, limits))
+
+    def test_a_scene_that_follows_no_particle(self):
+        code, out, err = self.plot("tank")
+        self.assertEqual((code, out), (0, "tank/particles.png\ntank/pressure.png\n"))
+        self.assertEqual(err.splitlines(), [err.strip()])
+        self.assertIn("no series.png: the scene of tank follows no particle", err)
+        self.refused("tank", "--draw", "series", says="follows no particle")
+
+    def test_series_are_those_of_the_file(self):
+        run = self.script.Run(self.folder / "solid")
+        table, tracked = self.script.series_of(run)
+        self.assertEqual(sorted(tracked), ["p", "rho", "vy", "y"])
+        self.assertEqual(tracked["y"][0], 16)
+        self.assertAlmostEqual(tracked["p"][0] / 1e6, 2500 * 9.8 * 46.5 / 1e6, delta=0.01)
+        axes = self.script.draw_series([run]).axes
+        drawn = axes[3].lines[0].get_xydata()
+        self.assertIn("(MPa)", axes[3].get_ylabel())
+        self.assertTrue(np.array_equal(drawn[:, 0], table["t"]) and np.allclose(drawn[:, 1] * 1e6, tracked["p"]))
+
     def test_bad_input(self):
         self.refused("nowhere", says="nowhere")
         self.refused("solid", "--time", "soon", says="--time")
@@ -118,6 +198,77 @@ class Plot(unittest.TestCase):
             self.refused("broken", "--draw", "series", says=name)
         (self.folder / "broken" / "series.csv").unlink()
         self.refused("broken", "--draw", "series", says="series.csv")
+
+
+class ThreeDimensions(unittest.TestCase):
+    """apps/plot.py finds the script; plotting/plain.py draws what has no picture of its own."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
+        cls.folder = cls.run_of.folder
+        cls.apps = Path(given.source).resolve() / "apps"
+        sys.path.append(str(cls.apps / "plotting"))
+        cls.script = importlib.import_module("plain")
+        scenes = Path(given.source).resolve() / "tests/scenes"
+        for run, scene, interval in (("fluid", "box3d_fluid", 0.02), ("grains", "grains_pour", 0.0005)):
+            cls.run_of.run(2, "peperite", "run", scenes / f"{scene}.toml", "--steps", 100, "--set",
+                           f"output.snapshot_interval={interval}", "--out", run)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.run_of.close()
+
+    def plot(self, *arguments):
+        return subprocess.run(["/usr/bin/python3", "-B", self.apps / "plot.py", *map(str, arguments)], cwd=self.folder,
+                              capture_output=True, text=True)
+
+    def test_pictures(self):
+        for run, name in (("fluid", "slice"), ("grains", "side")):
+            done = self.plot(run)
+            self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", f"{run}/{name}.png\n"))
+            Plot.look_at(self, self.folder / run / f"{name}.png")
+        done = self.plot("fluid", "--time", 0.02, "--out", "fluid")
+        self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", "fluid/slice.png\n"))
+        for arguments, says in ((["nowhere"], "nowhere"), (["fluid", "grains"], "both"), ([], "DIR"),
+                                (["fluid", "--draw", "side"], "slice"), (["fluid", "--time", "soon"], "--time")):
+            done = self.plot(*arguments)
+            if says == "both":
+                self.assertEqual(done.stdout, "fluid/fluid_slice.png\nfluid/grains_side.png\n", done.stderr)
+                continue
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(says, done.stderr)
+
+    def test_slice_of_a_fluid(self):
+        run = self.script.Run(self.folder / "fluid")
+        view = self.script.View(run.snapshots[0])
+        self.assertEqual((view.along, view.depth, view.up), (0, 1, 2))
+        for snapshot in run.snapshots:
+            rows, place, diameter, columns = self.script.sliced(run, snapshot, view)
+            position, velocity = snapshot["position"], snapshot["velocity"]
+            inside = np.flatnonzero(np.abs(position[:, 1] - view.middle) < run.spacing)
+            self.assertTrue(np.array_equal(np.sort(rows), inside))
+            self.assertTrue(np.array_equal(place, position[rows][:, [0, 2]]))
+            self.assertTrue(np.allclose(diameter, run.spacing, rtol=0.02))
+            self.assertTrue(np.allclose(columns["speed"][1]**2, (velocity[rows]**2).sum(axis=1)))
+            self.assertTrue(np.array_equal(columns["pressure"][1], snapshot["pressure"][rows]))
+
+    def test_grains_from_the_side(self):
+        run = self.script.Run(self.folder / "grains")
+        first, last = run.snapshots[:2]
+        view = self.script.View(first)
+        self.assertEqual((view.along, view.depth, view.up), (0, 1, 2))
+        rows, place, diameter, columns = self.script.from_the_side(run, last, view)
+        depth = last["position"][rows, 1]
+        self.assertTrue(np.all(np.diff(depth) <= 0), "the nearest is drawn last")
+        self.assertTrue(np.array_equal(diameter, 2 * last["radius"][rows]))
+        # x(t) = v t + g t^2 / 2, also through the periodic faces, but for the few that touch each other at the start.
+        t, gravity = last.time - first.time, np.array([3.355, 0, -9.218])
+        flight = np.linalg.norm(np.array([0.4, 0.1, -0.3]) * t + 0.5 * gravity * t * t)
+        high = first["position"][rows, 2] > 0.007
+        self.assertGreater(np.sum(high), 1000)
+        self.assertGreater(np.mean(np.abs(columns["displacement"][1][high] / flight - 1) < 1e-3), 0.95)
 
 
 class Sandbox(unittest.TestCase):

@@ -30,7 +30,7 @@ class HaloPlan {
            Table& table);
 
   /// Sends the named columns of the rows in the plan. Position columns get the image shift on arrival.
-  /// Between begin and end the halo rows of these columns are undefined (all bits set in debug builds);
+  /// Between begin and end the halo rows of these columns are undefined (poison.hpp);
   /// their owned rows may change as soon as begin returns.
   void begin(Table& table, std::span<const int> columns);
   void progress();  ///< cheap; lets messages move while the caller computes between begin and end

@@ -6,7 +6,9 @@
 // The history of a contact lives in the list, beside its pair, oriented as the pair is. At a rebuild it
 // travels with the grains: every owned grain carries an entry for each contact it has, keyed by the partner's
 // id (or the wall's key), with forces and torques as they act on the carrier. It exists exactly while the
-// pair touches.
+// pair touches: a step ends with grains where the next sweep will find them, so that a pair may have parted
+// since its history was last looked at. Such a history is nobody's any more, near or far; until that sweep it
+// is kept beside the lists, or the state would tell whether lists were rebuilt before it was written.
 #pragma once
 
 #include <array>
@@ -24,12 +26,13 @@
 namespace sph {
 
 /// Partner keys of walls lie above all ids of particles.
-inline constexpr std::uint64_t wall_key = std::uint64_t{1} << 63;
+inline constexpr std::uint64_t wall_key = largest_id + 1;
 
 /// Groups of eight pairs (i, j); j is a row, or the index of a wall. Unused lanes hold i = j (rows), or a
 /// wall that does not exist.
 struct ContactGroups {
   static constexpr std::size_t lanes = 8;
+  static constexpr std::uint32_t no_wall = ~std::uint32_t{0};
   decomp::LargeVector<std::uint32_t> i, j;  ///< [groups * lanes]
   std::vector<std::uint8_t> touching;       ///< [groups] bit l: lane l touched in the last step
   decomp::LargeVector<double> history;      ///< [groups][components][lanes]
@@ -51,10 +54,15 @@ struct PlaneNow {
   bool present;
 };
 
+/// Of a point from a plane, along its normal [m].
+[[nodiscard]] double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantum);
+
 /// What must not change while contacts move between ranks, summed over all: both entries of a pair count,
 /// since two ranks may need one each.
 struct ContactCensus {
   std::uint64_t count = 0, keys = 0;
+  std::uint64_t one_sided =
+      0;  ///< pairs that parted, + from the one side, - from the other: 0 over all ranks
   friend bool operator==(const ContactCensus&, const ContactCensus&) = default;
 };
 
@@ -71,10 +79,21 @@ class ContactLists {
 
   /// Histories of the contacts of owned rows, as entries { partner key, history as it acts on the row }.
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
-  /// Puts the entries back after build(); those of owned row r are in row order[r] of `payload`. Returns what
-  /// was put back.
+  /// Puts the entries back after build(); those of owned row r are in row order[r] of `payload`. Those whose
+  /// pair has parted stay beside the lists. Returns what has found its place in either.
   ContactCensus unpack(const Particles& particles, const decomp::Payload& payload,
-                       std::span<const std::uint32_t> order);
+                       std::span<const std::uint32_t> order, double quantum,
+                       std::span<const PlaneNow> planes);
+  /// An entry whose pair does not touch where it is now.
+  struct Parted {
+    std::uint32_t row;
+    std::uint64_t key;  ///< of the partner
+    bool listed;        ///< near enough for the lists, and looked at
+  };
+  [[nodiscard]] std::span<const Parted> parted() const { return parted_; }
+  /// When the sweep begins that would have ended them; returns how many contacts they were of.
+  std::int64_t forget_parted(const std::uint64_t* id);
+  [[nodiscard]] std::int64_t carried() const { return carried_; }  ///< entries that unpack() put back
   /// What was packed on all ranks, and must be put back on all.
   [[nodiscard]] static ContactCensus census(const Particles& particles, const decomp::Payload& payload,
                                             int history);
@@ -101,6 +120,9 @@ class ContactLists {
   std::size_t interior_blocks_ = 0;
   ContactGroups pairs_, walls_;
   std::size_t listed_ = 0;
+  std::int64_t carried_ = 0;
+  std::vector<Parted> parted_;
+  std::vector<std::byte> parted_entries_;
 };
 
 }  // namespace sph

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "sph/contact/contact.hpp"
 #include "sph/contact/friction.hpp"
@@ -29,19 +31,31 @@ struct ContactContext {
   const double* constants;  ///< [groups * groups][8], see ContactConstants; aligned
   std::uint32_t groups;
   std::span<const PlaneNow> planes;
-  std::int64_t* wall_force;  ///< [planes][3] quanta of force, added to
+  std::int64_t* wall_force;  ///< [2][planes][3] quanta of force, low halves and high halves, added to
   std::uint64_t* sums;
   double length_quantum, force_quantum, torque_quantum;
   double dt;
+  double least_force;  ///< see ContactConstants
   double gravity[3];
   double largest_overlap;  ///< in radii of the smaller grain
+};
+
+/// A contact that must not be: that of the lowest ids is kept.
+struct ContactFault {
+  static constexpr std::uint64_t nobody = ~std::uint64_t{0};
+  std::uint64_t id = nobody, partner = nobody;
+  double value = 0, limit = 0;
+  std::array<std::int64_t, 3> x{};  ///< where `id` is [quanta]
+  [[nodiscard]] bool any() const { return id != nobody; }
+  void add(const ContactFault& other) {
+    if (std::pair(other.id, other.partner) < std::pair(id, partner)) *this = other;
+  }
 };
 
 /// What a sweep reports.
 struct ContactSweep {
   double speed2 = 0, acceleration2 = 0;  ///< NaN stays
-  double force = 0;                      ///< largest component of a force or torque [quanta]
-  double overlap = 0;                    ///< largest excess over the limit [m]
+  ContactFault strong, deep;             ///< component of a force [quanta], overlap [m] beyond the limit
   std::int64_t created = 0, ended = 0;   ///< contacts, each once a rank that sees it
 };
 
@@ -102,10 +116,6 @@ struct ContactPass {
     V force[3], couple[3], roll[3];
   };
 
-  static ContactConstants<V> constants(const V (&k)[8]) {
-    return {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]};
-  }
-
   [[gnu::always_inline]] static ContactConstants<V> constants_of(const ContactContext& c,
                                                                  const std::uint32_t* pair) {
     V k[8];
@@ -113,7 +123,7 @@ struct ContactPass {
       for (int n = 0; n < 8; ++n) k[n] = V(c.constants[n]);
     else
       load_rows<8>(c.constants, pair, k);
-    return constants(k);
+    return ContactConstants<V>::of_row(k, V(c.least_force));
   }
 
   /// The laws, with the history of group `g` before and after. Lanes that do not touch answer zero and lose
@@ -166,8 +176,25 @@ struct ContactPass {
     return out;
   }
 
-  static void note(ContactSweep& sweep, V worst) {
-    for (int l = 0; l < V::lanes; ++l) sweep.force = std::max(sweep.force, worst[l]);
+  /// A force term must stay below it: 4096 of them then fit a sum.
+  static constexpr double largest_force = 0x1p50;
+
+  [[gnu::cold, gnu::noinline]] static void note(const ContactContext& c, std::uint32_t i,
+                                                std::uint64_t partner, double value, double limit,
+                                                ContactFault& fault) {
+    const std::int64_t* x = c.particles->data<Field::position>() + std::size_t{i} * 3;
+    fault.add({c.particles->data<Field::id>()[i], partner, value, limit, {x[0], x[1], x[2]}});
+  }
+  /// Of pairs, those lanes where `excess` is above 0.
+  [[gnu::cold, gnu::noinline]] static void note_pairs(const ContactContext& c, const std::uint32_t* i,
+                                                      const std::uint32_t* j, V excess, V value,
+                                                      ContactFault& fault) {
+    const std::uint64_t* id = c.particles->data<Field::id>();
+    for (int l = 0; l < V::lanes; ++l) {
+      if (!(excess[l] > 0)) continue;
+      const bool ordered = id[i[l]] < id[j[l]];
+      note(c, ordered ? i[l] : j[l], id[ordered ? j[l] : i[l]], value[l], value[l] - excess[l], fault);
+    }
   }
 
   static void add_pairs(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
@@ -216,8 +243,7 @@ struct ContactPass {
       for (std::size_t l = 0; l < lanes; ++l) pair[l] = rows.group[i[l]] * c.groups + rows.group[j[l]];
     const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
     const V excess = contact.overlap - V(c.largest_overlap) * min(ri, rj);
-    if (positive_lanes(excess) != 0)
-      for (int l = 0; l < V::lanes; ++l) sweep.overlap = std::max(sweep.overlap, excess[l]);
+    if (positive_lanes(excess) != 0) note_pairs(c, i, j, excess, contact.overlap, sweep.deep);
 
     const V force_scale(1 / c.force_quantum);
     decltype(Sums::lanes(V())) on_i[stride] = {}, on_j[stride] = {};
@@ -235,7 +261,8 @@ struct ContactPass {
         on_j[4 + a] = Sums::lanes((answer.roll[a] - rj * answer.couple[a]) * torque_scale);
       }
     }
-    if (positive_lanes(worst - V(0x1p49)) != 0) note(sweep, worst);
+    const V beyond = worst - V(largest_force);
+    if (positive_lanes(beyond) != 0) note_pairs(c, i, j, beyond, worst, sweep.strong);
     add_to_rows<stride>(rows.sums, i, on_i);
     add_to_rows<stride>(rows.sums, j, on_j);
   }
@@ -288,13 +315,20 @@ struct ContactPass {
     for (std::size_t l = 0; l < lanes; ++l) {
       const int k = static_cast<int>(l);
       if (!(contact.overlap[k] > 0)) continue;
-      sweep.overlap = std::max(sweep.overlap, contact.overlap[k] - c.largest_overlap * rows.radius[i[l]]);
+      const double deepest = c.largest_overlap * rows.radius[i[l]];
+      if (contact.overlap[k] > deepest)
+        note(c, i[l], wall_key | walls[l], contact.overlap[k], deepest, sweep.deep);
       for (int a = 0; a < 3; ++a) {
         const double f = answer.force[a][k] * (1 / c.force_quantum);
-        sweep.force = std::max(sweep.force, std::fabs(f));
+        if (std::fabs(f) > largest_force)
+          note(c, i[l], wall_key | walls[l], std::fabs(f), largest_force, sweep.strong);
         const Sum sum = Sums::scalar(f);
         rows.sums[std::size_t{i[l]} * stride + static_cast<std::size_t>(a)] -= sum;
-        c.wall_force[walls[l] * 3 + static_cast<std::uint32_t>(a)] += static_cast<std::int64_t>(sum);
+        // A wall has any number of contacts: two halves have room for 2^31 of them.
+        const std::size_t at = walls[l] * 3 + static_cast<std::size_t>(a);
+        const auto on_wall = static_cast<std::int64_t>(sum);
+        c.wall_force[at] += on_wall & 0xffffffff;
+        c.wall_force[3 * c.planes.size() + at] += on_wall >> 32;
         if constexpr (spins) {
           const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
           rows.sums[std::size_t{i[l]} * stride + 4 + static_cast<std::size_t>(a)] +=
@@ -337,7 +371,7 @@ struct ContactPass {
         const double acceleration = force * inverse_mass + c.gravity[a];
         const double v = rows.v[r * 3 + a] + acceleration * dt;
         rows.v[r * 3 + a] = v;
-        rows.x[r * 3 + a] += round_to_quanta(v * quanta);
+        rows.x[r * 3 + a] = moved_by(rows.x[r * 3 + a], round_to_quanta(v * quanta));
         v2 += v * v;
         a2 += acceleration * acceleration;
       }

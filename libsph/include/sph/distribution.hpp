@@ -12,11 +12,15 @@
 #include "decomp/halo.hpp"
 #include "decomp/migrate.hpp"
 #include "decomp/timer.hpp"
+#include "sph/findings.hpp"
 #include "sph/neighbour_lists.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
 
 namespace sph {
+
+/// The cells of a scene, the same on any number of ranks.
+[[nodiscard]] decomp::CellGrid cell_grid_of(const Scene& scene, const PositionScale& scale);
 
 class Distribution {
  public:
@@ -30,8 +34,9 @@ class Distribution {
   [[nodiscard]] const decomp::HaloPlan& halo() const { return plan_; }
   [[nodiscard]] const RowRanges& ranges() const { return ranges_; }
   [[nodiscard]] RowRanges& ranges() { return ranges_; }
-  [[nodiscard]] std::int64_t list_radius() const { return reach_; }  ///< support + skin [quanta]
-  [[nodiscard]] double skin() const { return skin_; }                ///< [m]
+  /// Of the lists since the last rebuild: how far beyond the range of interaction they reach [m].
+  [[nodiscard]] double skin() const { return skin_; }
+  [[nodiscard]] std::int64_t list_radius() const { return reach_; }  ///< range of interaction + skin [quanta]
   [[nodiscard]] decomp::Box own_cells() const { return partition_.cells(comm_.rank()); }
   [[nodiscard]] std::int64_t migrated() const { return migrated_; }  ///< rows this rank sent away
   [[nodiscard]] const decomp::BalanceAccount& balance() const { return balancer_.account(); }
@@ -39,6 +44,11 @@ class Distribution {
   /// Where cuts may follow the load: shares out the particles, wherever their rows are now, evenly. Before
   /// the first rebuild; scatter() must follow.
   void cut_by_counts(Particles& particles);
+
+  /// At the last rebuild: how far this rank's movers were from the faces through which they may leave [m].
+  [[nodiscard]] double to_face() const { return to_face_; }
+  /// Which rows of this rank lie beyond such a face.
+  [[nodiscard]] Findings outside(const Particles& particles) const;
 
   /// Sends every row, with its contacts, to its owner wherever it is: set-up and resume.
   void scatter(Particles& particles, decomp::Payload* contacts = nullptr);
@@ -48,21 +58,23 @@ class Distribution {
 
   /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
   /// plans the halo. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
-  /// since the last call. `contacts`, if there are any, migrate with their rows, but are not sorted (they may
+  /// since the last call. The lists will reach as far as the scene's skin, or `least_skin` [m] where that is
+  /// more. `contacts`, if there are any, migrate with their rows, but are not sorted (they may
   /// be most of the memory): those of row r are then in row order[r], where `order` is returned.
   std::vector<std::uint32_t> rebuild(Particles& particles, double cost_seconds, const PairCounts& pairs,
-                                     const std::vector<bool>& is_wall_group, double moved,
+                                     const std::vector<bool>& is_wall_group, double moved, double least_skin,
                                      decomp::Payload* contacts = nullptr);
 
  private:
   void cut(decomp::Cuts cuts);
+  void record_cuts();
   /// Counts for the balancer: rows and their pairs in each column of cells.
   [[nodiscard]] decomp::Balancer::CountCells counts_of(const Particles& particles,
                                                        const PairCounts& pairs) const;
   void wrap_positions(Particles& particles) const;
   [[nodiscard]] std::vector<decomp::Rank> owners(const Particles& particles) const;
   std::vector<std::uint32_t> sort_rows(Particles& particles, const std::vector<bool>& is_wall_group);
-  [[nodiscard]] std::vector<std::uint32_t> cells_along_curve() const;
+  [[nodiscard]] int curve_bits() const;
 
   const decomp::Comm& comm_;
   const Scene& scene_;
@@ -74,8 +86,10 @@ class Distribution {
   decomp::Balancer balancer_;
   decomp::HaloPlan plan_;
   RowRanges ranges_{};
-  std::vector<std::uint32_t> curve_;  ///< place along the Hilbert curve of each own cell, x fastest
+  std::vector<std::uint32_t>
+      curve_;  ///< place along the Hilbert curve of each own cell, x fastest; where they are few
   std::int64_t migrated_ = 0;
+  double to_face_ = 0;
   std::ofstream record_;
 };
 

@@ -19,6 +19,7 @@ enum class Field : std::uint8_t {
   group,
   gas_content,
   specific_energy,
+  smoothing_length,
   stress,
   radius,
   spin,
@@ -29,6 +30,8 @@ enum class Field : std::uint8_t {
   force,
   heating,
   number_density,
+  gas_moments,
+  kernel_correction,
   divergence,
   diffusion,
   velocity_gradient,
@@ -54,8 +57,19 @@ enum class Field : std::uint8_t {
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
 
-/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+2D, 2+D(D+1)/2+D*D components
-enum class Shape : std::uint8_t { scalar, two, four, vector, symmetric, matrix, spread, wall, deformation };
+/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+D, 2+2D, 2+D(D+1)/2+D*D components
+enum class Shape : std::uint8_t {
+  scalar,
+  two,
+  four,
+  vector,
+  symmetric,
+  matrix,
+  spread,
+  shifting,
+  wall,
+  deformation
+};
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
 
 /// state: its bits at the start of a step determine the next step, so it is migrated, checkpointed and
@@ -73,7 +87,7 @@ struct FieldInfo {
 };
 
 // Symmetric tensors are stored xx, yy, xy in 2D and xx, yy, zz, xy, xz, yz in 3D; matrices row by row,
-// velocity_gradient[i*D+j] = d v_i / d x_j.
+// velocity_gradient[i*D+j] = d v_i / d x_j. In snapshots tensors are xx, yy, zz, xy, yz, xz.
 inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::id, "id", "1", Type::u64, Shape::scalar, true, true, "global id, never depends on ranks"},
     {Field::position, "position", "quantum", Type::i64, Shape::vector, true, true,
@@ -86,6 +100,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "m: mass of volatiles per mass of liquid melt, Ida eq. (14)"},
     {Field::specific_energy, "specific_energy", "J/kg", Type::f64, Shape::scalar, true, true,
      "u: internal energy of an ideal gas per mass"},
+    {Field::smoothing_length, "smoothing_length", "m", Type::f64, Shape::scalar, true, true,
+     "h of a particle of an ideal gas: it follows the particle's volume"},
     {Field::stress, "stress", "Pa", Type::f64, Shape::symmetric, true, true,
      "conservative: deviator of elastic particles; ida: full Cauchy stress, Ida eqs. (9), (11)"},
     {Field::radius, "radius", "m", Type::f64, Shape::scalar, true, true, "radius of a grain"},
@@ -102,13 +118,18 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of an ideal gas: heat of viscous forces and what is conducted; the viscous force [N]"},
     {Field::number_density, "number_density", "1", Type::f64, Shape::two, false, false,
      "kernel sums near a particle of an ideal gas: over movers, and over the volumes of walls"},
+    {Field::gas_moments, "gas_moments", "1", Type::f64, Shape::deformation, false, false,
+     "near a particle of an ideal gas: the sums of number_density with q dW/dq, then of W x x and W v x"},
+    {Field::kernel_correction, "kernel_correction", "1", Type::f64, Shape::scalar, false, false,
+     "1 / Omega of an ideal gas: what a kernel that follows the volume adds to the pressure force"},
     {Field::divergence, "divergence", "1/s", Type::f64, Shape::scalar, false, false, "div v"},
     {Field::diffusion, "diffusion", "kg/m^3/s", Type::f64, Shape::scalar, false, false,
      "density diffusion: its part of d rho/dt"},
     {Field::velocity_gradient, "velocity_gradient", "1/s", Type::f64, Shape::matrix, false, false,
      "d v_i/d x_j"},
-    {Field::spread, "spread", "1/m", Type::f64, Shape::spread, false, false,
-     "gradient of the particle concentration, against which particles are shifted, and it itself over h"},
+    {Field::spread, "spread", "1/m", Type::f64, Shape::shifting, false, false,
+     "gradient of the particle concentration, against which particles are shifted, it itself over h, and so "
+     "is the sum of squares of how fast movers part [m/s^2]"},
     {Field::colour_gradient, "colour_gradient", "1/m", Type::f64, Shape::vector, false, false,
      "near an interface with tension: gradient of the other fluid's share of the volume"},
     {Field::wall_sums, "wall_sums", "1", Type::f64, Shape::wall, false, false,
@@ -163,6 +184,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
       return dim * dim;
     case Shape::spread:
       return 1 + dim;
+    case Shape::shifting:
+      return 2 + dim;
     case Shape::wall:
       return 2 + 2 * dim;
     case Shape::deformation:

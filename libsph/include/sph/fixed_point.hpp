@@ -11,7 +11,13 @@ inline constexpr double rounding_shift = 0x1.8p52;
 
 /// |x| < 2^51.
 [[nodiscard]] inline std::int64_t round_to_quanta(double x) {
-  return std::bit_cast<std::int64_t>(x + rounding_shift) - std::bit_cast<std::int64_t>(rounding_shift);
+  return static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x + rounding_shift) -
+                                   std::bit_cast<std::uint64_t>(rounding_shift));
+}
+
+/// x + way. Beyond the range it wraps around, until the guard that looks at speeds stops the run.
+[[nodiscard]] inline std::int64_t moved_by(std::int64_t x, std::int64_t way) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(way));
 }
 
 }  // namespace sph

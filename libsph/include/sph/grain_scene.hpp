@@ -23,12 +23,13 @@ struct GrainMaterial {
   double restitution = 1;                       ///< of a head-on impact, 0 < e <= 1
   double friction = 0;                          ///< mu
   double rolling_friction = 0;                  ///< mu_r
-  bool fixed = false;                           ///< glued in space: moves with Group::wall_velocity
+  bool fixed = false;  ///< glued in space; Group::wall_velocity drags what touches it, as a belt does
   friend bool operator==(const GrainMaterial&, const GrainMaterial&) = default;
 };
 
 /// Replaces the mixed value of two materials (by default: the smaller friction, rolling friction and
-/// restitution of the two; moduli and stiffnesses in series).
+/// restitution of the two; always the harmonic mean of linear stiffnesses and the sum of Hertz's
+/// compliances).
 struct ContactPair {
   std::array<int, 2> groups{};
   std::optional<double> friction, rolling_friction, restitution;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sph/contact_lists.hpp"
 #include "sph/contact_pass.hpp"
+#include "sph/findings.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
 
@@ -33,6 +36,14 @@ struct GrainTimeSteps {
   double limit = 0;        ///< above it a single contact is unstable: refused
 };
 [[nodiscard]] GrainTimeSteps grain_time_steps(const Scene& scene);
+[[nodiscard]] double grain_step(const Scene& scene);  ///< time.dt, or the default [s]
+
+/// No grain and no wall may go further in a step [m]; what is said of one that would.
+[[nodiscard]] double longest_grain_move(const Scene& scene);
+[[nodiscard]] std::string grain_move_text(const Scene& scene, double way);
+/// Throw InputError.
+void check_wall_speeds(const Scene& scene);
+void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles);
 
 class Grains {
  public:
@@ -63,11 +74,12 @@ class Grains {
                                       const decomp::Payload& payload, std::span<const std::uint32_t> order);
 
   /// Contacts of the blocks, then kick and drift of their grains. begin_step() clears what a step sums.
-  void begin_step(const GlobalState& global);
+  void begin_step(const Particles& particles, const GlobalState& global);
   void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
   [[nodiscard]] ContactContext context(Particles& particles, double dt);  ///< of a sweep
   [[nodiscard]] const ContactSweep& swept() const { return sweep_; }
-  [[nodiscard]] std::vector<std::int64_t>& wall_force() { return wall_force_; }  ///< of this rank [quanta]
+  /// Of this rank [quanta], as ContactContext has them.
+  [[nodiscard]] std::vector<std::int64_t>& wall_force() { return wall_force_; }
 
   /// After the reduction: walls drift with the velocity they had, servos answer to the force of this step.
   void move_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const;
@@ -75,12 +87,14 @@ class Grains {
   /// Largest way of this rank's grains, or of a wall, since the last rebuild [m].
   [[nodiscard]] double longest_way(const Particles& particles, const GlobalState& global) const;
   [[nodiscard]] double fastest_wall(const GlobalState& global) const;
+  [[nodiscard]] double longest_move() const { return longest_move_; }
+  [[nodiscard]] std::string move_text(double way) const;
+  /// Contacts in rebuild() that the lists do not hold though their pairs cannot have parted so far.
+  void find_lost(const Particles& particles, const GlobalState& global, double skin, Findings& lost) const;
   [[nodiscard]] double time_step() const { return dt_; }
 
   /// Walls as they are now.
-  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const {
-    return planes(global, global.time);
-  }
+  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const;
   /// Of two groups, in the order of ContactConstants.
   [[nodiscard]] std::span<const double, 8> pair_constants(std::size_t a, std::size_t b) const {
     return std::span<const double, 8>(constants_.data() + 8 * (a * scene_->groups.size() + b), 8);
@@ -98,8 +112,13 @@ class Grains {
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
-  /// Where the walls are now, and whether they were there at `time`.
-  [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global, double time) const;
+  /// A wall's part in a stage, the latest change that has begun winning.
+  struct WallNow {
+    bool present = true;
+    Double3 velocity{};
+    std::optional<double> force;
+  };
+  [[nodiscard]] WallNow wall_now(std::size_t wall, const GlobalState& global) const;
   void find_constants();
   void find_quanta();
 
@@ -109,7 +128,7 @@ class Grains {
   ContactLists lists_;
   decomp::LargeVector<double> constants_;
   std::vector<bool> fixed_;
-  double force_quantum_ = 1, torque_quantum_ = 1, dt_ = 0;
+  double force_quantum_ = 1, torque_quantum_ = 1, dt_ = 0, longest_move_ = 0;
   ContactSums sums_;
   std::vector<PlaneNow> planes_;
   std::vector<std::int64_t> wall_force_;

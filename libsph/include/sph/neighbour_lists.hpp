@@ -41,6 +41,15 @@ class NeighbourLists {
              std::int64_t radius, RowRanges& ranges, decomp::Timers& timers,
              PartnerOrder order = PartnerOrder::by_id);
 
+  /// Of particles with reaches of their own (in quanta, of every row): j is listed for i if it lies within
+  /// the reach of either.
+  void build(const Particles& particles, std::span<const double> reach, RowRanges& ranges,
+             decomp::Timers& timers);
+
+  /// Finds the blocks with a wall in a list; `is_wall_group` by group, the groups of halo rows being fresh.
+  void mark_walls(const Particles& particles, const std::vector<bool>& is_wall_group);
+  [[nodiscard]] bool beside_walls(std::size_t b) const { return beside_walls_[b]; }
+
   [[nodiscard]] int lanes() const { return lanes_; }
   [[nodiscard]] std::span<const std::uint32_t> block(std::size_t b) const {
     return {entries_.data() + begin_[b], entries_.data() + begin_[b + 1]};
@@ -51,11 +60,15 @@ class NeighbourLists {
  private:
   template <int D>
   void find(const CellBins&, const std::vector<std::uint32_t>& tags, RowRanges&);
+  template <int D>
+  void find(const Particles&, std::span<const double> reach, const std::vector<std::uint32_t>& tag_of_row,
+            RowRanges&);
   void finish(const std::vector<std::uint32_t>& row_of_tag, const RowRanges&, bool sort);
 
   int lanes_;
   std::vector<std::uint64_t> begin_;  ///< entries before each block, then their number
   decomp::LargeVector<std::uint32_t> entries_;
+  std::vector<bool> beside_walls_;  ///< by block; empty until marked
   std::size_t pairs_ = 0;
 };
 

@@ -63,7 +63,13 @@ struct Pair {
   V e[D];  ///< (x_j - x_i) / h
   V r2;    ///< |e|^2
   V r;     ///< |e|
-  V f;     ///< w'(r) / r, unnormalised; grad_i W = -f e (times the pass's factor)
+  V f;     ///< w'(r) / r, unnormalised; grad_i W = -f e (times the pass's factor); where kernels are of
+           ///< different widths the mean of both
+  // Of terms that read Value::width:
+  V inverse_width;  ///< of i
+  V f_i, f_j,
+      f_of_wall;  ///< f of the kernels of i and of j, and of i beside a wall: then not less than h wide
+  V inverse_width_at_wall;
   // Of terms that read Value::reference:
   V reference[D];     ///< X = (X_j - X_i) / h
   V displacement[D];  ///< u = e - X, exact before it is rounded once
@@ -104,6 +110,12 @@ inline constexpr bool goes_half_a_step_back = requires {
   Term::half_step_back;
 };
 
+/// Sums of a pass of such terms are 0 in blocks that no wall is near, and not looked for.
+template <class Term>
+inline constexpr bool looks_only_beside_walls = requires {
+  Term::only_beside_walls;
+};
+
 template <class T, int D, class Kernel, class... Terms>
 struct PairPass {
   static constexpr ValueSet values = (Terms::reads | ...);
@@ -113,6 +125,7 @@ struct PairPass {
   // Velocities are those of half a step ago. With them a density would grow thinner in every rotation, by
   // (omega dt)^2 a step, were the pairs not taken where they were then.
   static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
+  static constexpr bool only_beside_walls = (looks_only_beside_walls<Terms> && ...);
   static constexpr int velocity = half_step_back ? Layout::offset(Value::velocity) : 0;
 
   static void pack(const PassContext& c, std::size_t first, std::size_t last) {
@@ -138,13 +151,17 @@ struct PairPass {
     const V tiny(static_cast<T>(1e-30));
     for (std::size_t first = range.first, block = range.first_block; first < range.last;
          first += V::lanes, ++block) {
+      Sums<T, D, writes> sums;
+      for (V& s : sums.v) s = V::zero();
+      if (only_beside_walls && !c.lists->beside_walls(block)) {
+        store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
+        continue;
+      }
       std::uint32_t own_rows[V::lanes];
       for (std::size_t l = 0; l < V::lanes; ++l)
         own_rows[l] = static_cast<std::uint32_t>(std::min(first + l, range.last - 1));
       V own[Layout::stride], other[Layout::stride];
       load_rows<Layout::stride>(rows, own_rows, own);
-      Sums<T, D, writes> sums;
-      for (V& s : sums.v) s = V::zero();
       const std::span<const std::uint32_t> entries = c.lists->block(block);
       for (std::size_t k = 0; k < entries.size(); k += V::lanes) {
         load_rows<Layout::stride>(rows, entries.data() + k, other);
@@ -160,6 +177,7 @@ struct PairPass {
         }
         pair.r = sqrt(pair.r2);
         pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
+        if constexpr (values.has(Value::width)) look_at_widths(own, other, pair);
         if constexpr (values.has(Value::reference))
           look_at_bond(own, other, unit, V(constants.bond_range), pair);
         (Terms::template add<Kernel>(pair, constants, sums), ...);
@@ -169,6 +187,23 @@ struct PairPass {
   }
 
  private:
+  // W(r, h) = alpha / h^D w(r / h): f of a kernel that is s times as wide is w'(r / s) / (r s^(D+1)).
+  static void look_at_widths(const V* own, const V* other, Pair<T, D, values>& pair) {
+    constexpr int width = Layout::offset(Value::width);
+    const V one(static_cast<T>(1)), inverse_r = one / max(pair.r, V(static_cast<T>(1e-30)));
+    const auto slope = [&](V inverse_width) {
+      const V square = inverse_width * inverse_width;
+      const V factor = D == 2 ? square * inverse_width : square * square;
+      return Kernel::template slope<D>(pair.r * inverse_width) * (factor * inverse_r);
+    };
+    pair.inverse_width = one / own[width];
+    pair.inverse_width_at_wall = min(pair.inverse_width, one);
+    pair.f_i = slope(pair.inverse_width);
+    pair.f_j = slope(one / other[width]);
+    pair.f_of_wall = slope(pair.inverse_width_at_wall);
+    pair.f = V(static_cast<T>(0.5)) * (pair.f_i + pair.f_j);
+  }
+
   static void look_at_bond(const V* own, const V* other, V unit, V range, Pair<T, D, values>& pair) {
     constexpr int reference = Layout::offset(Value::reference), body = Layout::offset(Value::body);
     V square = V::zero();
@@ -230,8 +265,8 @@ struct PairPass {
   }
 
   static constexpr bool has_own_scale(Field f) {
-    return f == Field::number_density || f == Field::wall_sums || f == Field::wall_sums_by_density ||
-           f == Field::deformation || f == Field::contact_energy;
+    return f == Field::number_density || f == Field::gas_moments || f == Field::wall_sums ||
+           f == Field::wall_sums_by_density || f == Field::deformation || f == Field::contact_energy;
   }
 
   template <Field F>
@@ -256,6 +291,7 @@ struct PairPass {
     store_field<Field::force>(c, first, count, sums);
     store_field<Field::heating>(c, first, count, sums);
     store_field<Field::number_density>(c, first, count, sums);
+    store_field<Field::gas_moments>(c, first, count, sums);
     store_field<Field::divergence>(c, first, count, sums);
     store_field<Field::diffusion>(c, first, count, sums);
     store_field<Field::velocity_gradient>(c, first, count, sums);

@@ -27,6 +27,7 @@ enum class Term : std::uint8_t {
   stress_divergence,
   artificial_viscosity,
   number_density,
+  gas_moments,
   gas_pressure,
   shock_viscosity,
   shock_heating,
@@ -53,29 +54,32 @@ enum class Term : std::uint8_t {
 
 /// What a term can read of a particle besides its position.
 enum class Value : std::uint8_t {
-  velocity,          ///< [m/s]
-  volume,            ///< mass / density [spacing^D]
-  pressure,          ///< [Pa]
-  density,           ///< [kg/m^3]
-  viscosity,         ///< eta / h [Pa s/m]
-  sound_speed,       ///< [m/s]
-  phase,             ///< index of the group
-  mover,             ///< 1, or 0 for walls
-  stress,            ///< total: -pressure delta + stress field [Pa]
-  heavy,             ///< 1 for the heavier fluids of the scene, 0 for all others
-  pressures,         ///< for lighter and for heavier partners: of walls they differ [Pa]
-  side,              ///< of the interface with tension: 1 or -1, 0 elsewhere
-  capillary,         ///< surface stress sigma (I - n n) |grad C| [Pa]
-  potential,         ///< of the central pull [m^2/s^2]
-  reference,         ///< reference position, stored as the position is
-  reference_cell,    ///< the bits of it that a row in single precision has no room for
-  reference_volume,  ///< mass / rho_0 [spacing^D]
-  body,              ///< particles of one body have one number
-  bond_stress,       ///< [Pa]
-  modulus,           ///< K + 4/3 mu of the group [Pa]
-  direction,         ///< what the viscous operator is applied to [m/s]
-  wall_slope,        ///< gradient of a flow that is 0 at the wall and 1 here, times h
-  specific_energy,   ///< of ideal gases, 0 of all else [J/kg]
+  velocity,           ///< [m/s]
+  volume,             ///< mass / density [spacing^D]
+  pressure,           ///< [Pa]
+  density,            ///< [kg/m^3]
+  viscosity,          ///< eta / h [Pa s/m]
+  sound_speed,        ///< [m/s]
+  phase,              ///< index of the group
+  mover,              ///< 1, or 0 for walls
+  stress,             ///< total: -pressure delta + stress field [Pa]
+  heavy,              ///< 1 for the heavier fluids of the scene, 0 for all others
+  pressures,          ///< for lighter and for heavier partners: of walls they differ [Pa]
+  side,               ///< of the interface with tension: 1 or -1, 0 elsewhere
+  capillary,          ///< surface stress sigma (I - n n) |grad C| [Pa]
+  potential,          ///< of the central pull [m^2/s^2]
+  reference,          ///< reference position, stored as the position is
+  reference_cell,     ///< the bits of it that a row in single precision has no room for
+  reference_volume,   ///< mass / rho_0 [spacing^D]
+  body,               ///< particles of one body have one number
+  bond_stress,        ///< [Pa]
+  modulus,            ///< K + 4/3 mu of the group [Pa]
+  direction,          ///< what the viscous operator is applied to [m/s]
+  wall_slope,         ///< gradient of a flow that is 0 at the wall and 1 here, times h
+  specific_energy,    ///< of ideal gases, 0 of all else [J/kg]
+  width,              ///< of ideal gases: smoothing length of the particle / h
+  kernel_correction,  ///< 1 / Omega (terms/gas.hpp)
+  velocity_gradient,  ///< h d v_a / d x_b [m/s]
   count_
 };
 
@@ -99,11 +103,11 @@ class ValueSet {
   const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
                       v == Value::direction || v == Value::wall_slope;
   const bool tensor = v == Value::stress || v == Value::capillary;
-  return vector                    ? dim
-         : v == Value::pressures   ? 2
-         : tensor                  ? dim * (dim + 1) / 2
-         : v == Value::bond_stress ? dim * dim
-                                   : 1;
+  return vector                                                     ? dim
+         : v == Value::pressures                                    ? 2
+         : tensor                                                   ? dim * (dim + 1) / 2
+         : v == Value::bond_stress || v == Value::velocity_gradient ? dim * dim
+                                                                    : 1;
 }
 
 /// The fields a halo copy needs so that its row can be packed.
@@ -128,6 +132,9 @@ class ValueSet {
   if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
   if (values.has(Value::direction)) f |= FieldSet{Field::direction};
   if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
+  if (values.has(Value::width)) f |= FieldSet{Field::smoothing_length};
+  if (values.has(Value::kernel_correction)) f |= FieldSet{Field::kernel_correction};
+  if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   return f;
 }
 
@@ -189,6 +196,9 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* direction = p.data<Field::direction>();
   const auto* wall_slope = p.data<Field::wall_slope>();
   const auto* energy = p.data<Field::specific_energy>();
+  const auto* width = p.data<Field::smoothing_length>();
+  const auto* correction = p.data<Field::kernel_correction>();
+  const auto* gradient = p.data<Field::velocity_gradient>();
   const auto coordinate = [&](std::int64_t quanta) {
     if constexpr (sizeof(T) == 4)
       return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
@@ -259,6 +269,14 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
       for (int k = 0; k < D; ++k)
         put(Value::wall_slope, k, wall_slope != nullptr && i < p.owned() ? wall_slope[i * D + k] : 0.0);
     if constexpr (S.has(Value::specific_energy)) put(Value::specific_energy, 0, energy[i]);
+    if constexpr (S.has(Value::width)) put(Value::width, 0, width[i] * scale.inverse_h);
+    // Of walls neither is known, nor wanted.
+    if constexpr (S.has(Value::kernel_correction))
+      put(Value::kernel_correction, 0, groups.mover[group[i]] == 0 ? 1.0 : correction[i]);
+    if constexpr (S.has(Value::velocity_gradient))
+      for (int k = 0; k < D * D; ++k)
+        put(Value::velocity_gradient, k,
+            groups.mover[group[i]] == 0 ? 0.0 : gradient[i * D * D + k] / scale.inverse_h);
   }
 }
 

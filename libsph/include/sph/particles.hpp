@@ -19,6 +19,9 @@ using field_type = std::conditional_t<
     std::conditional_t<info(F).type == Type::i64, std::int64_t,
                        std::conditional_t<info(F).type == Type::u64, std::uint64_t, std::uint32_t>>>;
 
+/// Ids of particles run from 0 to this; keys of walls lie above (sph/contact_lists.hpp).
+inline constexpr std::uint64_t largest_id = (std::uint64_t{1} << 63) - 1;
+
 class Particles {
  public:
   Particles(int dim, FieldSet fields) : dim_(dim), fields_(fields) {
@@ -75,6 +78,16 @@ struct FluidVolume {
   friend bool operator==(const FluidVolume&, const FluidVolume&) = default;
 };
 
+/// How the particles that move do so together, in scenes that shift them; else 0.
+struct CommonMotion {
+  std::array<double, 3> velocity{};  ///< mean of theirs [m/s]
+  double unlike = 0;                 ///< mean difference from it, of eighth powers [m/s]
+  friend bool operator==(const CommonMotion&, const CommonMotion&) = default;
+};
+/// Its sums over a rank's particles, in integers, so that ranks may add in any order: their number, how much
+/// their velocities differ from the mean known before, and the eighth powers of that, in four digits.
+using MotionSums = std::array<std::int64_t, 8>;
+
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {
   std::int64_t step = 0;
@@ -84,6 +97,7 @@ struct GlobalState {
   double max_acceleration = 0;  ///< [m/s^2]
   std::vector<WallState> walls;
   FluidVolume fluid_volume;
+  CommonMotion motion;
   friend bool operator==(const GlobalState&, const GlobalState&) = default;
 };
 

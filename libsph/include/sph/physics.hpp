@@ -5,10 +5,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sph/eos.hpp"
+#include "sph/findings.hpp"
 #include "sph/fusions.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
@@ -25,6 +27,7 @@ struct StepMaxima {
   std::int64_t volume = 0;  ///< of this rank's fluid, see FluidVolume; a sum
   double sound = 0;         ///< of ideal gases; 0: not looked at yet [m/s]
   double viscosity = 0;     ///< eta / rho of ideal gases [m^2/s]
+  MotionSums motion{};      ///< of this rank's particles that move
 };
 
 /// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
@@ -69,6 +72,12 @@ class Physics {
   [[nodiscard]] StepMaxima integrate(Particles& particles, const RowRanges& ranges,
                                      const GlobalState& global) const;
 
+  /// How far the partners of each row may be before the next rebuild, in metres, the ways of the particles
+  /// left aside; empty where that is the same for all.
+  [[nodiscard]] std::vector<double> reaches(const Particles& particles) const;
+  /// Largest growth of the owned particles' reach since they were `listed`, at the end of the step to come.
+  [[nodiscard]] double growth(const Particles& particles, std::span<const double> listed) const;
+
   /// Fields integrate() changes.
   [[nodiscard]] FieldSet integrated() const;
 
@@ -78,12 +87,22 @@ class Physics {
   /// at the start of the step [m].
   [[nodiscard]] double longest_advance(const GlobalState& global) const;
   [[nodiscard]] double longest_shift(const GlobalState& global) const;
+  /// ... and on how far from its place a pass takes a particle to be: where it was half a step ago [m].
+  [[nodiscard]] double longest_look_back(const GlobalState& global) const;
+  /// Faster than that nothing flies that the scene could mean [m/s].
+  [[nodiscard]] double speed_limit() const;
   /// Speed, sound and viscosity of this rank's particles at the start.
   [[nodiscard]] StepMaxima maxima_at_start(const Particles& particles) const;
   /// Of this rank's particles that move, where the scene shifts them; see FluidVolume.
   [[nodiscard]] std::int64_t fluid_volume(const Particles& particles) const;
+  /// Of this rank's particles that move, about the mean known before; and what the sums over all ranks say.
+  [[nodiscard]] MotionSums motion_sums(const Particles& particles, const GlobalState& global) const;
+  [[nodiscard]] CommonMotion common_motion(const MotionSums& sums, const GlobalState& global) const;
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
   [[nodiscard]] double courant_number(double dt) const;
+
+  /// Of this step: what no particle may be.
+  [[nodiscard]] const Findings& findings() const { return findings_; }
 
   [[nodiscard]] const Double3& wall_velocity(std::uint32_t group) const {
     return scene_->groups[group].wall_velocity;
@@ -96,6 +115,7 @@ class Physics {
   void set_sph_constants();
   void build_conservative();
   void add_walls(bool weighted);
+  void find_walls_nearby();
   void build_implicit_viscosity(bool walls);
   void build_ida();
   void build_gas();
@@ -105,13 +125,15 @@ class Physics {
   [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&, const GlobalState&) const;
+  void hold_off(Particles&, const RowRanges&) const;
   void find_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   template <int D>
   void update_bonds(Particles&, std::size_t first, std::size_t last, const GlobalState&) const;
   void check_bonds(Particles&, std::size_t row, double count, double shape, const GlobalState&) const;
-  [[noreturn]] void fail_particle(const Particles&, std::size_t row, const GlobalState&,
-                                  const std::string& what) const;
+  void find_fault(const Particles&, std::size_t row, const GlobalState&, const std::string& what) const;
+  [[nodiscard]] double shifting_speed(const Particles&, std::size_t row, const GlobalState&,
+                                      double rest) const;
   void shift(Particles&, const RowRanges&, const GlobalState&) const;
   void update_gas(Particles&, const RowRanges&, const GlobalState&) const;
   void heat(Particles&, const RowRanges&, const GlobalState&, StepMaxima&) const;
@@ -137,6 +159,7 @@ class Physics {
   double gradient_factor_, force_factor_, diffusion_factor_;
   double own_concentration_;  ///< V W(0) of a particle of volume spacing^D
   double kernel_at_zero_;     ///< W(0) without its factor
+  mutable Findings findings_;
 };
 
 /// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and

@@ -36,5 +36,7 @@ struct RunOptions {
 /// To be called before MPI_Init, whose own handlers would end the program. SIGUSR1 and SIGTERM: checkpoint
 /// and stop; SIGUSR2: checkpoint and go on; a second SIGTERM ends the program at once.
 void install_signal_handlers();
+/// For programs that only read: signals end them.
+void restore_signal_handlers();
 
 }  // namespace sph

@@ -43,7 +43,7 @@ struct Group {
   int fragments_to = -1;                              ///< index of the spray group, -1 if none
   Lagrangian lagrangian = Lagrangian::updated;        ///< solids
   int clamps = -1;          ///< walls: index of the total-Lagrangian solid that is bonded to them, -1 if none
-  Double3 wall_velocity{};  ///< walls: of the material, the particles stay where they are [m/s]
+  Double3 wall_velocity{};  ///< walls, fixed grains: of the material, the particles stay where they are [m/s]
   bool slip = false;        ///< walls: no shear on what flows past
   GrainMaterial grain;      ///< kind = grain; of the values above it has name, density and wall_velocity
   friend bool operator==(const Group&, const Group&) = default;
@@ -184,7 +184,9 @@ struct Scene {
   KernelShape kernel = KernelShape::quintic;
   double spacing = 0;           ///< dx [m]
   double smoothing_length = 0;  ///< h [m]; quintic support 3h, Wendland 2h
-  Double3 lower{}, upper{};     ///< domain [m]
+  // Of the smoothing length of a particle of an ideal gas, over h.
+  double least_growth = 1, largest_growth = 1;
+  Double3 lower{}, upper{};  ///< domain [m]
   std::array<bool, 3> periodic{};
   Double3 gravity{};            ///< [m/s^2]
   double central_pull = 0;      ///< acceleration towards pull_centre over the distance from it [1/s^2]
@@ -195,7 +197,8 @@ struct Scene {
   std::vector<Wall> walls;
   std::vector<Stage> stages;
   Start start;
-  bool open = false;  ///< particles are shifted and there is a free surface; follows from the start
+  bool free_surface = false;  ///< there is one, as far as the start shows
+  bool open = false;          ///< there is, and particles are shifted
   Terms terms;
   TimeControl time;
   Decomposition decomposition;

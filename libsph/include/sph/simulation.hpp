@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "decomp/comm.hpp"
@@ -50,6 +51,9 @@ class Simulation {
     return grains_ ? grains_->lists().pack(particles_) : decomp::Payload{};
   }
   [[nodiscard]] decomp::Timers& timers() { return timers_; }
+  /// Of a simulation that has made no step since its checkpoint: computes what a snapshot holds besides the
+  /// state, the pressure on walls. Changes no bit of the state. Collective.
+  void derive_for_output();
   [[nodiscard]] std::string fingerprint() const;
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
 
@@ -65,6 +69,8 @@ class Simulation {
   void step_in_passes();
   void step_in_a_sweep();
   void rebuild();
+  void build_lists();
+  void widen_kernels();
   void rebuild_contacts(const decomp::Payload& contacts, std::span<const std::uint32_t> order,
                         const ContactCensus& sent);
   [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows() const;
@@ -77,9 +83,16 @@ class Simulation {
   void refresh_begin(FieldSet wanted);
   void refresh_end();
   std::int64_t finish_step(std::int64_t request);
+  [[nodiscard]] Findings find_leavers() const;
+  void take_motion(std::span<const std::int64_t> sums);
   void find_stale(double next);
-  void guard_sweep(const std::array<double, 6>& all) const;
+  void guard_motion(double next) const;
+  void guard_sweep(const std::array<double, 8>& all) const;
   [[noreturn]] void stop_at_bad_particle() const;
+  [[noreturn]] void stop_at_fastest(const std::string& what) const;
+  [[nodiscard]] std::vector<double> metres_of(std::size_t row) const;
+  /// From their two halves, summed over all ranks.
+  [[nodiscard]] std::vector<std::int64_t> wall_forces(std::span<const std::int64_t> halves) const;
 
   const decomp::Comm& comm_;
   Scene scene_;
@@ -94,14 +107,16 @@ class Simulation {
   Counters counters_;
   std::vector<bool> is_wall_group_;
   decomp::LargeVector<std::byte> rows_;
-  void changed(FieldSet fields) { fresh_ = fresh_.without(fields); }
+  void changed(FieldSet fields);
 
   StepMaxima maxima_;        ///< of this rank and step
   decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
   bool refreshing_ = false;
   FieldSet fresh_;  ///< fields whose halo copies are up to date
   bool stale_ = true;
-  double moved_ = 0;       ///< bound on any particle's path since the last rebuild [m]
+  double moved_ = 0;             ///< bound on any particle's path since the last rebuild [m]
+  std::vector<double> reaches_;  ///< of the rows when they were listed, where each has its own [m]
+  double growth_ = 0;      ///< of them until the end of the next step, as a share of what the lists bear
   double slow_until_ = 0;  ///< dawdle(): cost of this rank when it last stopped [s]
   std::int64_t count_ = 0;
   decomp::Census census_;

@@ -2,7 +2,9 @@
 // Layout, readable with six lines of h5py:  /particles/<field> (rows x components, attribute "unit"), where
 // the scene asks for it also /contacts/id, partner, point, force, overlap (one row per contact of grains),
 // attributes of the root: step, time, dt, quantum, fingerprint, scene (TOML), git, compiler, flags.
-// Positions are written twice: `position` in metres (f64) and `position_quanta` (i64, exact bits).
+// Positions are written twice: `position` in metres (f64) and `position_quanta` (i64, exact bits). `stress`
+// in 3D is xx yy zz xy yz xz, as ParaView takes it and the data set's attribute "components" says. /vertex
+// counts the rows: one of ParaView's readers draws only points that a list of vertices names.
 #pragma once
 
 #include <filesystem>
@@ -27,6 +29,7 @@ struct ExtraColumn {
   std::string name, unit;
   int components = 1;
   std::vector<double> values;
+  std::string component_names = {};  ///< empty: none
 };
 
 /// Contacts of grains, each on one rank only: `force` [N] acts on `id`, at `point` [m]; the partner has the

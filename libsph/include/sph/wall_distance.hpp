@@ -17,6 +17,8 @@ class WallDistance {
   /// Distance over h; 0 for the share at the face and more, half a spacing less than the kernel's radius
   /// for a share of 0.
   [[nodiscard]] double operator()(double share) const;
+  /// How far behind the face over h, negative before it.
+  [[nodiscard]] double depth(double share) const;
   /// h times the share's gradient there.
   [[nodiscard]] double gradient(double share) const;
 

@@ -42,14 +42,23 @@ bool looks_complete(const fs::path& dir) {
   }
 }
 
-/// The manifest goes first: what is left if this is interrupted does not look like a checkpoint.
-void remove_checkpoint(const fs::path& dir) {
-  std::error_code ignored;
-  fs::remove(manifest_path(dir), ignored);
-  fs::remove_all(dir, ignored);
+bool is_own_name(const std::string& name) {
+  return name.starts_with("manifest.json") ||
+         (name.starts_with("part_") && name.find(".h5") != std::string::npos);
 }
 
 }  // namespace
+
+void remove_checkpoint(const fs::path& dir) {
+  std::error_code ignored;
+  // The manifest goes first: what is left if this is interrupted does not look like a checkpoint.
+  fs::remove(manifest_path(dir), ignored);
+  std::vector<fs::path> own;
+  for (fs::directory_iterator entry(dir, ignored), end; entry != end; entry.increment(ignored))
+    if (is_own_name(entry->path().filename().string())) own.push_back(entry->path());
+  for (const fs::path& path : own) fs::remove(path, ignored);
+  fs::remove(dir, ignored);  // unless somebody has put something there
+}
 
 fs::path checkpoint_root(const fs::path& run_dir) { return run_dir / "checkpoint"; }
 fs::path manifest_path(const fs::path& dir) { return dir / "manifest.json"; }
@@ -70,9 +79,12 @@ fs::path make_checkpoint_directory(const fs::path& root, std::int64_t step) {
   fs::create_directories(root);
   const std::string first = fmt::format("{:012}", step);
   fs::path dir = root / first;
-  for (int attempt = 1; fs::exists(manifest_path(dir)); ++attempt)
-    dir = root / fmt::format("{}.{}", first, attempt);
-  fs::remove_all(dir);  // what an interrupted write has left
+  const auto is_free = [&] {
+    if (fs::exists(manifest_path(dir))) return false;
+    remove_checkpoint(dir);  // what an interrupted write has left
+    return !fs::exists(dir);
+  };
+  for (int attempt = 1; !is_free(); ++attempt) dir = root / fmt::format("{}.{}", first, attempt);
   fs::create_directory(dir);
   sync_to_disk(root);
   sync_to_disk(root.parent_path().empty() ? fs::path(".") : root.parent_path());

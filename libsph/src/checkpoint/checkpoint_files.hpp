@@ -21,6 +21,8 @@ namespace sph {
 /// The directory for a checkpoint of this step that takes no complete one's place: new, empty, on disk.
 [[nodiscard]] std::filesystem::path make_checkpoint_directory(const std::filesystem::path& root,
                                                               std::int64_t step);
+/// Deletes the files of a checkpoint, whole or not, and its directory if nothing else is in there.
+void remove_checkpoint(const std::filesystem::path& dir);
 /// Deletes all checkpoints but `newest` and the newest complete one of an earlier step. Those of later steps
 /// belong to a future that the run did not take.
 void remove_superseded(const std::filesystem::path& newest);

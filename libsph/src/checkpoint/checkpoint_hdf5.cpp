@@ -149,8 +149,9 @@ Part write_part(const decomp::Comm& everyone, const decomp::Comm& writers, const
     if (writers.rank() == 0)
       part.extents = lay_out(file, {{"format", std::string("peperite checkpoint part 1")}}, sets);
   });
-  fill_in(everyone, writers, file, what, [&](SharedHdf5File& out) {
-    for (const Column& column : rows.columns()) out.write(column.set, column.first, column.rows, column.data);
+  fill_in(everyone, writers, file, sets, part.extents, what, [&](const RowFile& out) {
+    std::size_t set = 0;
+    for (const Column& column : rows.columns()) out.write(set++, column.first, column.rows, column.data);
   });
   const std::vector<std::byte> table = writers.gather(rows.block_table(), 0);
   all_or_none(everyone, what, [&] {
@@ -220,11 +221,11 @@ void write_checkpoint(const decomp::Comm& comm, const fs::path& run_dir, const P
                        to_text(manifest_of(particles, history, record, provenance, parts)));
     });
   } catch (const OutputError&) {
-    std::error_code ignored;
-    if (comm.rank() == 0) fs::remove_all(dir, ignored);
+    if (comm.rank() == 0) remove_checkpoint(dir);
     throw;
   }
-  if (comm.rank() == 0) remove_superseded(dir);
+  // Where the old ones cannot be deleted, they stay: the next checkpoint tries again.
+  if (comm.rank() == 0) (void)attempt([&] { remove_superseded(dir); });
   comm.barrier();
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* format = "peperite checkpoint 3";
+constexpr const char* format = "peperite checkpoint 4";
 
 /// The bits are what counts; the value is for readers with eyes.
 Json exact(double x) { return {{"bits", to_hex(std::bit_cast<std::uint64_t>(x))}, {"value", x}}; }
@@ -88,6 +88,9 @@ std::string to_text(const Manifest& m) {
   const GlobalState& g = m.record.global;
   Json fields = Json::array();
   for (Field f : m.fields) fields.push_back(info(f).name);
+  Json motion = Json::array();
+  for (const double v : g.motion.velocity) motion.push_back(exact(v));
+  motion.push_back(exact(g.motion.unlike));
   Json walls = Json::array();
   for (const WallState& wall : g.walls) walls.push_back(json_of(wall));
   Json parts = Json::array();
@@ -100,6 +103,7 @@ std::string to_text(const Manifest& m) {
                   {"max_acceleration", exact(g.max_acceleration)},
                   {"walls", walls},
                   {"fluid_volume", {g.fluid_volume.start, g.fluid_volume.now}},
+                  {"motion", motion},
                   {"quantum", exact(m.record.scale.quantum)},
                   {"origin", m.record.scale.origin},
                   {"dim", m.dim},
@@ -126,13 +130,16 @@ Manifest manifest_from_text(const std::string& text) {
     throw std::runtime_error("is of the format '" + json.at("format").get<std::string>() +
                              "', this program reads '" + format + "'");
   Manifest m;
-  m.record.global = {json.at("step").get<std::int64_t>(),
-                     exact(json.at("time")),
-                     exact(json.at("dt")),
-                     exact(json.at("max_speed")),
-                     exact(json.at("max_acceleration")),
-                     {},
-                     {json.at("fluid_volume").at(0), json.at("fluid_volume").at(1)}};
+  m.record.global = {
+      json.at("step").get<std::int64_t>(),
+      exact(json.at("time")),
+      exact(json.at("dt")),
+      exact(json.at("max_speed")),
+      exact(json.at("max_acceleration")),
+      {},
+      {json.at("fluid_volume").at(0), json.at("fluid_volume").at(1)},
+      {{exact(json.at("motion").at(0)), exact(json.at("motion").at(1)), exact(json.at("motion").at(2))},
+       exact(json.at("motion").at(3))}};
   for (const Json& wall : json.at("walls")) m.record.global.walls.push_back(wall_of(wall));
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();

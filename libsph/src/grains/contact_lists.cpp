@@ -26,7 +26,7 @@ struct Candidates {
     partner.assign(rows + CellBins::padding, 0u);
     const double* radius = p.data<Field::radius>();
     // The bins' limit is 1 and the rounding of positions to float: half of that for each partner.
-    const float slack = 0.5f * (std::sqrt(bins.limit()) - 1.0f);
+    const float slack = 0.5f * (bins.limit() - 1.0f);
     for (std::size_t k = 0; k < rows; ++k) {
       partner[k] = bins.rows()[k];
       reach[k] = static_cast<float>((radius[partner[k]] + 0.5 * skin) / unit) + slack;
@@ -104,26 +104,6 @@ class Writer {
   std::size_t n_ = 0;
 };
 
-constexpr std::uint32_t no_wall = ~std::uint32_t{0};
-
-double distance(const PlaneNow& plane, const std::int64_t* x, double quantum) {
-  double d = 0;
-  for (std::size_t a = 0; a < 3; ++a) d += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
-  return d * quantum;
-}
-
-/// splitmix64's finaliser: makes keys whose sum tells contacts apart.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-void count(ContactCensus& census, std::uint64_t carrier, std::uint64_t partner) {
-  ++census.count;
-  census.keys += mix(mix(carrier) + partner);
-}
-
 }  // namespace
 
 void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const decomp::Box& own_cells,
@@ -138,7 +118,7 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   Writer pairs(pairs_), walls(walls_);
   listed_ = 0;
   std::uint32_t cell = ~std::uint32_t{0};
-  CellBins::Run runs[9];
+  CellBins::Runs runs;
   int n_runs = 0;
   std::size_t room = 0;  ///< for all candidates of the cell
   for (const RowRange& range : ranges) {
@@ -153,8 +133,8 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
                          0};
       for (std::uint32_t row = block.first; row < block.last; ++row) {
         const bool is_fixed = fixed[group[row]];
-        if (bins.cell(row) != cell) {
-          n_runs = bins.runs(cell = bins.cell(row), runs);
+        if (bins.bin(row) != cell) {
+          n_runs = bins.runs(cell = bins.bin(row), runs);
           room = chunk;
           for (int r = 0; r < n_runs; ++r) room += runs[r].last - runs[r].first;
         }
@@ -170,13 +150,13 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
         pairs.add(row, n);
         listed_ += n;
         for (std::uint32_t w = 0; w < planes.size() && !is_fixed; ++w)
-          if (planes[w].present && distance(planes[w], x + row * 3, quantum) < radius[row] + skin) {
+          if (planes[w].present && distance_from(planes[w], x + row * 3, quantum) < radius[row] + skin) {
             *walls.partners(1) = w;
             walls.add(row, 1);
           }
       }
       pairs.pad(block.first, block.first);
-      walls.pad(block.first, no_wall);
+      walls.pad(block.first, ContactGroups::no_wall);
       block.pairs_end = pairs.groups();
       block.walls_end = walls.groups();
       blocks_.push_back(block);
@@ -184,88 +164,6 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   }
   pairs.finish(history_);
   walls.finish(history_);
-}
-
-decomp::Payload ContactLists::pack(const Particles& p) const {
-  decomp::Payload payload;
-  const std::size_t owned = p.owned();
-  payload.offset.assign(owned + 1, 0);
-  if (history_ == 0) return payload;
-  const auto each = [this](auto&& visit) {
-    for (const ContactGroups* g : {&pairs_, &walls_})
-      for (std::size_t k = 0; k < g->groups(); ++k)
-        for (unsigned bits = g->touching[k]; bits != 0; bits &= bits - 1) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-          visit(*g, k, lane, g->i[k * lanes + lane], g->j[k * lanes + lane]);
-        }
-  };
-  each([&](const ContactGroups& g, std::size_t, std::size_t, std::uint32_t i, std::uint32_t j) {
-    payload.offset[i + 1] += entry_bytes();
-    if (&g == &pairs_ && j < owned) payload.offset[j + 1] += entry_bytes();
-  });
-  for (std::size_t r = 0; r < owned; ++r) payload.offset[r + 1] += payload.offset[r];
-  payload.bytes.resize(payload.offset.back());
-  std::vector<std::uint64_t> at(payload.offset.begin(), payload.offset.end() - 1);
-  const std::uint64_t* id = p.data<Field::id>();
-  const auto put = [&](std::uint32_t row, std::uint64_t key, const double* history, double sign) {
-    std::byte* out = payload.bytes.data() + at[row];
-    at[row] += entry_bytes();
-    std::memcpy(out, &key, sizeof key);
-    for (std::size_t c = 0; c < history_; ++c) {
-      // + 0: a zero keeps no sign, since which of the two it got depended on the orientation of the pair.
-      const double value = sign * history[c * lanes] + 0.0;
-      std::memcpy(out + 8 * (1 + c), &value, sizeof value);
-    }
-  };
-  each([&](const ContactGroups& g, std::size_t k, std::size_t lane, std::uint32_t i, std::uint32_t j) {
-    const double* history = g.history.data() + k * history_ * lanes + lane;
-    put(i, &g == &walls_ ? wall_key | j : id[j], history, -1);
-    if (&g == &pairs_ && j < owned) put(j, id[i], history, 1);
-  });
-  return payload;
-}
-
-ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& payload,
-                                   std::span<const std::uint32_t> order) {
-  ContactCensus found;
-  if (payload.bytes.empty()) return found;
-  const std::uint64_t* id = p.data<Field::id>();
-  for (ContactGroups* g : {&pairs_, &walls_})
-    for (std::size_t k = 0; k < g->i.size(); ++k) {
-      const std::uint32_t i = g->i[k], j = g->j[k];
-      if (g == &walls_ ? j == no_wall : i == j) continue;
-      const std::uint64_t wanted = g == &walls_ ? wall_key | j : id[j];
-      const std::uint64_t end = payload.offset[order[i] + 1];
-      for (std::uint64_t at = payload.offset[order[i]]; at < end; at += entry_bytes()) {
-        std::uint64_t key;
-        std::memcpy(&key, payload.bytes.data() + at, sizeof key);
-        if (key != wanted) continue;
-        g->touching[k / lanes] = static_cast<std::uint8_t>(g->touching[k / lanes] | 1u << (k % lanes));
-        double* history = g->history.data() + k / lanes * history_ * lanes + k % lanes;
-        for (std::size_t c = 0; c < history_; ++c) {
-          double value;
-          std::memcpy(&value, payload.bytes.data() + at + 8 * (1 + c), sizeof value);
-          history[c * lanes] = -value;
-        }
-        count(found, id[i], wanted);
-        if (g == &pairs_ && j < p.owned()) count(found, wanted, id[i]);
-        break;
-      }
-    }
-  return found;
-}
-
-ContactCensus ContactLists::census(const Particles& p, const decomp::Payload& payload, int history) {
-  ContactCensus census;
-  const std::uint64_t* id = p.data<Field::id>();
-  for (std::size_t row = 0; row < payload.rows(); ++row)
-    for (std::uint64_t at = payload.offset[row]; at < payload.offset[row + 1];
-         at += 8 * (1 + static_cast<std::size_t>(history))) {
-      std::uint64_t key;
-      std::memcpy(&key, payload.bytes.data() + at, sizeof key);
-      count(census, id[row], key);
-    }
-  return census;
 }
 
 std::size_t ContactLists::bytes() const {

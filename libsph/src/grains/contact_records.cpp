@@ -106,8 +106,9 @@ class Enumeration {
   /// Force and energy of the contact at `lane` of group `g`, by the law that moves it.
   void respond(Found& f, const ContactGroups& list, std::size_t g, std::size_t lane) const {
     const std::span<const double, 8> table = grains_.pair_constants(f.groups[0], f.groups[1]);
-    const ContactConstants<V> k{table[0], table[1], table[2], table[3],
-                                table[4], table[5], table[6], table[7]};
+    V row[8];
+    for (std::size_t n = 0; n < 8; ++n) row[n] = table[n];
+    const auto k = ContactConstants<V>::of_row(row, V::zero());
     Contact<V> contact{};
     contact.overlap = f.record.overlap;
     contact.separation = f.separation;

@@ -122,6 +122,13 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
     return unequal("max_acceleration", g.max_acceleration, h.max_acceleration);
   if (a.kind == b.kind && g.fluid_volume != h.fluid_volume)
     return unequal("fluid_volume", g.fluid_volume.now, h.fluid_volume.now);
+  if (a.kind == b.kind) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const double x = g.motion.velocity[k], y = h.motion.velocity[k]; differ(x, y))
+        return unequal("mean_velocity", x, y);
+    if (differ(g.motion.unlike, h.motion.unlike))
+      return unequal("unlike_motion", g.motion.unlike, h.motion.unlike);
+  }
   if (a.kind == b.kind)  // a snapshot does not have the walls
     if (std::string text = wall_difference(g.walls, h.walls); !text.empty()) return text;
   if (a.fingerprint != b.fingerprint)

@@ -10,21 +10,18 @@
 
 namespace sph {
 
+class Descriptor;
+
 /// A run of bytes of a file.
 struct Extent {
   std::uint64_t offset, bytes;
 };
 
-/// Creates or replaces `path` by `start` followed by zeros up to `length` bytes, all of which are allocated:
-/// writing there later cannot run out of space. Throws if there is not enough.
-void create_reserved(const std::filesystem::path& path, std::span<const std::byte> start,
-                     std::uint64_t length);
-
 /// Waits until the contents of a file, or the entries of a directory, are on disk.
 void sync_to_disk(const std::filesystem::path& path);
 
-/// Throws unless this rank may write to the existing file.
-void check_writable(const std::filesystem::path& path);
+/// A new file for writing only; one that has this name is removed.
+[[nodiscard]] Descriptor create_anew(const std::filesystem::path& path);
 
 /// Replaces `path` by `text`: readers see the old or the new file, never a part, even after a power cut.
 void write_atomically(const std::filesystem::path& path, const std::string& text);

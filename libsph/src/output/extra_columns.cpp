@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "output/averages.hpp"
+#include "output/tensor_order.hpp"
 #include "sph/contact_records.hpp"
 
 namespace sph {
@@ -12,10 +13,11 @@ namespace {
 
 constexpr std::size_t stress_components = 6;
 constexpr std::array<std::array<std::size_t, 2>, stress_components> axes{
-    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
 std::vector<ExtraColumn> grain_columns() {
-  return {{"stress", "Pa", static_cast<int>(stress_components), {}}, {"coordination", "1", 1, {}}};
+  return {{"stress", "Pa", static_cast<int>(stress_components), {}, components_in_files(3)},
+          {"coordination", "1", 1, {}}};
 }
 
 /// stress and coordination of this rank's grains.

@@ -1,6 +1,6 @@
 // What snapshots show beyond the fields of the particles; the state never sees it.
 //   average_space  averages.hpp
-//   contacts       of grains: stress [Pa], xx, yy, zz, xy, xz, yz, the symmetric part of
+//   contacts       of grains: stress [Pa], xx, yy, zz, xy, yz, xz, the symmetric part of
 //                  1/V sum_c f_c (x) l_c over the contacts of the grain (Love 1927; Weber 1966), f the force
 //                  on the grain, l from its centre to the point of contact, V its own volume: compression is
 //                  negative. coordination: the number of those contacts, walls and fixed grains included.

@@ -99,6 +99,10 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
     words.push_back(static_cast<std::uint64_t>(global.fluid_volume.start));
     words.push_back(static_cast<std::uint64_t>(global.fluid_volume.now));
   }
+  if (global.motion != CommonMotion{}) {
+    for (const double v : global.motion.velocity) words.push_back(std::bit_cast<std::uint64_t>(v));
+    words.push_back(std::bit_cast<std::uint64_t>(global.motion.unlike));
+  }
   for (const WallState& wall : global.walls)
     for (std::size_t a = 0; a < 3; ++a) {
       words.push_back(std::bit_cast<std::uint64_t>(wall.offset[a]));

@@ -1,5 +1,6 @@
 #include "output/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <hdf5.h>
 
 #include <algorithm>
@@ -7,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "output/memory_file.hpp"
+
 namespace sph {
 namespace {
-
-constexpr std::uint64_t max_io_bytes = std::uint64_t{1} << 30;
 
 /// HDF5's innermost reason: the outer ones only name its own functions.
 std::string innermost_reason() {
@@ -110,6 +111,15 @@ void add_attribute(hid_t object, const std::string& name, const std::vector<std:
   add_attribute(object, name, text_type(), space_of(values.size(), 1), texts.data());
 }
 
+std::string text_at(hid_t object, const std::string& attribute) {
+  const Handle handle(H5Aopen(object, attribute.c_str(), H5P_DEFAULT), H5Aclose, "attribute " + attribute);
+  char* value = nullptr;
+  check(H5Aread(handle, text_type(), static_cast<void*>(&value)), "read attribute " + attribute);
+  const std::string text = value == nullptr ? "" : value;
+  check(H5free_memory(value), "H5free_memory");
+  return text;
+}
+
 std::uint64_t data_bytes(const DataSet& set) {
   return set.rows * static_cast<std::uint64_t>(set.components) * bytes(set.element);
 }
@@ -127,43 +137,11 @@ Extent add_data_set(hid_t file, const DataSet& set) {
                     H5Dclose, "create data set " + set.name);
   if (!set.unit.empty()) add_attribute(data, "unit", set.unit);
   if (!set.meaning.empty()) add_attribute(data, "meaning", set.meaning);
+  if (!set.component_names.empty()) add_attribute(data, "components", set.component_names);
   const haddr_t offset = H5Dget_offset(data);
   if (offset != HADDR_UNDEF) return {offset, data_bytes(set)};
   if (set.rows > 0) fail("place of data set " + set.name);
   return {0, 0};
-}
-
-/// An HDF5 file without contents, made in memory.
-std::vector<std::byte> empty_file() {
-  constexpr std::size_t increment = 4096;
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "H5Pcreate");
-  check(H5Pset_fapl_core(access, increment, false), "H5Pset_fapl_core");
-  const Handle file(H5Fcreate("empty", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "H5Fcreate");
-  check(H5Fflush(file, H5F_SCOPE_GLOBAL), "H5Fflush");
-  std::vector<std::byte> image(static_cast<std::size_t>(H5Fget_file_image(file, nullptr, 0)));
-  if (H5Fget_file_image(file, image.data(), image.size()) < 0) fail("H5Fget_file_image");
-  return image;
-}
-
-/// More than HDF5 needs besides the rows: it must never meet a full disk itself, since a file that it could
-/// not close stays half open in the library and is its end when the program ends.
-std::uint64_t structure_bytes(const std::vector<Attribute>& attributes,
-                              const std::vector<DataSet>& data_sets) {
-  constexpr std::uint64_t per_file = 32768;
-  constexpr std::uint64_t per_object = 4096;
-  std::uint64_t sum = per_file + per_object * (attributes.size() + 4 * data_sets.size());
-  for (const Attribute& attribute : attributes) {
-    if (const auto* text = std::get_if<std::string>(&attribute.value)) sum += 2 * text->size();
-    if (const auto* texts = std::get_if<std::vector<std::string>>(&attribute.value))
-      for (const std::string& text : *texts) sum += per_object + 2 * text.size();
-  }
-  return sum;
-}
-
-std::uint64_t data_bytes(const std::vector<DataSet>& data_sets) {
-  std::uint64_t sum = 0;
-  for (const DataSet& set : data_sets) sum += data_bytes(set);
-  return sum;
 }
 
 }  // namespace
@@ -196,47 +174,40 @@ Element element_of(Type type) {
 std::vector<Extent> lay_out(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
                             const std::vector<DataSet>& data_sets) {
   silence();
-  create_reserved(path, empty_file(), data_bytes(data_sets) + structure_bytes(attributes, data_sets));
   std::vector<Extent> extents;
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "open " + path.string());
-  for (const Attribute& attribute : attributes)
-    std::visit([&](const auto& value) { add_attribute(file, attribute.name, value); }, attribute.value);
-  for (const DataSet& set : data_sets) extents.push_back(add_data_set(file, set));
-  check(H5Fclose(file.release()), "close " + path.string());  // gives back what was reserved too much
+  MemoryFile image;
+  {
+    const Handle access(access_in_memory(image), H5Pclose, "HDF5 file in memory");
+    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "H5Fcreate");
+    for (const Attribute& attribute : attributes)
+      std::visit([&](const auto& value) { add_attribute(file, attribute.name, value); }, attribute.value);
+    for (const DataSet& set : data_sets) extents.push_back(add_data_set(file, set));
+    check(H5Fclose(file.release()), "H5Fclose");
+  }
+  Descriptor file = create_anew(path);
+  file.reserve(image.length);
+  image.bytes.for_each_run(
+      image.length, [&](std::uint64_t at, std::span<const std::byte> bytes) { file.write_at(at, bytes); });
+  file.close();
   return extents;
 }
 
-SharedHdf5File::SharedHdf5File(const std::filesystem::path& path, MPI_Comm comm) : id_(-1) {
-  silence();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "H5Pcreate");
-  check(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "H5Pset_fapl_mpio");
-  id_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access), H5Fclose, "open " + path.string()).release();
-}
+RowFile::RowFile(const std::filesystem::path& path, const std::vector<DataSet>& sets,
+                 const std::vector<Extent>& extents)
+    : file_(path, O_WRONLY), sets_(sets), extents_(extents) {}
 
-SharedHdf5File::~SharedHdf5File() {
-  if (id_ >= 0) H5Fclose(id_);
-}
-
-void SharedHdf5File::close() { check(H5Fclose(std::exchange(id_, -1)), "close"); }
-
-void SharedHdf5File::write(const DataSet& set, std::uint64_t first, std::uint64_t rows, const void* values) {
+void RowFile::write(std::size_t set, std::uint64_t first, std::uint64_t rows, const void* values) const {
+  const DataSet& s = sets_[set];
   if (rows == 0) return;
-  const Handle data(H5Dopen2(id_, set.name.c_str(), H5P_DEFAULT), H5Dclose, "open data set " + set.name);
-  const Handle file_space(H5Dget_space(data), H5Sclose, "H5Dget_space");
-  const std::uint64_t row_bytes = static_cast<std::uint64_t>(set.components) * bytes(set.element);
-  const std::uint64_t longest = std::max<std::uint64_t>(1, max_io_bytes / row_bytes);
-  for (std::uint64_t done = 0; done < rows;) {
-    const std::uint64_t n = std::min(longest, rows - done);
-    const std::array<hsize_t, 2> start{first + done, 0};
-    const std::array<hsize_t, 2> count{n, static_cast<hsize_t>(set.components)};
-    check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-          "select rows of " + set.name);
-    // Independent transfer: a rank's rows are one contiguous run, and a failure stays on its rank.
-    check(H5Dwrite(data, memory_type(set.element), space_of(n, set.components), file_space, H5P_DEFAULT,
-                   static_cast<const std::byte*>(values) + done * row_bytes),
-          "write " + set.name);
-    done += n;
-  }
+  if (first + rows > s.rows) throw std::logic_error("rows beyond the end of data set " + s.name);
+  const std::uint64_t row_bytes = static_cast<std::uint64_t>(s.components) * bytes(s.element);
+  file_.write_at(extents_[set].offset + first * row_bytes,
+                 {static_cast<const std::byte*>(values), rows * row_bytes});
+}
+
+void RowFile::finish() {
+  file_.sync();
+  file_.close();
 }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : id_(-1) {
@@ -254,6 +225,33 @@ bool Hdf5Reader::has(const std::string& data_set) const {
     if (H5Lexists(id_, data_set.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
   }
   return true;
+}
+
+StoredAs Hdf5Reader::stored_as(const std::string& data_set) const {
+  const Handle data(H5Dopen2(id_, data_set.c_str(), H5P_DEFAULT), H5Dclose, "open data set " + data_set);
+  const Handle type(H5Dget_type(data), H5Tclose, "type of " + data_set);
+  const Handle space(H5Dget_space(data), H5Sclose, "H5Dget_space");
+  StoredAs out;
+  out.bytes = H5Tget_size(type);
+  const std::string bits = std::to_string(8 * out.bytes) + "-bit ";
+  switch (H5Tget_class(type)) {
+    case H5T_INTEGER:
+      out.numbers = StoredAs::Numbers::whole;
+      out.with_sign = H5Tget_sign(type) != H5T_SGN_NONE;
+      out.type = bits + (out.with_sign ? "integers" : "integers without sign");
+      break;
+    case H5T_FLOAT:
+      out.numbers = StoredAs::Numbers::real;
+      out.type = bits + "real numbers";
+      break;
+    default:
+      out.type = "no numbers";
+  }
+  std::array<hsize_t, H5S_MAX_RANK> size{};
+  const int axes = H5Sget_simple_extent_dims(space, size.data(), nullptr);
+  if (axes < 0) fail("size of " + data_set);
+  out.extent.assign(size.begin(), size.begin() + axes);
+  return out;
 }
 
 std::uint64_t Hdf5Reader::rows(const std::string& data_set) const {
@@ -305,13 +303,17 @@ double Hdf5Reader::real(const std::string& attribute) const {
   return value;
 }
 
-std::string Hdf5Reader::text(const std::string& attribute) const {
-  const Handle handle(H5Aopen(id_, attribute.c_str(), H5P_DEFAULT), H5Aclose, "attribute " + attribute);
-  char* value = nullptr;
-  check(H5Aread(handle, text_type(), static_cast<void*>(&value)), "read attribute " + attribute);
-  const std::string text = value == nullptr ? "" : value;
-  check(H5free_memory(value), "H5free_memory");
-  return text;
+std::string Hdf5Reader::text(const std::string& attribute) const { return text_at(id_, attribute); }
+
+bool Hdf5Reader::has_attribute(const std::string& attribute) const {
+  return H5Aexists(id_, attribute.c_str()) > 0;
+}
+
+std::optional<std::string> Hdf5Reader::text_of(const std::string& data_set,
+                                               const std::string& attribute) const {
+  const Handle data(H5Dopen2(id_, data_set.c_str(), H5P_DEFAULT), H5Dclose, "open data set " + data_set);
+  if (H5Aexists(data, attribute.c_str()) <= 0) return std::nullopt;
+  return text_at(data, attribute);
 }
 
 std::string hdf5_version() {

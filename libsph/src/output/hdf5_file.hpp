@@ -1,17 +1,18 @@
 // The only door to HDF5. A file is written in two parts: one rank lays out its whole structure and reserves
-// the disk space, then all ranks fill in rows. After the first part nothing but raw rows changes, so the
-// bytes do not depend on the number of ranks, and a full disk shows up on one rank before others are involved
-// (collective HDF5 calls that fail on some ranks only leave the others waiting).
+// the disk space, then all ranks fill in rows, each at its own place. After the first part nothing but raw
+// rows changes, so the bytes do not depend on the number of ranks. HDF5 makes the structure in memory and
+// meets no disk (memory_file.hpp); no rank waits for another while files are written, so that one that
+// cannot write is no reason to hang.
 #pragma once
-
-#include <mpi.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "output/descriptor.hpp"
 #include "output/durable_file.hpp"
 #include "sph/fields.hpp"
 
@@ -26,7 +27,8 @@ struct DataSet {
   Element element;
   std::uint64_t rows;
   int components;
-  std::string unit, meaning;  ///< attributes; empty: none
+  std::string unit, meaning;         ///< attributes; empty: none
+  std::string component_names = {};  ///< attribute "components"; empty: none
 };
 
 struct Attribute {
@@ -39,19 +41,31 @@ struct Attribute {
 std::vector<Extent> lay_out(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
                             const std::vector<DataSet>& data_sets);
 
-/// A laid-out file, open for rows on all ranks of a communicator. Opening and closing are collective,
-/// writing is not. Errors are std::runtime_error with HDF5's innermost reason.
-class SharedHdf5File {
+/// A laid-out file, open for rows on this rank. For writing only: a client of NFS then sends just the bytes
+/// it was given, and none of what other ranks write beside them. Errors are std::runtime_error.
+class RowFile {
  public:
-  SharedHdf5File(const std::filesystem::path& path, MPI_Comm comm);
-  ~SharedHdf5File();
-  SharedHdf5File(const SharedHdf5File&) = delete;
-  SharedHdf5File& operator=(const SharedHdf5File&) = delete;
-  void write(const DataSet& set, std::uint64_t first, std::uint64_t rows, const void* values);
-  void close();
+  /// `sets` and `extents` are those of lay_out(), and must outlive this.
+  RowFile(const std::filesystem::path& path, const std::vector<DataSet>& sets,
+          const std::vector<Extent>& extents);
+  /// Rows [first, first + rows) of the set-th data set.
+  void write(std::size_t set, std::uint64_t first, std::uint64_t rows, const void* values) const;
+  void finish();  ///< waits for the disk and closes
 
  private:
-  std::int64_t id_;
+  Descriptor file_;
+  const std::vector<DataSet>& sets_;
+  const std::vector<Extent>& extents_;
+};
+
+/// How a data set is stored, whatever it is converted to when it is read.
+struct StoredAs {
+  enum class Numbers { whole, real, none };
+  Numbers numbers = Numbers::none;
+  bool with_sign = false;
+  std::size_t bytes = 0;  ///< of a number
+  std::string type;       ///< "64-bit real numbers", for messages
+  std::vector<std::uint64_t> extent;
 };
 
 /// A file open for reading by one process.
@@ -62,6 +76,7 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
   [[nodiscard]] bool has(const std::string& data_set) const;
+  [[nodiscard]] StoredAs stored_as(const std::string& data_set) const;
   [[nodiscard]] std::uint64_t rows(const std::string& data_set) const;
   [[nodiscard]] int components(const std::string& data_set) const;
   void read(const std::string& data_set, Element element, void* values) const;  ///< all rows
@@ -71,6 +86,10 @@ class Hdf5Reader {
   [[nodiscard]] std::int64_t integer(const std::string& attribute) const;
   [[nodiscard]] double real(const std::string& attribute) const;
   [[nodiscard]] std::string text(const std::string& attribute) const;
+  [[nodiscard]] bool has_attribute(const std::string& attribute) const;
+  /// An attribute of a data set, if it has that.
+  [[nodiscard]] std::optional<std::string> text_of(const std::string& data_set,
+                                                   const std::string& attribute) const;
 
  private:
   std::int64_t id_;

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <span>
 
 #include "output/fill_file.hpp"
 #include "output/sorted_table.hpp"
+#include "output/tensor_order.hpp"
+#include "output/vertices.hpp"
 #include "sph/report.hpp"
 #include "sph/snapshot.hpp"
 
@@ -34,6 +37,8 @@ decomp::Table copy(const Particles& particles, const std::vector<Field>& fields,
     decomp::Column& column = table.column(to++);
     const decomp::Column& from = particles.table().column(particles.column(f));
     if (particles.owned() > 0) std::memcpy(column.data(), from.data(), particles.owned() * column.width());
+    if (info(f).shape == Shape::symmetric && particles.dim() == 3)
+      exchange_yz_xz(reinterpret_cast<double*>(column.data()), particles.owned());
     if (f != Field::position) continue;
     auto* x = reinterpret_cast<std::int64_t*>(column.data());
     for (std::size_t row = 0; row < particles.owned(); ++row)
@@ -100,9 +105,9 @@ struct Placed {
     rows = static_cast<std::uint64_t>(table.owned());
     first = static_cast<std::uint64_t>(comm.exclusive_sum(static_cast<std::int64_t>(rows)));
   }
-  void write(SharedHdf5File& file, const std::vector<DataSet>& sets) const {
-    for (int c = 0; c < table.columns(); ++c)
-      file.write(sets[static_cast<std::size_t>(c)], first, rows, table.column(c).data());
+  /// The table's columns are the data sets from `set` on.
+  void write(const RowFile& file, std::size_t set) const {
+    for (int c = 0; c < table.columns(); ++c) file.write(set++, first, rows, table.column(c).data());
   }
 };
 
@@ -139,17 +144,19 @@ std::vector<DataSet> data_sets_of(int dim, std::uint64_t rows, const std::vector
     const FieldInfo& i = info(f);
     const std::string name = f == Field::position ? "position_quanta" : std::string(i.name);
     out.push_back({"particles/" + name, element_of(i.type), rows, components(i.shape, dim),
-                   std::string(i.unit), std::string(i.meaning)});
+                   std::string(i.unit), std::string(i.meaning),
+                   i.shape == Shape::symmetric ? components_in_files(dim) : std::string()});
   }
   for (const ExtraColumn& e : extra)
-    out.push_back({"particles/" + e.name, Element::f64, rows, e.components, e.unit, "not state: for output"});
+    out.push_back({"particles/" + e.name, Element::f64, rows, e.components, e.unit, "not state: for output",
+                   e.component_names});
   out.push_back({"particles/position", Element::f64, rows, dim, "m", "position"});
   return out;
 }
 
-void write_metres(SharedHdf5File& file, const DataSet& set, std::uint64_t first, std::uint64_t rows,
+void write_metres(const RowFile& file, std::size_t set, int dim, std::uint64_t first, std::uint64_t rows,
                   const std::int64_t* quanta, const PositionScale& scale) {
-  const auto d = static_cast<std::size_t>(set.components);
+  const auto d = static_cast<std::size_t>(dim);
   std::vector<double> metres;
   for (std::uint64_t done = 0; done < rows;) {
     const std::uint64_t n = std::min<std::uint64_t>(conversion_rows, rows - done);
@@ -157,6 +164,16 @@ void write_metres(SharedHdf5File& file, const DataSet& set, std::uint64_t first,
     for (std::size_t k = 0; k < metres.size(); ++k) metres[k] = scale.metres(quanta[done * d + k]);
     file.write(set, first + done, n, metres.data());
     done += n;
+  }
+}
+
+template <class T>
+void count_rows(const RowFile& file, std::size_t set, std::uint64_t first, std::uint64_t rows) {
+  std::vector<T> numbers;
+  for (std::uint64_t done = 0; done < rows; done += numbers.size()) {
+    numbers.resize(std::min<std::uint64_t>(conversion_rows, rows - done));
+    std::iota(numbers.begin(), numbers.end(), static_cast<T>(first + done));
+    file.write(set, first + done, numbers.size(), numbers.data());
   }
 }
 
@@ -174,29 +191,35 @@ void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path,
     if (contacts) touching.table = table_of(std::move(*contacts));
   });
   rows.place(comm, sort_limit, 1);
-  const std::vector<DataSet> sets =
+  std::vector<DataSet> sets =
       data_sets_of(particles.dim(), static_cast<std::uint64_t>(rows.all_rows), fields, extra);
-  std::vector<DataSet> all_sets = sets, sets_of_contacts;
+  const std::size_t of_particles = sets.size();  // the last one is the position in metres
+  sets.push_back({"vertex", element_of(vertex_type(sets.front().rows)), sets.front().rows, 1, "1",
+                  "number of the row: XDMF's vertices"});
   if (contacts) {
     touching.place(comm, sort_limit, 2);
-    sets_of_contacts = contact_sets(static_cast<std::uint64_t>(touching.all_rows));
-    all_sets.insert(all_sets.end(), sets_of_contacts.begin(), sets_of_contacts.end());
+    for (DataSet& set : contact_sets(static_cast<std::uint64_t>(touching.all_rows)))
+      sets.push_back(std::move(set));
   }
 
   std::filesystem::path temporary = path;
   temporary += ".tmp";
   try {
+    std::vector<Extent> extents;
     all_or_none(comm, what, [&] {
       if (comm.rank() == 0)
-        lay_out(temporary, attributes_of(particles.dim(), rows.all_rows, global, scale, provenance),
-                all_sets);
+        extents = lay_out(temporary, attributes_of(particles.dim(), rows.all_rows, global, scale, provenance),
+                          sets);
     });
-    fill_in(comm, comm, temporary, what, [&](SharedHdf5File& file) {
-      rows.write(file, sets);
-      touching.write(file, sets_of_contacts);
+    fill_in(comm, comm, temporary, sets, extents, what, [&](const RowFile& file) {
+      rows.write(file, 0);
+      touching.write(file, of_particles + 1);
+      sets[of_particles].element == Element::u32
+          ? count_rows<std::uint32_t>(file, of_particles, rows.first, rows.rows)
+          : count_rows<std::int64_t>(file, of_particles, rows.first, rows.rows);
       const auto position = std::find(fields.begin(), fields.end(), Field::position) - fields.begin();
       if (particles.has(Field::position))
-        write_metres(file, sets.back(), rows.first, rows.rows,
+        write_metres(file, of_particles - 1, particles.dim(), rows.first, rows.rows,
                      rows.table.as<std::int64_t>(static_cast<int>(position)), scale);
     });
     all_or_none(comm, what, [&] {

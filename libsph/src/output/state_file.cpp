@@ -4,6 +4,8 @@
 
 #include "checkpoint/checkpoint_files.hpp"
 #include "output/hdf5_file.hpp"
+#include "output/tensor_order.hpp"
+#include "output/trial.hpp"
 #include "run/agree.hpp"
 #include "sph/error.hpp"
 
@@ -64,6 +66,9 @@ class SnapshotFile : public StateFile {
         file_->components(set_of(field)) != components(info(field).shape, summary().dim))
       throw InputError(summary().path.string() + ": " + set_of(field) + " does not have the size it should");
     if (!out.empty()) file_->read(set_of(field), element_of(info(field).type), out.data());
+    if (info(field).shape == Shape::symmetric)
+      to_state_order(*file_, set_of(field), summary().dim, reinterpret_cast<double*>(out.data()),
+                     summary().rows);
     return out;
   }
 
@@ -82,6 +87,7 @@ class SnapshotFile : public StateFile {
                 file.real("dt"),
                 file.real("max_speed"),
                 file.real("max_acceleration"),
+                {},
                 {},
                 {}};
     s.scale.quantum = file.real("quantum");
@@ -106,6 +112,25 @@ class SnapshotFile : public StateFile {
 
   std::unique_ptr<Hdf5Reader> file_;
 };
+
+/// Throws if HDF5 cannot be trusted with the file: all that readers of a snapshot touch, a row of each data
+/// set included, is tried first.
+void try_snapshot(const fs::path& path) {
+  const std::string fate = fate_in_a_copy([&] {
+    const SnapshotFile snapshot(path);
+    const Hdf5Reader file(path);
+    const StateSummary& s = snapshot.summary();
+    std::vector<std::byte> row;
+    for (Field field : s.fields) {
+      const std::string set = set_of(field);
+      row.resize(width(field, s.dim));
+      if (s.rows == file.rows(set) && s.rows > 0 &&
+          file.components(set) == components(info(field).shape, s.dim))
+        file.read_rows(set, element_of(info(field).type), s.rows - 1, 1, row.data());
+    }
+  });
+  if (!fate.empty()) throw InputError("the file is damaged, " + fate);
+}
 
 std::unique_ptr<StateFile> open_checkpoint(const fs::path& dir) {
   try {
@@ -135,7 +160,10 @@ std::unique_ptr<StateFile> open_state(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(path.string() + ": no such file or directory");
   if (fs::is_directory(path))
     return fs::exists(manifest_path(path)) ? open_checkpoint(path) : open_newest(path);
+  if (!fs::is_regular_file(path))
+    throw InputError(path.string() + ": not a snapshot: not a file with contents");
   try {
+    try_snapshot(path);
     return std::make_unique<SnapshotFile>(path);
   } catch (const std::exception& error) {
     throw InputError(path.string() + ": not a snapshot: " + error.what());

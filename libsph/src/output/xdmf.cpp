@@ -1,10 +1,11 @@
-// XDMF 2 as ParaView's "XDMF Reader" takes it: a temporal collection of Polyvertex grids whose data items
-// point into the snapshot files.
+// XDMF 2 as ParaView's "XDMF Reader" and both "Xdmf3 Reader"s take it: a temporal collection of Polyvertex
+// grids whose data items point into the snapshot files.
 #include <fmt/format.h>
 
 #include <iterator>
 
 #include "output/durable_file.hpp"
+#include "output/vertices.hpp"
 #include "sph/error.hpp"
 #include "sph/snapshot.hpp"
 
@@ -54,7 +55,7 @@ std::vector<Item> items_of(const Particles& particles, const std::vector<ExtraCo
   return out;
 }
 
-/// Matrix keeps any number of components as they are; Tensor6 would expect another order than ours.
+/// Matrix keeps any number of components as they are; of Tensor6 the readers expect different orders.
 std::string_view attribute_type(const Item& item) {
   if (item.components == 1) return "Scalar";
   return item.vector ? "Vector" : "Matrix";
@@ -73,11 +74,11 @@ std::string_view number_type(Type type) {
   return {};
 }
 
-std::string data_item(const SnapshotEntry& entry, const Item& item) {
+std::string data_item(const SnapshotEntry& entry, const Item& item, std::string_view group = "/particles/") {
   const std::string dimensions = item.components == 1 ? fmt::format("{}", entry.rows)
                                                       : fmt::format("{} {}", entry.rows, item.components);
-  return fmt::format(R"(<DataItem Format="HDF" Dimensions="{}" {}>{}:/particles/{}</DataItem>)", dimensions,
-                     number_type(item.type), escaped(entry.file), escaped(item.name));
+  return fmt::format(R"(<DataItem Format="HDF" Dimensions="{}" {}>{}:{}{}</DataItem>)", dimensions,
+                     number_type(item.type), escaped(entry.file), group, escaped(item.name));
 }
 
 std::string grid(const SnapshotEntry& entry, int dim, const std::vector<Item>& items) {
@@ -86,8 +87,11 @@ std::string grid(const SnapshotEntry& entry, int dim, const std::vector<Item>& i
   fmt::format_to(to, "   <Grid Name=\"step {}\" GridType=\"Uniform\">\n", entry.step);
   fmt::format_to(to, "    <Time Value=\"{}\"/>\n", entry.time);
   fmt::format_to(
-      to, "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n",
-      entry.rows);
+      to,
+      "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" "
+      "NodesPerElement=\"1\">{}</Topology>\n",
+      entry.rows,
+      data_item(entry, {"vertex", vertex_type(static_cast<std::uint64_t>(entry.rows)), 1, false}, "/"));
   fmt::format_to(to, "    <Geometry GeometryType=\"{}\">{}</Geometry>\n", dim == 2 ? "XY" : "XYZ",
                  data_item(entry, {"position", Type::f64, dim, true}));
   for (const Item& item : items)

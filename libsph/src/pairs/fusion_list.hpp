@@ -81,7 +81,7 @@ struct FusionList {
              fuse<Quintic, Pressure, SurfaceTension>(),
              fuse<Quintic, WeightedPressure, SurfaceTension>(),
              fuse<Quintic, SymmetricViscousOperator>(),
-             fuse<Quintic, NumberDensity>(),
+             fuse<Quintic, NumberDensity, GasMoments>(),
              fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
              fuse<Quintic, IdaGradient>(),

@@ -42,6 +42,8 @@ std::string name_of(Term term) {
       return "ArtificialViscosity";
     case Term::number_density:
       return "NumberDensity";
+    case Term::gas_moments:
+      return "GasMoments";
     case Term::gas_pressure:
       return "GasPressure";
     case Term::shock_viscosity:

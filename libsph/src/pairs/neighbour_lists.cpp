@@ -73,19 +73,20 @@ void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>
   begin_.assign(1, 0);
   entries_.clear();
   pairs_ = 0;
+  const float limit = bins.limit() * bins.limit();
   std::size_t stride = 0;
   std::vector<std::uint32_t> lists;
   for (RowRange& range : ranges) {
     range.first_block = begin_.size() - 1;
     std::uint32_t cell = no_partner;
-    CellBins::Run runs[9];
+    CellBins::Runs runs;
     int run_count = 0;
     for (std::size_t first = range.first; first < range.last; first += lanes) {
       std::size_t longest = 0, length[chunk] = {};
       for (std::size_t l = 0; l < std::min(lanes, range.last - first); ++l) {
         const std::size_t place = bins.place(first + l);
-        if (bins.cell(first + l) != cell) {
-          cell = bins.cell(first + l);
+        if (bins.bin(first + l) != cell) {
+          cell = bins.bin(first + l);
           run_count = bins.runs(cell, runs);
           std::size_t candidates = 2 * chunk;
           for (int r = 0; r < run_count; ++r) candidates += runs[r].last - runs[r].first;
@@ -102,8 +103,7 @@ void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>
         std::size_t n = 0;
         for (int r = 0; r < run_count; ++r)
           for (std::size_t c = runs[r].first; c < runs[r].last; c += chunk)
-            n +=
-                append_within<D>(bins, tags.data(), c, runs[r].last, at, bins.limit(), tags[place], mine + n);
+            n += append_within<D>(bins, tags.data(), c, runs[r].last, at, limit, tags[place], mine + n);
         length[l] = n;
         pairs_ += n;
         longest = std::max(longest, n);
@@ -134,6 +134,16 @@ void NeighbourLists::finish(const std::vector<std::uint32_t>& row_of_tag, const 
           entries[k] = entries[k] == no_partner ? self : row_of_tag[entries[k]];
       }
     }
+}
+
+void NeighbourLists::mark_walls(const Particles& particles, const std::vector<bool>& is_wall_group) {
+  const auto* group = particles.data<Field::group>();
+  beside_walls_.assign(begin_.size() - 1, false);
+  for (std::size_t b = 0; b < beside_walls_.size(); ++b) {
+    const std::span<const std::uint32_t> rows = block(b);
+    beside_walls_[b] =
+        std::any_of(rows.begin(), rows.end(), [&](std::uint32_t j) { return is_wall_group[group[j]]; });
+  }
 }
 
 void NeighbourLists::build(const Particles& particles, const decomp::CellGrid& grid,

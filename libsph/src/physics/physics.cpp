@@ -95,7 +95,7 @@ PositionScale position_scale(const Scene& scene) {
   PositionScale scale;
   // The next power of two above both bounds. A bond of a body that turns upside down is displaced by its
   // length then and now.
-  const double longest = scene.total_lagrangian() ? scene.support() + scene.list_range() : scene.support();
+  const double longest = scene.total_lagrangian() ? scene.support() + scene.list_range() : scene.list_range();
   scale.quantum = std::ldexp(1.0, std::max(std::ilogb(extent) + 1 - 60, std::ilogb(longest) + 1 - 50));
   for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.lower[a]);
   return scale;
@@ -103,7 +103,8 @@ PositionScale position_scale(const Scene& scene) {
 
 // 2^29 units across the support, so that its square and the skin stay within 31 bits.
 int row_position_shift(const Scene& scene, const PositionScale& scale) {
-  return std::max(std::ilogb(scene.support() / scale.quantum) + 1 - 29, 0);
+  const double longest = scene.total_lagrangian() ? scene.support() : scene.list_range();
+  return std::max(std::ilogb(longest / scale.quantum) + 1 - 29, 0);
 }
 
 std::int64_t PositionScale::quanta(double metres) const {
@@ -260,6 +261,8 @@ void Physics::build_conservative() {
   if (tension) forces.push_back(Term::surface_tension);
   if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
   add_pass("forces", forces, true, false);
+  if (walls && s.has_kind(GroupKind::fluid) && (s.terms.implicit_viscosity || s.free_surface))
+    find_walls_nearby();
   if (s.terms.implicit_viscosity) build_implicit_viscosity(walls);
 }
 
@@ -278,12 +281,19 @@ void Physics::add_walls(bool weighted) {
   passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures, Field::wall_mirror};
 }
 
+// Only where fluid flies can it come into walls.
+void Physics::find_walls_nearby() {
+  wall_distance_.emplace(scene_->kernel, scene_->dim, scene_->spacing / scene_->smoothing_length);
+  add_pass("wall distance", {Term::wall_share}, true, false);
+  if (!scene_->free_surface) return;
+  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState&) {
+    hold_off(p, ranges);
+  };
+  passes_.back().changes = {Field::force};
+}
+
 void Physics::build_implicit_viscosity(bool walls) {
-  if (walls) {
-    wall_distance_.emplace(scene_->kernel, scene_->dim, scene_->spacing / scene_->smoothing_length);
-    add_pass("wall distance", {Term::wall_share}, true, false);
-    fields_ |= FieldSet{Field::wall_slope};
-  }
+  if (walls) fields_ |= FieldSet{Field::wall_slope};
   const auto solver = std::make_shared<ViscositySolver>(*this, scene_->terms.viscosity_tolerance);
   passes_.back().update = [this, walls, solver](Particles& p, const RowRanges& ranges, const GlobalState&) {
     if (walls) find_walls(p, ranges);
@@ -343,7 +353,8 @@ double Physics::time_step(const StepMaxima& maxima) const {
     viscous *= 3;  // nu (lap v + 2 grad div v)
   if (scene_->terms.implicit_viscosity) viscous = 0;
   viscous += bulk;
-  double dt = scene_->time.cfl * h / (fastest + maxima.speed);
+  if (!gas_) fastest += maxima.speed;  // of a gas it is in `sound`
+  double dt = scene_->time.cfl * h / fastest;
   // Dashpots beside springs: the rates add.
   if (bonds && viscous > 0) dt = 1 / (1 / dt + viscous / (0.125 * h * h));
   if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
@@ -362,8 +373,22 @@ double Physics::longest_advance(const GlobalState& global) const {
   return 1.0001 * global.max_speed * global.dt;
 }
 
-double Physics::longest_shift(const GlobalState& global) const {
-  return scene_->terms.shifting ? 0.5 * longest_advance(global) : 0.0;
+// Wall particles do not move, but their pairs are taken with the velocity of their material.
+double Physics::longest_look_back(const GlobalState& global) const {
+  double wall2 = 0;
+  for (const Group& g : scene_->groups) {
+    double v2 = 0;
+    for (double v : g.wall_velocity) v2 += v * v;
+    wall2 = std::max(wall2, v2);
+  }
+  return 0.5 * std::max(longest_advance(global), 1.0001 * std::sqrt(wall2) * global.dt);
+}
+
+// Gases and solids fly at any Mach number; of liquids it says that they are meant to be stiffer.
+double Physics::speed_limit() const {
+  constexpr double light = 299'792'458, mach = 10;
+  if (gas_ || !scene_->has_kind(GroupKind::fluid)) return light;
+  return mach * *std::max_element(groups_.sound_speed.begin(), groups_.sound_speed.end());
 }
 
 double Physics::courant_number(double dt) const {

@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "physics/damping_limit.hpp"
 #include "sph/grains.hpp"
 #include "sph/physics.hpp"
 
 namespace sph {
-
-double courant_number_of(const Scene& scene) {
-  const Physics physics(scene, position_scale(scene));
-  return physics.courant_number(physics.time_step({}));
-}
 
 void check_time_step(const Scene& scene) {
   if (scene.of_grains()) {
@@ -20,15 +16,27 @@ void check_time_step(const Scene& scene) {
           fmt::format("{}: time.dt: {:.6g} s is above the limit of a stable contact, {:.6g} s; set it "
                       "to {:.6g} s or less",
                       scene.file, *scene.time.dt, steps.limit, steps.advised));
+    check_wall_speeds(scene);
     return;
   }
-  const double courant = courant_number_of(scene);
-  if (courant <= courant_limit(scene)) return;
-  const double ratio = courant_limit(scene) / courant;
-  throw InputError(
-      fmt::format("{}: {}: c dt/h = {:.3g} is above the integrator's limit {}; set it to {:.3g}{} or less",
-                  scene.file, scene.time.dt ? "time.dt" : "time.cfl", courant, courant_limit(scene),
-                  ratio * scene.time.dt.value_or(scene.time.cfl), scene.time.dt ? " s" : ""));
+  const Physics physics(scene, position_scale(scene));
+  const double dt = physics.time_step({}), courant = physics.courant_number(dt);
+  const char* key = scene.time.dt ? "time.dt" : "time.cfl";
+  if (courant > courant_limit(scene))
+    throw InputError(fmt::format(
+        "{}: {}: c dt/h = {:.3g} is above the integrator's limit {}; set it to {:.3g}{} or less", scene.file,
+        key, courant, courant_limit(scene),
+        courant_limit(scene) / courant * scene.time.dt.value_or(scene.time.cfl), scene.time.dt ? " s" : ""));
+  const DampingLimit limit = damping_limit(scene, dt);
+  if (dt <= limit.step) return;
+  constexpr double rounded = 0.99;  // below the limit with three digits too
+  std::string right;
+  if (limit.most > 0) right = fmt::format("set it to {:.3g} or less, or ", rounded * limit.most);
+  right += scene.time.dt
+               ? fmt::format("set time.dt to {:.3g} s or less", rounded * limit.step)
+               : fmt::format("set time.cfl to {:.3g} or less", rounded * limit.step / dt * scene.time.cfl);
+  throw InputError(fmt::format("{}: {}: {:.6g} is unstable with time steps of {:.3g} s; {}", scene.file,
+                               limit.key, limit.value, dt, right));
 }
 
 }  // namespace sph

@@ -5,10 +5,8 @@
 
 namespace sph {
 
-/// c dt / h at the start of a run, particles at rest.
-[[nodiscard]] double courant_number_of(const Scene& scene);
-
-/// Throws InputError above the integrator's limit, naming the key.
+/// Throws InputError above the integrator's limits, naming the key: of c dt / h at the start, particles at
+/// rest, and of diffusion and viscosities (physics/damping_limit.hpp).
 void check_time_step(const Scene& scene);
 
 }  // namespace sph

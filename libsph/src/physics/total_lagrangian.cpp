@@ -102,7 +102,7 @@ void Physics::update_bonds(Particles& p, std::size_t first, std::size_t last,
     const double hourglass = constants_.hourglass * groups_.modulus[group[i]];
     bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
     const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
-    if (!(ratio > 0)) fail_particle(p, i, global, "is turned inside out: the body is beyond elasticity");
+    if (!(ratio > 0)) find_fault(p, i, global, "is turned inside out: the body is beyond elasticity");
     energy += volume * (state.energy + 0.5 * hourglass * bonds.residual);
 
     // For output: Cauchy stress P F^T / J; out of the plane mu (1/J - 1) + lambda' (J - 1).
@@ -126,28 +126,29 @@ void Physics::check_bonds(Particles& p, std::size_t i, double count, double shap
   const auto found = static_cast<std::uint32_t>(count);
   if (bonds == 0) {
     if (!(shape > least_shape))
-      fail_particle(p, i, global,
-                    "has its " + std::to_string(found) +
-                        " neighbours in one line or plane: a total-Lagrangian body must be at least two "
-                        "particles across; refine start.spacing");
+      find_fault(p, i, global,
+                 "has its " + std::to_string(found) +
+                     " neighbours in one line or plane: a total-Lagrangian body must be at least two "
+                     "particles across; refine start.spacing");
     bonds = found;
   }
   if (bonds != found)
-    fail_particle(
+    find_fault(
         p, i, global,
         "finds " + std::to_string(found) + " of its " + std::to_string(bonds) +
             " neighbours: the body is stretched beyond terms.largest_stretch; raise it or reduce time.dt");
 }
 
-void Physics::fail_particle(const Particles& p, std::size_t i, const GlobalState& global,
-                            const std::string& what) const {
-  const auto d = static_cast<std::size_t>(p.dim());
-  std::string at;
-  for (std::size_t a = 0; a < d; ++a)
-    at += (a > 0 ? ", " : "") + std::to_string(scale_.metres(p.data<Field::position>()[i * d + a]));
-  throw GuardError("step " + std::to_string(global.step) + ": particle " +
-                   std::to_string(p.data<Field::id>()[i]) + " of \"" +
-                   scene_->groups[p.data<Field::group>()[i]].name + "\" at (" + at + ") m " + what);
+void Physics::find_fault(const Particles& p, std::size_t i, const GlobalState& global,
+                         const std::string& what) const {
+  const std::uint64_t id = p.data<Field::id>()[i];
+  findings_.add(id, [&] {
+    std::vector<double> at;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(p.dim()); ++a)
+      at.push_back(scale_.metres(p.data<Field::position>()[i * static_cast<std::size_t>(p.dim()) + a]));
+    return step_text(global.step) + "particle " + std::to_string(id) + " of \"" +
+           scene_->groups[p.data<Field::group>()[i]].name + "\" " + place_text(at) + " " + what;
+  });
 }
 
 }  // namespace sph

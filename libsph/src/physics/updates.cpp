@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "physics/for_rows.hpp"
-#include "physics/random.hpp"
 #include "sph/fixed_point.hpp"
 #include "sph/physics.hpp"
 #include "sph/stress_update.hpp"
@@ -31,7 +30,8 @@ void Physics::derive(Particles& p, std::size_t first, std::size_t last) const {
     if (g.kind == GroupKind::wall && scene_->formulation == Formulation::conservative) {
       if (sound != nullptr) sound[i] = groups_.sound_speed[group[i]];
       if (psi != nullptr) psi[i] = 0;
-      continue;  // extrapolated from the fluid
+      pressure[i] = 0;  // until it is extrapolated from the fluid; a checkpoint does not have it
+      continue;
     }
     double absolute, c = groups_.sound_speed[group[i]], void_fraction = 0;
     if (g.eos == EosKind::bubbly) {
@@ -145,6 +145,34 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges, const GlobalSt
   }
 }
 
+// Fluid that is torn keeps its density while its neighbours part, and no pressure stops it before a wall: a
+// potential does, 0 at 0.4 spacings before the face, c^2 / 8 half a spacing further on. What rests on a wall
+// is farther. In corners the walls' share is as large where particles rest, but its gradient is at most 0.94
+// of that of a flat wall, by the lattice sums of all kernels. Solids rest on walls without it.
+void Physics::hold_off(Particles& p, const RowRanges& ranges) const {
+  constexpr double before = 0.4, corner = 0.96, flat = 0.99;
+  const auto d = static_cast<std::size_t>(p.dim());
+  const double h = scene_->smoothing_length, spacing = scene_->spacing;
+  const double* share = p.data<Field::wall_share>();
+  const double* mass = p.data<Field::mass>();
+  const double* sound = p.data<Field::sound_speed>();
+  const auto* group = p.data<Field::group>();
+  double* force = p.data<Field::force>();
+  for_movers(ranges, [&](std::size_t i) {
+    const double* s = share + i * (d + 1);
+    const double depth = h * wall_distance_->depth(h * s[d]) + before * spacing;
+    if (!(depth > 0) || scene_->groups[group[i]].kind != GroupKind::fluid) return;
+    double square = 0;
+    for (std::size_t a = 0; a < d; ++a) square += s[a] * s[a];
+    const double length = std::sqrt(square), straight = h * length / wall_distance_->gradient(h * s[d]);
+    if (!(straight > corner)) return;
+    const double c = sound != nullptr ? sound[i] : groups_.sound_speed[group[i]];
+    const double push = mass[i] * c * c * depth / (spacing * spacing) *
+                        std::fmin((straight - corner) / (flat - corner), 1.0) / length;
+    for (std::size_t a = 0; a < d; ++a) force[i * d + a] -= push * s[a];
+  });
+}
+
 // A flow that is 0 at the wall and 1 at the particle, straight between: its gradient is the normal over the
 // distance, in units of 1/h. Particles nearer than a quarter of their spacing count as being there. Where
 // walls on both sides leave less than half of the gradient that belongs to their share there is no normal: 0.
@@ -234,7 +262,7 @@ Double3 Physics::body_acceleration(const Particles& p, std::size_t i) const {
   Double3 acceleration = scene_->gravity;
   for (std::size_t a = 0; a < d; ++a) {
     if (pull != 0) acceleration[a] -= pull * (scale_.metres(x[i * d + a]) - scene_->pull_centre[a]);
-    if (control != 0) acceleration[a] += control * p.data<Field::spread>()[i * (d + 1) + a];
+    if (control != 0) acceleration[a] += control * p.data<Field::spread>()[i * (d + 2) + a];
   }
   return acceleration;
 }
@@ -246,6 +274,7 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   const double* force = p.data<Field::force>();
   const double* mass = p.data<Field::mass>();
   const auto* group = p.data<Field::group>();
+  const double* h = p.data<Field::smoothing_length>();
   double speed2 = 0, acceleration2 = 0;
   for_movers(ranges, [&](std::size_t i) {
     const double inverse_mass = 1 / mass[i];
@@ -257,8 +286,10 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
       a2 += acceleration * acceleration;
       v2 += v[i * d + a] * v[i * d + a];
     }
+    // How far it takes a particle is counted in its own h.
+    const double finer = h != nullptr ? scene_->smoothing_length / h[i] : 1.0;
     speed2 = larger(v2, speed2);
-    acceleration2 = larger(a2, acceleration2);
+    acceleration2 = larger(a2 * (finer * finer), acceleration2);
   });
   for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
     const RowRange& r = ranges[static_cast<std::size_t>(c)];
@@ -269,6 +300,7 @@ StepMaxima Physics::integrate(Particles& p, const RowRanges& ranges, const Globa
   if (bulk_viscous_) for_movers(ranges, [&](std::size_t i) { derive(p, i, i + 1); });
   if (!transitions_.empty()) for_movers(ranges, [&](std::size_t i) { change_group(p, i); });
   StepMaxima maxima{std::sqrt(speed2), std::sqrt(acceleration2), fluid_volume(p)};
+  if (scene_->terms.shifting) maxima.motion = motion_sums(p, global);
   if (gas_) heat(p, ranges, global, maxima);
   if (p.has(Field::velocity_mean)) average(p, global);
   return maxima;
@@ -285,61 +317,6 @@ void Physics::average(Particles& p, const GlobalState& global) const {
   };
   follow(p.data<Field::velocity_mean>(), p.data<Field::velocity>(), p.owned() * d);
   follow(p.data<Field::pressure_mean>(), p.data<Field::pressure>(), p.owned());
-}
-
-// Sun et al. (2017): delta r = -2 h U_max dt S, at most U_max dt / 2 long. On a lattice, however stretched, S
-// is 0 by symmetry: particles run along the stagnation lines of a flow in rows that no shift tears apart,
-// until rounding does, too late and violently. A drift of its own for each particle, 2e-4 of the fastest,
-// does it in time.
-void Physics::shift(Particles& p, const RowRanges& ranges, const GlobalState& global) const {
-  const std::size_t d = static_cast<std::size_t>(p.dim());
-  std::int64_t* x = p.data<Field::position>();
-  const double* spread = p.data<Field::spread>();
-  const double reach = global.max_speed * global.dt;
-  const double scale = -2 * scene_->smoothing_length * reach;
-  const auto* id = p.data<Field::id>();
-  for_movers(ranges, [&](std::size_t i) {
-    const double share = scene_->open ? disordered_share(p, i) : 1.0;
-    Double3 way{};
-    double length2 = 0;
-    for (std::size_t a = 0; a < d; ++a) {
-      way[a] =
-          share * (scale * spread[i * (d + 1) + a] + 2e-4 * reach * uniform_minus_one_to_one(0, id[i], a));
-      length2 += way[a] * way[a];
-    }
-    const double length = std::sqrt(length2);
-    const double cap = length > 0.5 * reach ? 0.5 * reach / length : 1.0;
-    for (std::size_t a = 0; a < d; ++a) x[i * d + a] += round_to_quanta(way[a] * cap / scale_.quantum);
-  });
-}
-
-// How much of a particle's S is not that of the surface near it: 1 - |grad C| / |S| with the gradient that
-// belongs to its C. Negative where S is too small for that: were such particles not drawn back inwards, those
-// with too large an S would take the surface outwards with them. Inside C is 1 +- 0.01 and all of S is
-// disorder, hence the margin; spray is left alone.
-double Physics::disordered_share(const Particles& p, std::size_t i) const {
-  constexpr double inside = 0.985, margin = 0.007, spray = 0.6;
-  const std::size_t d = static_cast<std::size_t>(p.dim());
-  const double h = scene_->smoothing_length;
-  const double* spread = p.data<Field::spread>() + i * (d + 1);
-  const double volume = p.data<Field::mass>()[i] / p.data<Field::density>()[i] * row_scale_.inverse_volume;
-  const double concentration = h * spread[d] + volume * own_concentration_;
-  double square = 0;
-  for (std::size_t a = 0; a < d; ++a) square += spread[a] * spread[a];
-  if (square == 0 || concentration < spray) return 0;
-  const double length = h * std::sqrt(square);
-  return concentration < inside ? std::fmax(-1.0, 1 - surface_(concentration) / length)
-                                : std::fmax(0.0, 1 - surface_(concentration + margin) / length);
-}
-
-// Under tension particles draw together and leave voids. In the form -(p_j - p_i) instead of -(p_j + p_i) the
-// force of a constant pressure on disordered particles pushes them apart (Sun et al. 2018, tensile
-// instability control): the difference to the pair force is 2 p_i V_i S_i. Not antisymmetric, so only where a
-// free surface leaves no other way.
-double Physics::tension_control(const Particles& p, std::size_t i) const {
-  const double pressure = p.data<Field::pressure>()[i];
-  if (!scene_->terms.shifting || !scene_->open || pressure >= 0) return 0;
-  return 2 * pressure / p.data<Field::density>()[i] * std::fmax(0.0, disordered_share(p, i));
 }
 
 // Fragmentation (paper, 4.3): a bubbly particle whose gas fraction exceeds psi_f joins the spray, for good.

@@ -45,6 +45,12 @@ double WallDistance::look_up(const std::vector<double>& table, double share) con
 
 double WallDistance::operator()(double share) const { return look_up(distance_, share); }
 
-double WallDistance::gradient(double share) const { return look_up(gradient_, share); }
+double WallDistance::depth(double share) const {
+  return share > at_face_ ? look_up(distance_, 2 * at_face_ - share) : -look_up(distance_, share);
+}
+
+double WallDistance::gradient(double share) const {
+  return look_up(gradient_, std::min(share, 2 * at_face_ - share));
+}
 
 }  // namespace sph

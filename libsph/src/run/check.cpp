@@ -2,15 +2,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+#include <numeric>
 
+#include "physics/damping_limit.hpp"
 #include "physics/stability.hpp"
 #include "run/cost.hpp"
+#include "run/memory_need.hpp"
 #include "run/run_start.hpp"
+#include "run/speed_warnings.hpp"
 #include "sph/grains.hpp"
 #include "sph/placement.hpp"
+#include "sph/simulation.hpp"
+#include "start/start_count.hpp"
+#include "start/start_densities.hpp"
+#include "start/start_overlaps.hpp"
 
 namespace sph {
 namespace {
@@ -36,56 +44,115 @@ std::string terms_of(const Pass& pass) {
   return out;
 }
 
-std::vector<std::int64_t> count_by_group(const decomp::Comm& comm, const Scene& scene,
-                                         const Particles& particles) {
-  std::vector<std::int64_t> count(scene.groups.size(), 0);
+/// With particles on this machine if they are few: what only a start itself shows is then found too.
+enum class Placed { no, rows, contacts };
+
+Placed worth_placing(const Scene& scene, const StartCount& count, bool fits) {
+  constexpr std::int64_t few = 2'000'000;
+  if (!fits) return Placed::no;
+  if (scene.of_grains() && may_overlap(scene) && count.all <= few) return Placed::contacts;
+  const bool lattice = scene.start.file.empty();
+  return lattice && (scene.of_grains() || count.all > few) ? Placed::no : Placed::rows;
+}
+
+/// What the particles say once they are there.
+struct Beginning {
+  StartCount count;
+  double speed = 0;
+};
+
+Beginning start_of(const decomp::Comm& comm, const Scene& scene, const Particles& particles,
+                   const PositionScale& scale) {
+  Beginning out;
+  out.count.by_group.assign(scene.groups.size(), 0);
+  out.count.heights.resize(scene.groups.size());
+  const auto d = static_cast<std::size_t>(scene.dim);
   const auto* group = particles.data<Field::group>();
-  for (std::size_t row = 0; row < particles.owned(); ++row) ++count[group[row]];
-  comm.sum(std::span<std::int64_t>(count));
-  return count;
-}
-
-/// Points of a lattice within a radius of one of them, itself not counted.
-double neighbours_within(const Scene& scene, double radius) {
-  const double r = radius / scene.spacing;
-  return (scene.dim == 2 ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r) - 1;
-}
-
-std::string particles_text(const Scene& scene, const std::vector<std::int64_t>& count, std::int64_t all) {
-  std::string out = fmt::format("particles: {}\n", all);
-  for (std::size_t g = 0; g < count.size(); ++g)
-    out += fmt::format("  {}: {}\n", scene.groups[g].name, count[g]);
+  const auto* x = particles.data<Field::position>();
+  const double* v = particles.data<Field::velocity>();
+  std::array<double, 1> speed2{};
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    ++out.count.by_group[group[i]];
+    Double3 at{};
+    double v2 = 0;
+    for (std::size_t a = 0; a < d; ++a) {
+      at[a] = scale.metres(x[i * d + a]);
+      v2 += v[i * d + a] * v[i * d + a];
+    }
+    out.count.heights[group[i]].add(scene, at);
+    speed2[0] = std::max(speed2[0], v2);
+  }
+  comm.sum(std::span<std::int64_t>(out.count.by_group));
+  Height::unite(comm, out.count.heights);
+  comm.max(speed2);
+  out.count.all = std::accumulate(out.count.by_group.begin(), out.count.by_group.end(), std::int64_t{0});
+  out.speed = std::sqrt(speed2[0]);
   return out;
 }
 
-std::string memory_text(const Scene& scene, const Physics& physics, std::int64_t particles) {
-  const int dim = scene.dim;
-  if (scene.of_grains()) {
-    // A settled bed lists about 3.4 pairs a grain, once each; a row has 32 or 64 bytes of sums and a
-    // reference.
-    const ContactFusion fusion = contact_fusion(scene);
-    const int sums = fusion.spins ? 64 : 32;
-    const double pairs = 3.4 * (8 + 8 * fusion.history);
-    return fmt::format(
-        "bytes per particle: {} ({} state): {}; sums {}, contacts about {:.0f}\nbytes per halo particle: {}: "
-        "{}\n"
-        "memory: about {:.3g} MB for all particles, contacts included\n",
-        bytes_of(physics.fields(), dim), bytes_of(state_of(physics.fields()), dim),
-        listed(physics.fields(), dim), sums, pairs, bytes_of(halo_fields(physics), dim),
-        listed(halo_fields(physics), dim),
-        (static_cast<double>(bytes_of(physics.fields(), dim) + static_cast<std::size_t>(sums) + 24) + pairs) *
-            static_cast<double>(particles) * 1e-6);
+/// Finds what is wrong in the rows of a file or between grains.
+Beginning place(const decomp::Comm& comm, const Scene& scene, Placed how) {
+  if (how == Placed::contacts) {
+    const Simulation simulation(comm, scene);
+    return start_of(comm, scene, simulation.particles(), simulation.scale());
   }
-  const double list =
-      neighbours_within(scene, scene.list_range() + scene.support() * scene.decomposition.skin);
-  const double all = static_cast<double>(bytes_of(physics.fields(), dim)) + 4 * list;
-  constexpr double megabyte = 1e6;
-  return fmt::format(
+  const PositionScale scale = position_scale(scene);
+  Distribution distribution(comm, scene, scale);
+  Particles particles(scene.dim, Physics(scene, scale).fields());
+  place_particles(scene, scale, distribution, particles);
+  if (scene.of_grains())
+    check_start_speeds(comm, scene, particles);
+  else
+    check_start_densities(comm, scene, particles);
+  return start_of(comm, scene, particles, scale);
+}
+
+std::string particles_text(const Scene& scene, const StartCount& count) {
+  std::string out = fmt::format("particles: {}\n", count.all);
+  for (std::size_t g = 0; g < count.by_group.size(); ++g)
+    out += fmt::format("  {}: {}\n", scene.groups[g].name, count.by_group[g]);
+  return out;
+}
+
+/// What this check has left to the run.
+std::string unlooked_text(const Scene& scene, Placed placed) {
+  std::string out;
+  if (placed == Placed::no && !scene.start.file.empty())
+    out += "warning: so many rows are not looked at here: a run does\n";
+  if (placed != Placed::contacts && scene.of_grains() && may_overlap(scene))
+    out += "warning: so many grains are not looked at for overlaps here: a run does\n";
+  return out;
+}
+
+std::string memory_text(const Scene& scene, const Physics& physics, const MemoryNeed& need,
+                        const MachineMemory& machine) {
+  const int dim = scene.dim;
+  std::string out = fmt::format(
       "bytes per particle: {} ({} state): {}\nbytes per halo particle: {}: {}\n"
-      "memory: about {:.3g} MB for all particles, lists of about {:.0f} neighbours included\n",
+      "memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
       bytes_of(physics.fields(), dim), bytes_of(state_of(physics.fields()), dim),
       listed(physics.fields(), dim), bytes_of(halo_fields(physics), dim), listed(halo_fields(physics), dim),
-      all * static_cast<double>(particles) / megabyte, list);
+      bytes_text(need.bytes), scene.of_grains() ? "contacts" : "lists", need.listed,
+      scene.of_grains() ? "a grain" : "neighbours", need.cells);
+  if (const std::string problem = memory_problem(need, machine); !problem.empty())
+    out += "warning: " + problem + ": it would not run here\n";
+  return out;
+}
+
+std::string gas_text(const Scene& scene) {
+  if (!scene.has_eos(EosKind::ideal_gas)) return {};
+  if (scene.least_growth == 1 && scene.largest_growth == 1)
+    return "gas: one smoothing length: particles that a blast parts by more than its kernel keep their heat, "
+           "and\n"
+           "  strong ones lose motion (kernel.least_growth and kernel.largest_growth let kernels follow the "
+           "gas)\n";
+  double thinner = 1;
+  for (int a = 0; a < scene.dim; ++a) thinner /= scene.largest_growth;
+  return fmt::format(
+      "gas: kernels from {:.3g} to {:.3g} m wide as the gas is dense or thin; thinner than {:.2g} of its "
+      "density\n"
+      "  at the start it keeps its heat (kernel.largest_growth)\n",
+      scene.least_growth * scene.smoothing_length, scene.largest_growth * scene.smoothing_length, thinner);
 }
 
 std::string passes_text(const Scene& scene, const Physics& physics) {
@@ -107,6 +174,10 @@ std::string courant_text(const Scene& scene, double dt, double courant) {
   if (courant > courant_recommended * (1 + 1e-9))
     out += fmt::format("warning: c dt/h above {}: reduce {}\n", courant_recommended,
                        scene.time.dt ? "time.dt" : "time.cfl");
+  const DampingLimit limit = damping_limit(scene, dt);
+  if (const double share = dt / limit.step; share > courant_recommended / courant_limit(scene) * (1 + 1e-9))
+    out += fmt::format("warning: the time step is {:.2g} of what {} = {:.4g} bears: reduce one of the two\n",
+                       share, limit.key, limit.value);
   return out;
 }
 
@@ -139,25 +210,31 @@ std::string ranks_text(const Scene& scene, const decomp::CellGrid& grid, std::in
 }  // namespace
 
 int check_case(const RunOptions& options, const decomp::Comm& comm) {
-  const Scene scene = scene_of(options);
+  Scene scene = scene_of(options);
+  scene.decomposition.record.clear();  // nothing is written
   return naming_file(scene, [&] {
     check_time_step(scene);
     const PositionScale scale = position_scale(scene);
     const Physics physics(scene, scale);
-    Distribution distribution(comm, scene, scale);
-    Particles particles(scene.dim, physics.fields());
-    place_particles(scene, scale, distribution, particles);
-    const std::vector<std::int64_t> count = count_by_group(comm, scene, particles);
-    std::int64_t all = 0;
-    for (std::int64_t n : count) all += n;
-    if (all == 0) throw InputError("start: no particle lies in any region");
+    const decomp::CellGrid grid = cell_grid_of(scene, scale);
+    Beginning start{count_start(comm, scene)};
+    MemoryNeed need = memory_need(scene, physics, grid, start.count.all);
+    const MachineMemory machine = machine_memory(comm);
+    const Placed placed = worth_placing(scene, start.count, memory_problem(need, machine).empty());
+    if (placed != Placed::no) {
+      start = place(comm, scene, placed);
+      need = memory_need(scene, physics, grid, start.count.all);
+    }
+    if (start.count.all == 0) throw InputError("start: no particle lies in any region");
     const bool grains = scene.of_grains();
     const double dt = grains ? Grains(scene, scale).time_step() : physics.time_step({});
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, count, all),
-                 memory_text(scene, physics, all), passes_text(scene, physics),
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
+                 unlooked_text(scene, placed), memory_text(scene, physics, need, machine), gas_text(scene),
+                 passes_text(scene, physics),
                  grains ? contact_step_text(scene, dt) : courant_text(scene, dt, physics.courant_number(dt)),
-                 steps_text(scene, dt), ranks_text(scene, distribution.grid(), all));
+                 speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
+                 ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);
   });
 }

@@ -6,8 +6,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <limits>
 
 #include "decomp/memory.hpp"
+#include "scene/units.hpp"
 #include "sph/report.hpp"
 #include "sph/run.hpp"
 #include "sph/self_check.hpp"
@@ -30,6 +33,27 @@ class Mpi {
   Mpi& operator=(const Mpi&) = delete;
 };
 
+std::int64_t steps_of(const std::string& text) {
+  std::int64_t steps = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, steps);
+  if (error != std::errc() || stop != end || steps < 0)
+    throw InputError(
+        fmt::format("--steps: \"{}\" is not a number of steps; write a whole number from 0 to {}", text,
+                    std::numeric_limits<std::int64_t>::max()));
+  return steps;
+}
+
+/// A time of the scene as --set time.until takes it, a number or "5 ms".
+std::string end_of(const std::string& text) {
+  const Quantity time = parse_quantity(text);
+  const bool seconds = !time.has_unit || time.dim == dimension::time;
+  if (!time.problem.empty() || !seconds || !std::isfinite(time.value) || time.value < 0)
+    throw InputError(
+        fmt::format("--until: \"{}\" is not a time; write seconds from 0, or a time like \"5 ms\"", text));
+  return text;
+}
+
 /// "H:M:S", "M:S" or "S" in seconds.
 double seconds_of(const std::string& text) {
   double seconds = 0;
@@ -48,10 +72,10 @@ double seconds_of(const std::string& text) {
   }
 }
 
-/// Options of everything that runs; `max_time` is converted after parsing.
+/// Options of everything that runs.
 struct Arguments {
   RunOptions run;
-  std::string max_time, first, second;
+  std::string first, second;
 
   void add_scene(CLI::App& app, bool required) {
     app.add_option("case", run.scene, "the scene, a TOML file")->required(required)->type_name("FILE");
@@ -61,22 +85,29 @@ struct Arguments {
     add_end(app);
   }
   void add_end(CLI::App& app) {
-    auto* steps =
-        app.add_option("--steps", run.steps, "end after this many steps, counted from 0")->type_name("N");
-    auto* until =
-        app.add_option("--until", run.until, "end at the first step with t >= T [s]")->type_name("T");
+    auto* steps = add_text(app, "--steps", "end after this many steps, counted from 0", "N",
+                           [this](const std::string& text) { run.steps = steps_of(text); });
+    auto* until = add_text(app, "--until", "end at the first step with t >= T [s]", "T",
+                           [this](const std::string& text) { run.until = end_of(text); });
     steps->excludes(until);
   }
   void add_out(CLI::App& app) {
-    app.add_option("--out", run.out, "directory of the output, default out/<case>")->type_name("DIR");
+    add_text(app, "--out", "directory of the output, default out/<case>", "DIR",
+             [this](const std::string& text) {
+               if (text.empty()) throw InputError("--out: is empty; name a directory");
+               run.out = text;
+             });
   }
   void add_max_time(CLI::App& app) {
-    app.add_option("--max-time", max_time, "checkpoint, stop and exit 75 before so much wall time")
-        ->type_name("H:M:S");
+    add_text(app, "--max-time", "checkpoint, stop and exit 75 before so much wall time", "H:M:S",
+             [this](const std::string& text) { run.max_seconds = seconds_of(text); });
   }
-  [[nodiscard]] const RunOptions& options() {
-    if (!max_time.empty()) run.max_seconds = seconds_of(max_time);
-    return run;
+
+ private:
+  /// The library's own conversions take an empty text for none and a number too large for another.
+  static CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& what,
+                               const std::string& type, const std::function<void(const std::string&)>& take) {
+    return app.add_option_function<std::string>(name, take, what)->type_name(type);
   }
 };
 
@@ -146,7 +177,7 @@ int application_main(int argc, char** argv, const Application& application) {
     arguments.add_out(app);
     arguments.add_max_time(app);
     if (const auto code = parse(app, argc, argv, comm)) return *code;
-    RunOptions options = arguments.options();
+    RunOptions options = arguments.run;
     options.scene = case_file(options.scene, application);
     return run_case(options, comm, failure);
   });
@@ -175,7 +206,8 @@ int tool_main(int argc, char** argv) {
     diff.add_option("b", arguments.second, "another")->required();
     if (const auto code = parse(app, argc, argv, comm)) return *code;
 
-    if (check.parsed()) return check_case(arguments.options(), comm);
+    if (!run.parsed() && !resume.parsed()) restore_signal_handlers();
+    if (check.parsed()) return check_case(arguments.run, comm);
     if (info.parsed())
       return on_one_rank(comm, [&] {
         fmt::print("{}\n", describe(arguments.first));
@@ -188,7 +220,7 @@ int tool_main(int argc, char** argv) {
         fmt::print("{}\n", difference);
         return exit_differ;
       });
-    return run_case(arguments.options(), comm, failure);
+    return run_case(arguments.run, comm, failure);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 
 #include "decomp/cut_policy.hpp"
@@ -16,6 +17,10 @@ std::int64_t pairs_within_support(const Simulation& s) {
   const auto lanes = static_cast<std::size_t>(s.lists().lanes());
   const double support = s.scene().support() / s.scale().quantum;
   const std::int64_t* x = s.particles().data<Field::position>();
+  const double* h = s.particles().data<Field::smoothing_length>();
+  const auto radius = [&](std::size_t i, std::size_t j) {
+    return h == nullptr ? support : support * std::max(h[i], h[j]) / s.scene().smoothing_length;
+  };
   std::int64_t pairs = 0;
   for (const RowRange& range : s.distribution().ranges())
     for (std::size_t i = range.first; i < range.last; ++i) {
@@ -28,7 +33,8 @@ std::int64_t pairs_within_support(const Simulation& s) {
           const auto r = static_cast<double>(x[i * d + a] - x[j * d + a]);
           r2 += r * r;
         }
-        if (j != i && r2 < support * support) ++pairs;
+        const double reach = radius(i, j);
+        if (j != i && r2 < reach * reach) ++pairs;
       }
     }
   return pairs;

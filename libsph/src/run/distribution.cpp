@@ -5,25 +5,22 @@
 #include <bit>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "pairs/list_slack.hpp"
 #include "pairs/occupied.hpp"
+#include "sph/error.hpp"
+#include "sph/findings.hpp"
 #include "sph/physics.hpp"
 
 namespace sph {
 namespace {
 
-decomp::CellGrid make_grid(const Scene& scene, const PositionScale& scale, std::int64_t min_edge) {
-  decomp::Int3 length{};
-  // Whole units of the rows along a period, or a pair in single precision would depend on whose image was
-  // taken.
-  const int bits = scene.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
-    if (scene.periodic[a]) length[a] = (length[a] >> bits) << bits;
-  }
-  return {scene.dim, scale.origin, length, scene.periodic, min_edge};
+/// Support and skin [quanta].
+std::int64_t reach_of(const Scene& scene, const PositionScale& scale) {
+  return scale.quanta(scene.list_range() + scene.decomposition.skin * scene.support()) + 1;
 }
 
 decomp::Cuts first_cuts(const decomp::CellGrid& grid, const Scene& scene, int ranks) {
@@ -67,31 +64,50 @@ decomp::CutLimits limits_of(const decomp::CellGrid& grid, const Scene& scene) {
 
 }  // namespace
 
+decomp::CellGrid cell_grid_of(const Scene& scene, const PositionScale& scale) {
+  decomp::Int3 length{};
+  // Whole units of the rows along a period, or a pair in single precision would depend on whose image was
+  // taken.
+  const int bits = scene.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
+    if (scene.periodic[a]) length[a] = (length[a] >> bits) << bits;
+  }
+  // Places along the Hilbert curve, and cells of all axes, must be numbers of 62 bits.
+  constexpr std::int64_t most_cells = (std::int64_t{1} << 20) - 1;
+  std::int64_t edge = reach_of(scene, scale);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    edge = std::max(edge, (length[a] - 1) / most_cells + 1);
+  return {scene.dim, scale.origin, length, scene.periodic, edge};
+}
+
 Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale)
     : comm_(comm),
       scene_(scene),
       scale_(scale),
       skin_(scene.decomposition.skin * scene.support()),
-      reach_(scale.quanta(scene.list_range() + skin_) + 1),
-      grid_(make_grid(scene, scale, reach_)),
+      reach_(reach_of(scene, scale)),
+      grid_(cell_grid_of(scene, scale)),
       partition_(grid_, scene.decomposition.cut_axes[0], scene.decomposition.cut_axes[1],
                  first_cuts(grid_, scene, comm.size())),
       // The literal rule goes one cell a call, so it is called at each rebuild.
       balancer_(make_policy(scene.decomposition), limits_of(grid_, scene),
                 scene.decomposition.cost == CostSource::time &&
                     (scene.decomposition.cuts == CutRule::quasi_newton ||
-                     scene.decomposition.cuts == CutRule::hybrid)),
-      curve_(cells_along_curve()) {
-  if (!scene.decomposition.record.empty() && comm.rank() == 0) {
-    record_.open(scene.decomposition.record);
-    if (!record_) throw InputError("decomposition.record: cannot write '" + scene.decomposition.record + "'");
-  }
+                     scene.decomposition.cuts == CutRule::hybrid)) {}
+
+void Distribution::record_cuts() {
+  const std::string& file = scene_.decomposition.record;
+  if (file.empty() || comm_.rank() != 0) return;
+  if (!record_.is_open()) record_.open(file, std::ios::app);  // the run has made it, see run_directory.hpp
+  record_ << decomp::to_text(partition_.cuts()) << '\n' << std::flush;
+  if (!record_) throw OutputError("decomposition.record: cannot write " + file);
 }
 
 void Distribution::cut(decomp::Cuts cuts) {
   const auto [row, column] = scene_.decomposition.cut_axes;
   partition_ = decomp::JaggedPartition(grid_, row, column, std::move(cuts));
-  curve_ = cells_along_curve();
+  curve_.clear();
 }
 
 decomp::Balancer::CountCells Distribution::counts_of(const Particles& particles,
@@ -120,11 +136,10 @@ void Distribution::cut_by_counts(Particles& particles) {
   cut(balancer_.first(comm_, counts_of(particles, {})));
 }
 
-std::vector<std::uint32_t> Distribution::cells_along_curve() const {
+int Distribution::curve_bits() const {
   const decomp::Int3& cells = grid_.cells();
-  const int bits =
-      static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max({cells[0], cells[1], cells[2]}))));
-  return decomp::hilbert_places(grid_.dim(), bits, own_cells());
+  return static_cast<int>(
+      std::bit_width(static_cast<std::uint64_t>(std::max({cells[0], cells[1], cells[2]}))));
 }
 
 void Distribution::wrap_positions(Particles& particles) const {
@@ -134,14 +149,27 @@ void Distribution::wrap_positions(Particles& particles) const {
     decomp::Int3 p{};
     for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
     p = grid_.wrap(p);
-    if (!grid_.inside(p)) {
-      std::string at;
-      for (std::size_t a = 0; a < d; ++a) at += (a > 0 ? ", " : "") + std::to_string(scale_.metres(p[a]));
-      throw GuardError("particle " + std::to_string(particles.data<Field::id>()[i]) +
-                       " left the domain at (" + at + ") m: enlarge domain.lower/upper, or reduce time.dt");
-    }
     for (std::size_t a = 0; a < d; ++a) x[i * d + a] = p[a];
   }
+}
+
+Findings Distribution::outside(const Particles& particles) const {
+  const std::size_t d = static_cast<std::size_t>(particles.dim());
+  const std::int64_t* x = particles.data<Field::position>();
+  Findings found;
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    decomp::Int3 p{};
+    for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+    if (grid_.inside(p)) continue;
+    const std::uint64_t id = particles.data<Field::id>()[i];
+    found.add(id, [&] {
+      std::vector<double> at;
+      for (std::size_t a = 0; a < d; ++a) at.push_back(scale_.metres(grid_.wrap(p)[a]));
+      return "particle " + std::to_string(id) + " is outside the domain " + place_text(at) +
+             ": enlarge domain.lower or domain.upper";
+    });
+  }
+  return found;
 }
 
 std::vector<decomp::Rank> Distribution::owners(const Particles& particles) const {
@@ -165,7 +193,9 @@ void Distribution::scatter(Particles& particles, decomp::Payload* contacts) {
 std::vector<std::uint32_t> Distribution::rebuild(Particles& particles, double cost_seconds,
                                                  const PairCounts& pairs,
                                                  const std::vector<bool>& is_wall_group, double moved,
-                                                 decomp::Payload* contacts) {
+                                                 double least_skin, decomp::Payload* contacts) {
+  skin_ = std::max(scene_.decomposition.skin * scene_.support(), least_skin);
+  reach_ = scale_.quanta(scene_.list_range() + skin_) + 1;
   wrap_positions(particles);
   if (comm_.size() > 1) {
     const decomp::JaggedPartition before = partition_;
@@ -173,7 +203,7 @@ std::vector<std::uint32_t> Distribution::rebuild(Particles& particles, double co
         scene_.decomposition.cost == CostSource::time ? cost_seconds : static_cast<double>(particles.owned());
     if (auto cuts = balancer_.next(comm_, partition_.cuts(), cost, counts_of(particles, pairs)))
       cut(std::move(*cuts));
-    if (record_.is_open()) record_ << decomp::to_text(partition_.cuts()) << '\n' << std::flush;
+    record_cuts();
     const std::int64_t strayed = scale_.quanta(moved) + 1;
     const decomp::MigrationPeers peers = decomp::migration_peers(before, partition_, comm_.rank(), strayed);
     const auto start = std::chrono::steady_clock::now();
@@ -189,9 +219,9 @@ std::vector<std::uint32_t> Distribution::rebuild(Particles& particles, double co
   return order;
 }
 
-// Counting sort by (class, cell along the curve), then by id within a cell. The boundary is a layer one reach
-// deep inside the faces shared with anyone, this rank's own periodic images included: particles deeper in
-// have no partner in the halo.
+// Counting sort by (class, cell along the curve), then by id within a cell. The boundary is a layer inside
+// the faces shared with anyone, this rank's own periodic images included, as deep as lists can reach:
+// particles deeper in have no partner in the halo, and are computed before it has arrived.
 std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
                                                    const std::vector<bool>& is_wall_group) {
   const std::size_t d = static_cast<std::size_t>(particles.dim()), n = particles.owned();
@@ -200,22 +230,37 @@ std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
   const auto* id = particles.data<Field::id>();
   const decomp::Box own = own_cells();
   decomp::Box inner = partition_.quanta(comm_.rank());
-  for (std::size_t a = 0; a < d; ++a) inner.lo[a] += reach_, inner.hi[a] -= reach_;
-  const std::size_t cells = curve_.size();
+  const auto slack =
+      static_cast<std::int64_t>(2 * list_slack(grid_, own, reach_) * static_cast<double>(reach_));
+  const std::int64_t depth = reach_ + slack + 1;
+  for (std::size_t a = 0; a < d; ++a) inner.lo[a] += depth, inner.hi[a] -= depth;
   const std::int64_t nx = own.hi[0] - own.lo[0], ny = own.hi[1] - own.lo[1];
+  const auto own_count = static_cast<std::size_t>(nx * ny * (d == 3 ? own.hi[2] - own.lo[2] : 1));
+  // Few rows in many cells: their places along the curve of the whole grid, which are in the same order.
+  const bool dense = Occupied::dense(4 * own_count, n);
+  const std::size_t cells = dense ? own_count : std::size_t{1} << (static_cast<int>(d) * curve_bits());
+  if (!dense) curve_ = {};
+  if (dense && curve_.empty()) curve_ = decomp::hilbert_places(grid_.dim(), curve_bits(), own);
 
   std::vector<std::size_t> bucket(n);
-  Occupied occupied(4 * cells);
+  Occupied occupied(4 * cells, n);
+  std::int64_t to_face = std::numeric_limits<std::int64_t>::max();
   for (std::size_t i = 0; i < n; ++i) {
     decomp::Int3 p{};
     for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
     const decomp::Int3 c = grid_.cell_of(p);
-    const std::size_t cell =
-        static_cast<std::size_t>(((c[2] - own.lo[2]) * ny + c[1] - own.lo[1]) * nx + c[0] - own.lo[0]);
+    const auto place = [&]() -> std::size_t {
+      if (!dense) return decomp::hilbert_key(grid_.dim(), curve_bits(), c);
+      return curve_[static_cast<std::size_t>(((c[2] - own.lo[2]) * ny + c[1] - own.lo[1]) * nx + c[0] -
+                                             own.lo[0])];
+    };
     bool interior = true;
     for (std::size_t a = 0; a < d; ++a) interior = interior && p[a] >= inner.lo[a] && p[a] < inner.hi[a];
     const std::size_t row_class = (interior ? 0u : 2u) + (is_wall_group[group[i]] ? 1u : 0u);
-    bucket[i] = row_class * cells + curve_[cell];
+    for (std::size_t a = 0; a < d && row_class % 2 == 0; ++a)
+      if (const std::int64_t low = p[a] - grid_.origin()[a]; !grid_.periodic()[a])
+        to_face = std::min({to_face, low, grid_.length()[a] - 1 - low});
+    bucket[i] = row_class * cells + place();
     occupied.mark(bucket[i]);
   }
   std::vector<std::uint32_t> start(occupied.number() + 1, 0), bin(n), order(n);
@@ -230,6 +275,7 @@ std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
     for (; k > first && id[order[k - 1]] > id[i]; --k) order[k] = order[k - 1];
     order[k] = static_cast<std::uint32_t>(i);
   }
+  to_face_ = scale_.metres(to_face);
   particles.table().reorder(order);
   return order;
 }

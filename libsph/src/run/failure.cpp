@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <new>
 #include <string>
 #include <thread>
 
@@ -21,14 +22,16 @@ struct Report {
 Report report_of(const std::exception& error) {
   const std::string text = error.what();
   if (dynamic_cast<const InputError*>(&error) != nullptr) return {"error: " + text, exit_input};
-  if (dynamic_cast<const OutputError*>(&error) != nullptr)
-    return {"error: " + text + "; checkpoints written before are intact", exit_output};
+  if (dynamic_cast<const OutputError*>(&error) != nullptr) return {"error: " + text, exit_output};
   if (dynamic_cast<const GuardError*>(&error) != nullptr) return {"stopped: " + text, exit_guard};
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
+    return {"stopped: out of memory; use more machines or fewer particles", exit_guard};
   return {"internal error: " + text, exit_guard};
 }
 
 void print(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  const auto breaks_line = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  std::replace_if(text.begin(), text.end(), breaks_line, ' ');
   fmt::print(stderr, "peperite: {}\n", text);
   std::fflush(stderr);
 }

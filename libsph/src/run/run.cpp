@@ -6,6 +6,7 @@
 
 #include "output/output_schedule.hpp"
 #include "physics/stability.hpp"
+#include "run/agree.hpp"
 #include "run/run_control.hpp"
 #include "run/run_files.hpp"
 #include "run/run_start.hpp"
@@ -19,8 +20,9 @@ class Run {
  public:
   Run(RunStart start, const RunOptions& options, RunControl::Clock::time_point begin, Failure& failure)
       : simulation_(*start.simulation),
-        files_(start.memory ? RunFiles(simulation_, start.dir, *start.memory)
-                            : RunFiles(simulation_, start.dir)),
+        files_(start.memory ? RunFiles(simulation_, start.dir, start.old_scene, *start.memory,
+                                       simulation_.global().step + (finished() ? 0 : 1))
+                            : RunFiles(simulation_, start.dir, start.old_scene)),
         control_(simulation_.comm().rank(), begin, simulation_.scene().output, start.dir / "stop",
                  options.max_seconds),
         screen_(simulation_, begin),
@@ -29,35 +31,59 @@ class Run {
     if (start_.memory) {
       series_.done(simulation_.global().time);
       snapshots_.done(simulation_.global().time);
+      checkpoint_ = simulation_.global().step;
+      if (!files_.snapshots().empty()) last_snapshot_ = files_.snapshots().back().step;
     }
   }
 
   int go() {
+    try {
+      return advance();
+    } catch (const OutputError& error) {
+      const std::string resume = "peperite resume " + files_.dir().string();
+      throw OutputError(error.what() +
+                        (checkpoint_
+                             ? fmt::format("; the checkpoint of step {} is intact, go on from it with: {}",
+                                           *checkpoint_, resume)
+                             : "; there is no checkpoint yet, begin anew with: " + resume));
+    }
+  }
+
+ private:
+  int advance() {
     screen_.banner();
     if (!start_.memory) write_due_output();
     while (!finished()) {
       const auto wish = static_cast<Wish>(step());
       write_due_output();
-      if (wish == Wish::give_up) files_.check(simulation_);
+      if (wish == Wish::give_up) give_up();
       if (wish == Wish::status) screen_.status();
-      if (wish >= Wish::checkpoint) checkpoint();
+      // At the end the last snapshot goes first: once there is a checkpoint, no step is left to compute what
+      // is in a snapshot but not in the state.
+      if (wish >= Wish::checkpoint && !finished()) checkpoint();
       control_.granted(wish);
       if (wish == Wish::stop && !finished()) return stopped();
     }
     return done();
   }
 
- private:
   [[nodiscard]] bool finished() const { return is_finished(simulation_.scene(), simulation_.global()); }
 
   std::int64_t step() {
-    const auto wish = static_cast<std::int64_t>(control_.wish(files_.failed()));
+    if (lost_.empty()) lost_ = attempt([&] { start_.lock->touch(); });
+    const auto wish = static_cast<std::int64_t>(control_.wish(files_.failed() || !lost_.empty()));
     try {
       return simulation_.step(wish);
     } catch (const GuardError& error) {
       const std::string kept = attempt_to_keep_state();
       throw GuardError(std::string(error.what()) + kept);
     }
+  }
+
+  /// What one rank found is told by all.
+  void give_up() const {
+    files_.check(simulation_);
+    if (const std::string lost = agree(simulation_.comm(), lost_); !lost.empty()) throw OutputError(lost);
   }
 
   std::string attempt_to_keep_state() {
@@ -87,15 +113,17 @@ class Run {
     const auto timing = simulation_.timers().time(decomp::Region::output);
     const auto begin = RunControl::Clock::now();
     files_.write_checkpoint(simulation_);
+    checkpoint_ = simulation_.global().step;
     control_.checkpoint_took(std::chrono::duration<double>(RunControl::Clock::now() - begin).count());
   }
 
   int done() {
     if (last_snapshot_ != simulation_.global().step) {
+      if (checkpoint_ == simulation_.global().step) simulation_.derive_for_output();
       const auto timing = simulation_.timers().time(decomp::Region::output);
       files_.add_snapshot(simulation_, false);
     }
-    checkpoint();
+    if (checkpoint_ != simulation_.global().step) checkpoint();
     screen_.final_report(files_.dir());
     return exit_done;
   }
@@ -117,6 +145,8 @@ class Run {
   OutputSchedule series_{simulation_.scene().output.series_interval};
   OutputSchedule snapshots_{simulation_.scene().output.snapshot_interval};
   std::int64_t last_snapshot_ = -1;
+  std::optional<std::int64_t> checkpoint_;  ///< step of the newest one
+  std::string lost_;                        ///< why the directory is no longer this run's
 };
 
 }  // namespace
@@ -125,7 +155,8 @@ int run_case(const RunOptions& options, const decomp::Comm& comm, Failure& failu
   const auto begin = RunControl::Clock::now();
   RunStart start = options.resume.empty() ? start_new(options, comm) : start_again(options, comm);
   const Simulation& simulation = *start.simulation;
-  if (start.memory && is_finished(simulation.scene(), simulation.global())) {
+  if (start.memory && is_finished(simulation.scene(), simulation.global()) &&
+      is_complete(simulation, start.dir)) {
     print_fingerprint(simulation);
     return exit_done;
   }

@@ -44,6 +44,11 @@ void install_signal_handlers() {
   for (int number : {SIGUSR1, SIGUSR2, SIGTERM}) sigaction(number, &action, nullptr);
 }
 
+void restore_signal_handlers() {
+  for (int number : {SIGUSR1, SIGUSR2, SIGTERM}) std::signal(number, SIG_DFL);
+  if (told_to_end != 0) std::raise(SIGTERM);
+}
+
 RunControl::RunControl(int rank, Clock::time_point begin, const OutputControl& output,
                        std::filesystem::path stop_file, std::optional<double> max_seconds)
     : rank_(rank),

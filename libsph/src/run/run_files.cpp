@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
 #include <nlohmann/json.hpp>
 
 #include "output/durable_file.hpp"
 #include "output/extra_columns.hpp"
 #include "run/agree.hpp"
+#include "run/run_directory.hpp"
 #include "sph/checkpoint.hpp"
 
 namespace sph {
@@ -16,11 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-bool is_snapshot(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.starts_with("snapshot_") && name.ends_with(".h5");
-}
 
 /// Throws InputError on all ranks if `work`, which is rank 0's, fails.
 template <class Work>
@@ -74,45 +69,48 @@ RunMemory memory_from_json(const std::string& text) {
   }
 }
 
-void refuse_used_directory(const decomp::Comm& comm, const fs::path& dir) {
-  on_root_or_refuse(comm, "", [&] {
-    const std::string advice = "; choose another with --out";
-    std::error_code none;
-    if (!fs::exists(dir, none)) return;
-    if (!fs::is_directory(dir)) throw InputError(dir.string() + " is not a directory" + advice);
-    bool used = false;
-    for (const char* name : {"scene.toml", "series.csv", "particles.xdmf", "checkpoint"})
-      used = used || fs::exists(dir / name);
-    for (const fs::directory_entry& entry : fs::directory_iterator(dir))
-      used = used || is_snapshot(entry.path());
-    if (used)
-      throw InputError(fmt::format("{} holds a run already{}, or go on with it: peperite resume {}",
-                                   dir.string(), advice, dir.string()));
-  });
+bool is_complete(const Simulation& s, const fs::path& dir) {
+  const std::int64_t step = s.global().step;
+  // Written in this order at the end: snapshot, its place in the index, perf.json.
+  const std::string missing = agree(
+      s.comm(), attempt([&] {
+        if (s.comm().rank() != 0) return;
+        const Json perf = Json::parse(read_text(dir / "perf.json"));
+        const std::string index = read_text(dir / "particles.xdmf");
+        if (perf.at("end").at("step") != step || !fs::exists(dir / "scene.toml") ||
+            !fs::exists(dir / snapshot_name(step)) || index.find(snapshot_name(step)) == std::string::npos)
+          throw OutputError("not of the last step");
+      }));
+  return missing.empty();
 }
 
-RunFiles::RunFiles(const Simulation& s, fs::path dir) : dir_(std::move(dir)), monitors_(s) {
+RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_scene)
+    : dir_(std::move(dir)), monitors_(s) {
   on_root_or_refuse(s.comm(),
                     "cannot write in " + dir_.string() + ", choose another place with --out: ", [&] {
-                      fs::create_directories(dir_);
+                      remove_leftovers(dir_);
+                      remove_snapshots(dir_, 0, {}, {old_scene, to_toml(s.scene())});
                       write_scene(s);
-                      remove_unlisted_snapshots(s);
                       fs::remove(dir_ / "particles.xdmf");
                       series_.emplace(dir_ / "series.csv", monitors_.names());
                       series_bytes_ = series_->bytes();
                     });
 }
 
-RunFiles::RunFiles(const Simulation& s, fs::path dir, const RunMemory& memory)
+RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_scene, const RunMemory& memory,
+                   std::int64_t first_snapshot)
     : dir_(std::move(dir)),
       monitors_(s, memory.monitor_ids),
       series_bytes_(memory.series_bytes),
       snapshots_(memory.snapshots) {
   const std::vector<ExtraColumn> extra = extra_columns(s.scene());
   on_root_or_refuse(s.comm(), "", [&] {
+    std::vector<std::string> listed;
+    for (const SnapshotEntry& entry : snapshots_) listed.push_back(entry.file);
+    remove_leftovers(dir_);
+    remove_snapshots(dir_, first_snapshot, listed, {old_scene, to_toml(s.scene())});
     write_scene(s);
     series_.emplace(dir_ / "series.csv", memory.series_bytes);
-    remove_unlisted_snapshots(s);
     if (snapshots_.empty())
       fs::remove(dir_ / "particles.xdmf");
     else
@@ -122,15 +120,6 @@ RunFiles::RunFiles(const Simulation& s, fs::path dir, const RunMemory& memory)
 
 void RunFiles::write_scene(const Simulation& s) const {
   write_atomically(dir_ / "scene.toml", to_toml(s.scene()));
-}
-
-void RunFiles::remove_unlisted_snapshots(const Simulation&) const {
-  for (const fs::directory_entry& entry : fs::directory_iterator(dir_)) {
-    const std::string name = entry.path().filename().string();
-    const bool listed = std::any_of(snapshots_.begin(), snapshots_.end(),
-                                    [&](const SnapshotEntry& s) { return s.file == name; });
-    if (is_snapshot(entry.path()) && !listed) fs::remove(entry.path());
-  }
 }
 
 Provenance RunFiles::provenance(const Simulation& s) const {
@@ -151,7 +140,10 @@ void RunFiles::check(const Simulation& s) const {
 
 void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
   const GlobalState& g = s.global();
-  const SnapshotEntry entry{fmt::format("snapshot_{:09}.h5", g.step), g.step, g.time, s.particle_count()};
+  const SnapshotEntry entry{snapshot_name(g.step), g.step, g.time, s.particle_count()};
+  on_root(s.comm(), "cannot write " + (dir_ / entry.file).string(), [&] {
+    if (fs::exists(dir_ / entry.file)) throw OutputError("somebody else has put a file there");
+  });
   const OutputControl& output = s.scene().output;
   // In this order, since each needs memory: the fingerprint frees its own before the columns are there.
   const Provenance from = provenance(s);

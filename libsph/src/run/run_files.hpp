@@ -1,4 +1,4 @@
-// The directory of a run: scene.toml, series.csv, snapshot_<step>.h5, particles.xdmf, checkpoint/, crash/.
+// The files of a run: scene.toml, series.csv, snapshot_<step>.h5, particles.xdmf, checkpoint/, crash/.
 // Every failure to write is an OutputError on all ranks, whichever rank met it.
 #pragma once
 
@@ -24,16 +24,19 @@ struct RunMemory {
 [[nodiscard]] std::string to_json(const RunMemory& memory);
 [[nodiscard]] RunMemory memory_from_json(const std::string& text);  ///< throws InputError
 
-/// Throws InputError if the directory holds a run already. Collective.
-void refuse_used_directory(const decomp::Comm& comm, const std::filesystem::path& dir);
+/// Whether a finished run has all its files, up to perf.json. Collective.
+[[nodiscard]] bool is_complete(const Simulation& simulation, const std::filesystem::path& dir);
 
 class RunFiles {
  public:
-  /// Of a new run: creates the directory, removes what an earlier start without a checkpoint has left, writes
-  /// scene.toml. Throws InputError where nothing can be written. Collective, as all members are.
-  RunFiles(const Simulation& simulation, std::filesystem::path dir);
-  /// Of one that goes on: cuts series.csv and the XDMF index back to the checkpoint.
-  RunFiles(const Simulation& simulation, std::filesystem::path dir, const RunMemory& memory);
+  /// Of a run from its beginning: removes what an earlier start without a checkpoint has left, writes
+  /// scene.toml. `old_scene`: the resolved scene of that start, or empty. Throws InputError where nothing can
+  /// be written. Collective, as all members are.
+  RunFiles(const Simulation& simulation, std::filesystem::path dir, const std::string& old_scene);
+  /// Of one that goes on: cuts series.csv and the XDMF index back to the checkpoint, and removes its own
+  /// snapshots from step `first_snapshot` on that the checkpoint does not list.
+  RunFiles(const Simulation& simulation, std::filesystem::path dir, const std::string& old_scene,
+           const RunMemory& memory, std::int64_t first_snapshot);
 
   /// A row that rank 0 cannot write is its `failure` until the ranks meet in check(): no reduction for a row.
   void add_series_row(Simulation& simulation);
@@ -46,10 +49,10 @@ class RunFiles {
   [[nodiscard]] std::filesystem::path keep_crashed_state(const Simulation& simulation, bool together) const;
 
   [[nodiscard]] const std::filesystem::path& dir() const { return dir_; }
+  [[nodiscard]] const std::vector<SnapshotEntry>& snapshots() const { return snapshots_; }
 
  private:
   [[nodiscard]] Provenance provenance(const Simulation& simulation) const;
-  void remove_unlisted_snapshots(const Simulation& simulation) const;
   void write_scene(const Simulation& simulation) const;
 
   std::filesystem::path dir_;

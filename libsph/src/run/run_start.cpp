@@ -8,6 +8,8 @@
 #include "output/durable_file.hpp"
 #include "physics/stability.hpp"
 #include "run/agree.hpp"
+#include "run/memory_need.hpp"
+#include "run/run_directory.hpp"
 #include "sph/checkpoint.hpp"
 
 namespace sph {
@@ -36,13 +38,26 @@ std::unique_ptr<Simulation> simulate(const Scene& scene, Make&& make) {
   });
 }
 
-void check_record(const decomp::Comm& comm, const Scene& scene) {
-  const fs::path record = scene.decomposition.record;
-  if (record.empty()) return;
+std::unique_ptr<Simulation> begun(const decomp::Comm& comm, const Scene& scene) {
+  require_memory(comm, scene);
+  return std::make_unique<Simulation>(comm, scene);
+}
+
+/// Makes the directory of a new run this run's.
+void claim(RunStart& start, const decomp::Comm& comm) {
   const std::string failure = agree(comm, attempt([&] {
-                                      if (comm.rank() == 0) write_atomically(record, "");
+                                      if (comm.rank() == 0) fs::create_directories(start.dir);
                                     }));
-  if (!failure.empty()) throw InputError(scene.file + ": decomposition.record: " + failure);
+  const std::string what = "cannot write in " + start.dir.string() + ", choose another place with --out: ";
+  if (!failure.empty()) throw InputError(what + failure);
+  start.lock = std::make_unique<RunLock>(comm, start.dir);
+  if (start.lock->inherited()) {  // of a run that was killed before it had written anything else
+    const std::string left = agree(comm, attempt([&] {
+                                     if (comm.rank() == 0) remove_leftovers(start.dir);
+                                   }));
+    if (!left.empty()) throw InputError(what + left);
+  }
+  refuse_used_directory(comm, start.dir, true);  // again: another run may have come and gone since
 }
 
 bool has_checkpoint(const fs::path& dir) {
@@ -64,9 +79,10 @@ RunStart start_new(const RunOptions& options, const decomp::Comm& comm) {
   const Scene scene = scene_of(options);
   RunStart start;
   start.dir = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
-  refuse_used_directory(comm, start.dir);
-  check_record(comm, scene);
-  start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene); });
+  refuse_used_directory(comm, start.dir, false);
+  prepare_record(comm, scene, false);
+  start.simulation = simulate(scene, [&] { return begun(comm, scene); });
+  claim(start, comm);
   return start;
 }
 
@@ -80,27 +96,33 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
               if (comm.rank() != 0) return;
               if (!fs::is_directory(start.dir))
                 throw InputError(start.dir.string() + " is not the directory of a run");
-              if (has_checkpoint(start.dir)) return;
-              if (!fs::exists(file))
+              if (!has_checkpoint(start.dir) && !fs::exists(file))
                 throw InputError("there is no run in " + start.dir.string() +
                                  ": neither checkpoint nor scene.toml");
-              text = read_text(file);
             }));
   if (!failure.empty()) throw InputError(failure);
+  start.lock = std::make_unique<RunLock>(comm, start.dir);
+  const std::string unread = agree(comm, attempt([&] {
+                                     if (comm.rank() == 0 && !has_checkpoint(start.dir))
+                                       text = read_text(file);
+                                   }));
+  if (!unread.empty()) throw InputError(unread);
   text = comm.broadcast(text, 0);
   if (!text.empty()) {
     if (comm.rank() == 0)
       fmt::print(stderr, "peperite: {} has no checkpoint yet: beginning anew\n", start.dir.string());
     const Scene scene = parse_scene(text, file, with_end(options));
-    check_record(comm, scene);
-    start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene); });
+    prepare_record(comm, scene, true);
+    start.old_scene = text;
+    start.simulation = simulate(scene, [&] { return begun(comm, scene); });
     return start;
   }
   const CheckpointHandle checkpoint = find_checkpoint(comm, start.dir);
   if (!checkpoint.warning.empty() && comm.rank() == 0)
     fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
   const Scene scene = parse_scene(checkpoint.record.scene_toml, file, with_end(options));
-  check_record(comm, scene);
+  prepare_record(comm, scene, true);
+  start.old_scene = checkpoint.record.scene_toml;
   start.memory = memory_from_json(checkpoint.record.extra_json);
   start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
   return start;

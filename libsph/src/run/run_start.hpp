@@ -3,14 +3,18 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "run/run_files.hpp"
+#include "run/run_lock.hpp"
 #include "sph/run.hpp"
 
 namespace sph {
 
 struct RunStart {
   std::filesystem::path dir;
+  std::unique_ptr<RunLock> lock;
+  std::string old_scene;  ///< resolved, of the start before; empty: there is none
   std::unique_ptr<Simulation> simulation;
   std::optional<RunMemory> memory;  ///< of the checkpoint; none: begins at step 0
 };

@@ -1,10 +1,14 @@
 #include "sph/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "decomp/poison.hpp"
+#include "pairs/poison_rows.hpp"
 #include "physics/viscosity_solver.hpp"
 
 namespace sph {
@@ -53,14 +57,17 @@ void Simulation::kick_half_a_step() {
   const auto kick = [&](double share) {
     part.dt = share * global_.dt;
     maxima_ = physics_.integrate(particles_, distribution_.ranges(), part);
-    std::array<double, 4> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity};
+    std::array<double, 5> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity,
+                              physics_.growth(particles_, reaches_)};
     comm_.max(all);
+    growth_ = all[4];
     global_.max_speed = all[0];
     global_.max_acceleration = all[1];
     return physics_.time_step({all[0], all[1], 0, all[2], all[3]});
   };
   global_.dt = kick(0);  // how large a step may be follows from the accelerations
   (void)kick(0.5);
+  physics_.findings().stop(comm_);
   changed(physics_.integrated());
   find_stale(physics_.longest_advance(global_));
 }
@@ -104,7 +111,7 @@ bool Simulation::improve(const Pass& pass) {
 void Simulation::step_in_a_sweep() {
   grains_->set_stage(global_);
   if (stale_) rebuild();
-  grains_->begin_step(global_);
+  grains_->begin_step(particles_, global_);
   const auto sweep = [&](std::span<const ContactBlock> blocks) {
     const auto timing = timers_.time(decomp::Region::contacts);
     grains_->sweep(particles_, blocks, distribution_.ranges(), global_.dt);
@@ -130,23 +137,42 @@ void Simulation::rebuild() {
   std::vector<std::uint32_t> order;
   {
     const auto timing = timers_.time(decomp::Region::migrate);
-    order = distribution_.rebuild(
-        particles_, timers_.take_cost(), [&] { return pairs_of_rows(); }, is_wall_group_, moved_,
-        grains_ ? &contacts : nullptr);
+    try {
+      order = distribution_.rebuild(
+          particles_, timers_.take_cost(), [&] { return pairs_of_rows(); }, is_wall_group_, moved_,
+          grains_ ? 0.0 : 2 * std::max(physics_.longest_look_back(global_), physics_.longest_shift(global_)),
+          grains_ ? &contacts : nullptr);
+    } catch (const GuardError& error) {
+      throw GuardError(step_text(global_.step) + error.what());
+    }
     if (decomp::census(comm_, particles_.table(), particles_.column(Field::id)) != census_)
       throw GuardError("step " + std::to_string(global_.step) +
                        ": a particle was lost or duplicated in migration; reduce time.dt");
   }
   fresh_ = {};
-  refresh_begin(grains_ ? Grains::constants() : FieldSet{Field::id, Field::position});
+  refresh_begin(grains_ ? Grains::constants()
+                        : FieldSet{Field::id, Field::position, Field::smoothing_length, Field::group});
   refresh_end();
   if (grains_)
     rebuild_contacts(contacts, order, sent);
   else
-    lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
-                 distribution_.ranges(), timers_);
+    build_lists();
   moved_ = 0;
   ++counters_.rebuilds;
+}
+
+void Simulation::build_lists() {
+  reaches_ = physics_.reaches(particles_);
+  if (reaches_.empty()) {
+    lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
+                 distribution_.ranges(), timers_);
+    if (particles_.fields().has(Field::wall_share)) lists_.mark_walls(particles_, is_wall_group_);
+    return;
+  }
+  std::vector<double> quanta(reaches_.size());
+  for (std::size_t i = 0; i < quanta.size(); ++i)
+    quanta[i] = (reaches_[i] + distribution_.skin()) / scale_.quantum + 1;
+  lists_.build(particles_, quanta, distribution_.ranges(), timers_);
 }
 
 // What the passes look at for each row, as far as the blocks of the lists tell.
@@ -178,9 +204,13 @@ void Simulation::rebuild_contacts(const decomp::Payload& contacts, std::span<con
   const ContactCensus found = grains_->rebuild(particles_, distribution_.grid(), distribution_.own_cells(),
                                                distribution_.list_radius(), distribution_.skin(),
                                                distribution_.ranges(), global_, contacts, order);
-  std::array<std::uint64_t, 4> all{sent.count, sent.keys, found.count, found.keys};
+  Findings lost;
+  grains_->find_lost(particles_, global_, distribution_.skin(), lost);
+  std::array<std::uint64_t, 6> all{sent.count, sent.keys,       found.count,
+                                   found.keys, found.one_sided, lost.any() ? 1U : 0U};
   comm_.sum(std::span<std::uint64_t>(all));
-  if (all[0] != all[2] || all[1] != all[3])
+  if (all[5] != 0) lost.stop(comm_, step_text(global_.step));
+  if (all[0] != all[2] || all[1] != all[3] || all[4] != 0)
     throw GuardError("step " + std::to_string(global_.step) + ": of " + std::to_string(all[0]) +
                      " entries of contacts " + std::to_string(all[2]) +
                      " were found again after the lists were rebuilt; reduce time.dt");
@@ -191,6 +221,8 @@ void Simulation::run(const Pass& pass, const PassContext& context, Side side, Pa
   const bool interior = side == Side::interior;
   // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.
   pack(context, interior ? 0 : particles_.owned(), interior ? particles_.owned() : particles_.rows());
+  if (interior && pack == pass.fusion->pack)
+    poison_rows(context, pass.fusion->row_bytes, particles_.owned(), particles_.rows());
   const auto range = [&](RowClass c) -> const RowRange& {
     return distribution_.ranges()[static_cast<std::size_t>(c)];
   };
@@ -198,6 +230,15 @@ void Simulation::run(const Pass& pass, const PassContext& context, Side side, Pa
     pass.fusion->run(context, range(interior ? RowClass::interior_movers : RowClass::boundary_movers));
   if (pass.walls)
     pass.fusion->run(context, range(interior ? RowClass::interior_walls : RowClass::boundary_walls));
+}
+
+// Halo copies of these fields are out of date.
+void Simulation::changed(FieldSet fields) {
+  fresh_ = fresh_.without(fields);
+  if (!decomp::poisons()) return;
+  std::vector<int> columns;
+  for (Field f : (fields & particles_.fields()).list()) columns.push_back(particles_.column(f));
+  decomp::poison_halo(particles_.table(), columns);
 }
 
 void Simulation::refresh_begin(FieldSet wanted) {
@@ -237,18 +278,22 @@ void Simulation::refresh_contacts() {
 
 // The one reduction of a step. What it brings acts in the next step.
 std::int64_t Simulation::finish_step(std::int64_t request) {
-  const bool finite =
-      std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) && std::isfinite(maxima_.sound);
-  std::array<double, 6> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
+  const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) &&
+                      std::isfinite(maxima_.sound) && !physics_.findings().any();
+  const Findings left = find_leavers();
+  std::array<double, 8> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
                             static_cast<double>(request)};
+  all[6] = left.any() ? 1 : 0;
   std::vector<std::int64_t> sums;
   if (!grains_ && finite) all[4] = maxima_.sound, all[5] = maxima_.viscosity;
+  if (!grains_) all[7] = physics_.growth(particles_, reaches_);
   if (grains_) {
-    all[4] = grains_->swept().force;
-    all[5] = grains_->swept().overlap;
+    all[4] = grains_->swept().strong.any() ? 1.0 : 0.0;
+    all[5] = grains_->swept().deep.any() ? 1.0 : 0.0;
     sums = grains_->wall_force();
-  } else if (scene_.terms.shifting && !scene_.open) {
-    sums = {maxima_.volume};
+  } else if (scene_.terms.shifting) {
+    sums.assign(maxima_.motion.begin(), maxima_.motion.end());
+    sums.push_back(maxima_.volume);
   }
   {
     const auto timing = timers_.time(decomp::Region::reduce);
@@ -257,15 +302,17 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
     else
       comm_.max_and_sum(all, sums);
   }
+  if (grains_) guard_sweep(all);
   if (all[2] > 0) stop_at_bad_particle();
+  if (all[6] > 0) left.stop(comm_, step_text(global_.step));
   if (grains_) {
-    guard_sweep(all);
     // Walls drift before servos change their speeds.
     moved_ += 1.0001 * std::max(all[0], grains_->fastest_wall(global_)) * global_.dt;
-    grains_->move_walls(global_, sums);
+    grains_->move_walls(global_, wall_forces(sums));
   } else {
+    growth_ = all[7];
     moved_ += physics_.longest_shift(global_);
-    if (scene_.terms.shifting && !scene_.open) global_.fluid_volume.now = sums[0];
+    if (scene_.terms.shifting) take_motion(sums);
   }
   ++global_.step;
   global_.time += global_.dt;
@@ -274,24 +321,39 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   if (!grains_) global_.dt = physics_.time_step({all[0], all[1], 0, all[4], all[5]});
   if (!grains_ && scene_.time.dt &&
       all[4] * *scene_.time.dt > courant_limit(scene_) * scene_.smoothing_length)
-    throw GuardError("step " + std::to_string(global_.step) + ": c dt/h is beyond the limit of " +
-                     std::to_string(courant_limit(scene_)) + ", c = " + std::to_string(all[4]) +
-                     " m/s; reduce time.dt");
+    throw GuardError("step " + std::to_string(global_.step) + ": (c + u) dt/h is beyond the limit of " +
+                     std::to_string(courant_limit(scene_)) + ", or the kernels of a gas that expands grow " +
+                     "too fast for it; reduce time.dt");
   find_stale(grains_ ? 0.0 : physics_.longest_advance(global_) + physics_.longest_shift(global_));
   return static_cast<std::int64_t>(all[3]);
 }
 
-// Lists must hold at the end of the next step, in which particles move by `next` before they meet. moved_
-// bounds every particle's path since the rebuild by the largest speed of each step: no positions to remember,
-// and never late. Grains are looked at again when the bound runs out: one that flies through the sparse part
-// of a scene must not cost rebuilds of the rest.
+void Simulation::take_motion(std::span<const std::int64_t> sums) {
+  MotionSums motion;
+  std::copy_n(sums.begin(), motion.size(), motion.begin());
+  global_.motion = physics_.common_motion(motion, global_);
+  if (!scene_.open) global_.fluid_volume.now = sums.back();
+}
+
+// A particle that leaves the domain does so in this step, wherever a rebuild would next look at it. Few ranks
+// have to look: how far particles were from the faces is known from the last rebuild, and so is a bound on
+// their way since.
+Findings Simulation::find_leavers() const {
+  const double step = grains_ ? 1.0001 * maxima_.speed * global_.dt : physics_.longest_shift(global_);
+  return moved_ + step < distribution_.to_face() ? Findings() : distribution_.outside(particles_);
+}
+
+// Lists must hold every pair that a pass of the next step takes, wherever it takes its particles to be: after
+// they have moved by `next`, or half a step before that. moved_ bounds every particle's path since the
+// rebuild by the largest speed of each step: no positions to remember, and never late. A rebuild in that step
+// finds lists that are wide enough for it, however small the scene's skin (rebuild()). Grains are looked at
+// again when the bound runs out: one that flies through the sparse part of a scene must not cost rebuilds of
+// the rest.
 void Simulation::find_stale(double next) {
-  if (next > 0.5 * scene_.support())
-    throw GuardError("step " + std::to_string(global_.step) + ": the fastest particle would move " +
-                     std::to_string(next) +
-                     " m in one step, more than half the kernel's radius; reduce time.dt or time.cfl");
+  guard_motion(next);
   const int every = scene_.decomposition.rebuild_every;
-  stale_ = moved_ + next > 0.5 * distribution_.skin() || (every > 0 && global_.step % every == 0);
+  const double furthest = grains_ ? moved_ : std::max(moved_ + next, physics_.longest_look_back(global_));
+  stale_ = furthest > 0.5 * distribution_.skin() || growth_ > 1 || (every > 0 && global_.step % every == 0);
   if (!grains_ || !stale_ || (every > 0 && global_.step % every == 0)) return;
   const auto timing = timers_.time(decomp::Region::reduce);
   std::array<double, 1> way{grains_->longest_way(particles_, global_)};
@@ -299,37 +361,6 @@ void Simulation::find_stale(double next) {
   moved_ = way[0];
   // Another step of the fastest grain must fit, or this look was for nothing.
   stale_ = moved_ + 2 * global_.max_speed * global_.dt > 0.5 * distribution_.skin();
-}
-
-// all[4], all[5]: largest force [quanta], largest overlap beyond the limit [m].
-void Simulation::guard_sweep(const std::array<double, 6>& all) const {
-  if (all[4] > 0x1p50)
-    throw GuardError("step " + std::to_string(global_.step) + ": a contact force of " +
-                     std::to_string(all[4] * grains_->force_quantum()) +
-                     " N is beyond the range of the sums; reduce time.dt or raise the stiffness");
-  if (all[5] > 0)
-    throw GuardError("step " + std::to_string(global_.step) + ": an overlap is " + std::to_string(all[5]) +
-                     " m deeper than contact.largest_overlap allows; raise the stiffness or reduce time.dt");
-}
-
-void Simulation::stop_at_bad_particle() const {
-  const std::size_t d = static_cast<std::size_t>(particles_.dim());
-  std::string what;
-  const double* v = particles_.data<Field::velocity>();
-  for (std::size_t i = 0; i < particles_.owned() && what.empty(); ++i)
-    for (std::size_t a = 0; a < d; ++a)
-      if (!std::isfinite(v[i * d + a])) {
-        what =
-            "particle " + std::to_string(particles_.data<Field::id>()[i]) + ": velocity is not finite at (";
-        for (std::size_t b = 0; b < d; ++b)
-          what += (b > 0 ? ", " : "") +
-                  std::to_string(scale_.metres(particles_.data<Field::position>()[i * d + b]));
-        what += ") m";
-        break;
-      }
-  throw GuardError("step " + std::to_string(global_.step) + ": " +
-                   (what.empty() ? "a particle on another rank is not finite" : what) +
-                   "; reduce time.dt or time.cfl");
 }
 
 }  // namespace sph

@@ -1,9 +1,15 @@
 // Set-up of a simulation: from the scene's start or from a checkpoint.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstring>
 #include <string>
+#include <vector>
 
 #include "sph/placement.hpp"
 #include "sph/simulation.hpp"
+#include "start/start_densities.hpp"
+#include "start/start_overlaps.hpp"
 
 namespace sph {
 
@@ -20,16 +26,31 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
     grains_.emplace(scene_, scale_);
     global_.dt = grains_->time_step();
     global_.walls = grains_->first_walls();
+    check_start_speeds(comm_, scene_, particles_);
     begin();
+    refuse_overlaps(comm_, scene_, scale_, particles_, grains_->lists(), grains_->planes(global_));
     return;
   }
+  check_start_densities(comm_, scene_, particles_);
   const StepMaxima own = physics_.maxima_at_start(particles_);
   std::array<double, 3> largest{own.speed, own.sound, own.viscosity};
   comm_.max(largest);
   global_.max_speed = largest[0];
   global_.dt = physics_.time_step({largest[0], 0, 0, largest[1], largest[2]});
   global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(physics_.fluid_volume(particles_));
+  // The mean first, then what differs from it.
+  for (int k = 0; k < 2 && scene_.terms.shifting; ++k) {
+    MotionSums sums = physics_.motion_sums(particles_, global_);
+    comm_.sum(std::span<std::int64_t>(sums));
+    global_.motion = physics_.common_motion(sums, global_);
+  }
+  try {
+    guard_motion(physics_.longest_advance(global_));
+  } catch (const GuardError& error) {
+    throw InputError(scene_.file + ": start: " + error.what());
+  }
   begin();
+  if (scene_.has_eos(EosKind::ideal_gas)) widen_kernels();
 }
 
 Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint)
@@ -54,12 +75,62 @@ void Simulation::begin() {
   distribution_.cut_by_counts(particles_);
   if (grains_ && arrived_.rows() == 0) arrived_.offset.assign(particles_.owned() + 1, 0);
   distribution_.scatter(particles_, grains_ ? &arrived_ : nullptr);
+  // Passes over movers write nothing to walls, whose partners read all the same: nothing is what they read.
+  for (const Field f : particles_.fields().list())
+    if (!info(f).state)
+      std::memset(particles_.table().column(particles_.column(f)).data(), 0,
+                  particles_.owned() * width(f, particles_.dim()));
   if (!grains_) physics_.derive(particles_, 0, particles_.owned());
   // Sorts the rows: advance() needs to know which of them move.
   rebuild();
-  // What bonds there are is known only from the start, and output wants the stress, and the density of gases.
-  if (scene_.total_lagrangian() || scene_.has_eos(EosKind::ideal_gas)) compute(physics_.passes().front());
+  if (const std::string text = distribution_.outside(particles_).agree(comm_); !text.empty())
+    throw InputError(scene_.file + ": start: " + text);
+  // What bonds there are is known only from the start, and output wants the stress.
+  if (scene_.total_lagrangian()) compute(physics_.passes().front());
+  physics_.findings().stop(comm_);
   stale_ = !grains_;  // the first advance may leave the skin
+}
+
+void Simulation::derive_for_output() {
+  for (const Pass& pass : physics_.passes()) {
+    if (pass.name != "walls") continue;
+    const auto copy = [&](const double* values, std::size_t components) {
+      return values == nullptr ? std::vector<double>()
+                               : std::vector<double>(values, values + components * particles_.owned());
+    };
+    double* velocity = particles_.data<Field::velocity>();
+    double* mirror = particles_.data<Field::wall_mirror>();
+    const std::vector<double> velocities = copy(velocity, static_cast<std::size_t>(scene_.dim)),
+                              mirrors = copy(mirror, 1);
+    compute(pass);
+    std::copy(velocities.begin(), velocities.end(), velocity);
+    std::copy(mirrors.begin(), mirrors.end(), mirror);
+    changed(pass.changes);
+  }
+}
+
+// At the start neither density nor kernels of a gas are known: steps towards them until none changes any more
+// but by rounding. How many that takes follows from the scene alone: the largest change is that of all ranks.
+void Simulation::widen_kernels() {
+  constexpr int most = 100;
+  constexpr double rounding = 1e-13;
+  const auto* group = particles_.data<Field::group>();
+  for (int k = 0; k < most; ++k) {
+    double* density = particles_.data<Field::density>();
+    double* h = particles_.data<Field::smoothing_length>();
+    for (std::size_t i = 0; i < particles_.owned(); ++i)
+      if (!physics_.is_wall(group[i])) density[i] = 0;  // not summed yet: no work is done
+    changed({Field::density});
+    const std::vector<double> before(h, h + particles_.owned());
+    compute(physics_.passes().front());
+    std::array<double, 1> change{0};
+    for (std::size_t i = 0; i < before.size(); ++i)
+      change[0] = std::max(change[0], std::abs(h[i] / before[i] - 1));
+    comm_.max(change);
+    refresh_halo({Field::smoothing_length});
+    build_lists();
+    if (change[0] < rounding) break;
+  }
 }
 
 Wrap Simulation::wrap() const {

@@ -28,6 +28,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& words
   int best = limit + 1;
   std::string found;
   for (const std::string& candidate : words) {
+    // No distance is below the difference of lengths, and a word may be as long as its file.
+    if (word.size() > candidate.size() + static_cast<std::size_t>(limit)) continue;
     const int distance = edit_distance(word, candidate);
     // A word that shares nothing with the candidate is as far away as the longer of them.
     if (distance < best && distance < static_cast<int>(std::max(word.size(), candidate.size()))) {

@@ -15,7 +15,7 @@ double Scene::support() const {
 }
 
 double Scene::list_range() const {
-  return total_lagrangian() ? support() * terms.largest_stretch : support();
+  return support() * (total_lagrangian() ? terms.largest_stretch : largest_growth);
 }
 
 bool Scene::total_lagrangian() const {

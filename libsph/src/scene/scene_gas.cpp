@@ -1,6 +1,7 @@
 // Ideal gases: their keys, and what has no meaning beside them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "scene/scene_resolve.hpp"
@@ -18,6 +19,35 @@ void read_ideal_gas(const TableReader& table, Group& group) {
                "it is that of the heat capacities, above 1: 1.4 for air");
   group.start_pressure = table.required_number("start_pressure", dimension::pressure, Bound::positive);
   group.bulk_modulus = group.heat_ratio * group.start_pressure;
+}
+
+// Walls are as thick as a kernel that has not grown, and as coarse as one that has not shrunk.
+void read_growth(const TableReader& kernel, Scene& scene) {
+  constexpr double narrowest = 0.05, widest = 20, in_the_open = 3;
+  const bool gas = scene.has_eos(EosKind::ideal_gas), walls = scene.has_kind(GroupKind::wall);
+  const auto number = [&](std::string_view key, double otherwise, double least, double most) {
+    kernel.only_if(gas, key, "only scenes with eos = \"ideal_gas\" have it");
+    if (!gas) return 1.0;
+    const double found =
+        kernel.number(key, dimension::none, Bound::positive).value_or(walls ? 1.0 : otherwise);
+    if (found < least || found > most)
+      kernel.fail(key, fmt::format("is {}", found), fmt::format("it must be {} to {}", least, most));
+    return found;
+  };
+  scene.least_growth = number("least_growth", narrowest, narrowest, 1);
+  scene.largest_growth = number("largest_growth", in_the_open, 1, widest);
+}
+
+// Where it is not given, kernels grow no wider than short periods have room for: `cells` of them, with a skin
+// as is usual. That of the scene must not decide: it may change no bit.
+void fit_growth(const TableReader& kernel, Scene& scene, double cells) {
+  if (!scene.has_eos(EosKind::ideal_gas) || kernel.has("largest_growth")) return;
+  constexpr double margin = 1 - 1e-9, usual_skin = 0.2;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (scene.periodic[a]) {
+      const double room = (scene.upper[a] - scene.lower[a]) / (cells * scene.support());
+      scene.largest_growth = std::clamp((room - usual_skin) * margin, 1.0, scene.largest_growth);
+    }
 }
 
 // A gas is rarely without shocks.

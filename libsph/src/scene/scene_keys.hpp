@@ -20,7 +20,8 @@ using Word = std::string_view;
 inline constexpr auto top_list = std::to_array<Word>(
     {"title", "dimension", "formulation", "precision", "kernel", "domain", "group", "start", "terms", "time",
      "decomposition", "output", "monitor", "contact", "wall", "stage"});
-inline constexpr auto kernel_list = std::to_array<Word>({"shape", "smoothing_length", "h_over_dx"});
+inline constexpr auto kernel_list =
+    std::to_array<Word>({"shape", "smoothing_length", "h_over_dx", "least_growth", "largest_growth"});
 inline constexpr auto domain_list = std::to_array<Word>(
     {"lower", "upper", "periodic", "gravity", "central_pull", "pull_centre", "surface_pressure"});
 inline constexpr auto group_list = std::to_array<Word>({"name",

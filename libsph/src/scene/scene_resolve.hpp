@@ -13,6 +13,8 @@ namespace sph {
 /// The equation of state of a group that is an ideal gas.
 void read_ideal_gas(const TableReader& table, Group& group);
 /// Terms against shocks; their defaults depend on whether there is an ideal gas.
+void read_growth(const TableReader& kernel, Scene& scene);
+void fit_growth(const TableReader& kernel, Scene& scene, double cells);
 void read_shock_terms(const TableReader& table, Scene& scene);
 /// Refuses what has no meaning beside an ideal gas, once all is read.
 void check_ideal_gas(const TableReader& top, const TableReader& domain, const TableReader& start,

@@ -126,6 +126,10 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
   out.header("[kernel]");
   out.text("shape", word(kernel_words(), scene.kernel));
   out.number("smoothing_length", scene.smoothing_length);
+  if (scene.has_eos(EosKind::ideal_gas)) {
+    out.number("least_growth", scene.least_growth);
+    out.number("largest_growth", scene.largest_growth);
+  }
   for (const Group& g : scene.groups) write_group(out, scene, g);
   write_start(out, scene);
   out.header("[terms]");

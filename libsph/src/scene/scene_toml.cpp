@@ -20,6 +20,7 @@ constexpr double least_h_over_dx = 0.5;
 constexpr double most_h_over_dx = 4;
 constexpr int least_periodic_cells = 3;
 constexpr double most_spacings = 1e7;
+constexpr std::uintmax_t largest_scene_bytes = std::uintmax_t{1} << 22;
 constexpr double diameters_apart = 1.1;  ///< default spacing of grains: they start without touching
 
 /// All tables but the arrays, made first: a misspelt key is reported before anything that is missing.
@@ -95,7 +96,6 @@ void read_kernel(const TableReader& table, Scene& scene) {
   if (found < least_h_over_dx * (1 - rounding) || found > most_h_over_dx * (1 + rounding))
     table.fail(h ? "smoothing_length" : "h_over_dx", fmt::format("makes h/dx = {:.6g}", found),
                fmt::format("it must be {} to {} spacings", least_h_over_dx, most_h_over_dx));
-  table.finish();
 }
 
 InterfaceTension read_surface_tension(const TableReader& table, const std::vector<Group>& groups) {
@@ -243,15 +243,21 @@ void check_periods(const Tables& tables, const Scene& scene) {
                          fmt::format("the period of {} m in {} is shorter than {} cells of {:.6g} m", length,
                                      axis_names[a], least_periodic_cells, cell),
                          fmt::format("lengthen the domain, or reduce {} or decomposition.skin",
-                                     scene.of_grains() ? "the grains" : "start.spacing"));
+                                     scene.of_grains()          ? "the grains"
+                                     : scene.largest_growth > 1 ? "kernel.largest_growth, start.spacing"
+                                                                : "start.spacing"));
   }
 }
 
 void check_file(const TableReader& table, std::string_view key, const std::string& path) {
   if (path.empty()) return;
   std::error_code error;
-  if (std::filesystem::is_directory(path, error))
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status))
     table.fail(key, fmt::format("\"{}\" is a directory", path), "give a file");
+  // A pipe would be opened for ever, a device read for ever.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    table.fail(key, fmt::format("\"{}\" is a pipe or a device", path), "give a file");
   if (!std::ifstream(path))
     table.fail(key, fmt::format("\"{}\" cannot be read", path), "give an existing file");
 }
@@ -270,6 +276,8 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
   check_extent(tables.domain, scene);
   read_kernel(tables.kernel, scene);
   scene.groups = read_groups(tables.top, scene.dim);
+  read_growth(tables.kernel, scene);
+  tables.kernel.finish();
   const std::vector<TableReader> groups = tables.top.tables("group", scene_keys::group);
   for (std::size_t k = 0; k < groups.size(); ++k)
     if (scene.formulation == Formulation::ida && scene.groups[k].slip)
@@ -323,11 +331,13 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   read_time(tables.time, scene);
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
+  fit_growth(tables.kernel, scene, least_periodic_cells);
   check_periods(tables, scene);
   check_total_lagrangian(tables, scene);
   check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
   check_implicit_viscosity(tables.terms, scene);
-  scene.open = scene.terms.shifting && has_free_surface(scene);
+  scene.free_surface = !scene.of_grains() && has_free_surface(scene);
+  scene.open = scene.terms.shifting && scene.free_surface;
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);
     check_file(tables.start.table("tile", scene_keys::tile), "file", scene.start.tile.file);
@@ -358,6 +368,9 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) unreadable("there is no such file");
   if (std::filesystem::is_directory(status)) unreadable("is a directory");
+  if (!std::filesystem::is_regular_file(status)) unreadable("is a pipe or a device");
+  if (const std::uintmax_t bytes = std::filesystem::file_size(path, error); bytes > largest_scene_bytes)
+    unreadable(fmt::format("has {} bytes, and no scene has more than {}", bytes, largest_scene_bytes));
   std::ifstream in(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in) unreadable("cannot be read");

@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "scene/key_depth.hpp"
 #include "scene/nearest.hpp"
 #include "sph/error.hpp"
 
@@ -60,6 +61,7 @@ Node convert(const toml::node& from, const Origin& origin) {
 Node override_value(const std::string& option, const std::string& key, const std::string& value) {
   const Origin origin{option, true};
   const std::string document = "v = " + value;
+  if (deep_key(document)) fail(option, key, "holds a key of too many parts", deep_key_advice);
   try {
     const toml::table parsed = toml::parse(document);
     if (parsed.size() == 1) return convert(*parsed.get("v"), origin);
@@ -78,6 +80,7 @@ std::vector<std::string> split_path(const std::string& option, const std::string
   while (true) {
     const std::size_t dot = path.find('.', begin);
     parts.push_back(path.substr(begin, dot - begin));
+    if (parts.size() > most_key_parts) fail(option, "--set", "the key has too many parts", deep_key_advice);
     if (parts.back().empty()) fail(option, path, "the key has an empty part", "write --set table.key=value");
     if (dot == std::string::npos) return parts;
     begin = dot + 1;
@@ -150,6 +153,9 @@ std::string_view type_name(const Node& node) {
 }
 
 Node parse(std::string_view text, const std::string& file) {
+  if (const std::optional<TextPlace> deep = deep_key(text))
+    fail(fmt::format("{}:{}:{}", file, deep->line, deep->column), "syntax", "a key has too many parts",
+         deep_key_advice);
   try {
     return convert(toml::parse(text, file), Origin{file, false});
   } catch (const toml::parse_error& e) {

@@ -20,46 +20,6 @@ const Group& first_fluid(const Scene& scene) {
   return scene.groups.front();
 }
 
-/// Of still layers, above the surface pressure: in each dp/dd = rho g along the depth d with
-/// rho = rho_0 (1 + p/K), hence p = (K + p_top) (exp(rho_0 g (d - d_top) / K) - 1) + p_top.
-double hydrostatic_pressure(const Scene& scene, const Double3& x) {
-  double g2 = 0, height = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    g2 += scene.gravity[a] * scene.gravity[a];
-    height -= scene.gravity[a] * x[a];
-  }
-  const double g = std::sqrt(g2);
-  if (g == 0) return 0;
-  height /= g;
-  const std::vector<Layer>& layers = scene.start.layers;
-  double top = 0;  // pressure
-  for (std::size_t k = 0;; ++k) {
-    const bool within = k + 1 == layers.size() || height >= layers[k + 1].top;
-    const Group& fluid = scene.groups[static_cast<std::size_t>(layers[k].group)];
-    const double depth = layers[k].top - (within ? height : layers[k + 1].top);
-    const double grown = (fluid.bulk_modulus + scene.surface_pressure + top) *
-                         (exact_exp(fluid.density * g * depth / fluid.bulk_modulus) - 1);
-    if (within) return top + grown;
-    top += grown;
-  }
-}
-
-/// Pressure above the surface pressure.
-double initial_pressure(const Scene& scene, const Double3& x) {
-  switch (scene.start.pressure) {
-    case InitialPressure::hydrostatic:
-      return hydrostatic_pressure(scene, x);
-    case InitialPressure::taylor_green: {
-      const double k = 4 * std::numbers::pi / scene.start.flow_length;
-      const double u = scene.start.flow_speed;
-      return -0.25 * first_fluid(scene).density * u * u * (exact_cos(k * x[0]) + exact_cos(k * x[1]));
-    }
-    case InitialPressure::zero:
-      break;
-  }
-  return 0;
-}
-
 }  // namespace
 
 void displace_by_jitter(const Scene& scene, NewParticle& p) {
@@ -74,7 +34,19 @@ double random_radius(const Scene& scene, const NewParticle& p) {
   return std::min(grain.least_radius + (grain.largest_radius - grain.least_radius) * u, grain.largest_radius);
 }
 
-void set_initial_fields(const Scene& scene, NewParticle& p) {
+InitialFields::InitialFields(const Scene& scene) : scene_(scene) {
+  if (scene.start.pressure == InitialPressure::hydrostatic) hydrostatic_.emplace(scene);
+}
+
+double InitialFields::pressure(const Double3& x) const {
+  if (hydrostatic_) return (*hydrostatic_)(x);
+  if (scene_.start.pressure == InitialPressure::zero) return 0;
+  const double k = 4 * std::numbers::pi / scene_.start.flow_length, u = scene_.start.flow_speed;
+  return -0.25 * first_fluid(scene_).density * u * u * (exact_cos(k * x[0]) + exact_cos(k * x[1]));
+}
+
+void InitialFields::set(NewParticle& p) const {
+  const Scene& scene = scene_;
   const Group& g = scene.groups[p.group];
   if (g.kind == GroupKind::grain) {
     p.mass = grain_mass(g.density, p.radius);
@@ -92,15 +64,15 @@ void set_initial_fields(const Scene& scene, NewParticle& p) {
     p.density = g.density;
     p.velocity = g.wall_velocity;
   } else {
-    const double pressure = initial_pressure(scene, x) + scene.surface_pressure;
+    const double above_surface = pressure(x), absolute = above_surface + scene.surface_pressure;
     if (g.eos == EosKind::bubbly)
-      p.density = bubbly_eos(g, g.gas_content).density(pressure);
+      p.density = bubbly_eos(g, g.gas_content).density(absolute);
     else if (g.eos == EosKind::ideal_gas)
       p.density = g.density;
     else
-      p.density = g.density * (1 + pressure / g.bulk_modulus);
+      p.density = g.density * (1 + absolute / g.bulk_modulus);
     if (g.eos == EosKind::ideal_gas)
-      p.energy = IdealGas{g.heat_ratio}.energy(g.start_pressure + initial_pressure(scene, x), g.density);
+      p.energy = IdealGas{g.heat_ratio}.energy(g.start_pressure + above_surface, g.density);
     if (g.kind == GroupKind::wall) {
       p.velocity = g.wall_velocity;
     } else if (scene.start.velocity == InitialVelocity::uniform) {
@@ -130,6 +102,7 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* u = particles.data<Field::specific_energy>()) {
     u[i] = p.energy;
     if (p.energy > 0) particles.data<Field::density>()[i] = 0;  // not summed yet
+    particles.data<Field::smoothing_length>()[i] = scene.smoothing_length;
   }
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
@@ -140,6 +113,8 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* bonds = particles.data<Field::bonds>()) bonds[i] = 0;  // not counted yet
   if (auto* u = particles.data<Field::displacement>())
     for (std::size_t a = 0; a < d; ++a) u[i * d + a] = 0;
+  if (auto* mirror = particles.data<Field::wall_mirror>())
+    mirror[i] = 0;  // of walls it is found in the first step
   if (auto* mean = particles.data<Field::velocity_mean>())
     for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = p.velocity[a];
   if (auto* mean = particles.data<Field::pressure_mean>()) mean[i] = 0;

@@ -2,9 +2,12 @@
 // grain its radius and hence its mass.
 #pragma once
 
+#include <optional>
+
 #include "decomp/types.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
+#include "start/hydrostatic.hpp"
 
 namespace sph {
 
@@ -26,9 +29,20 @@ void displace_by_jitter(const Scene& scene, NewParticle& p);
 /// Uniform between the least and the largest of the grain's group, a function of seed and id alone [m].
 [[nodiscard]] double random_radius(const Scene& scene, const NewParticle& p);
 
-/// Density from the initial pressure through the group's equation of state, mass = density spacing^D. Of a
-/// grain, whose radius must be known: its mass and velocity.
-void set_initial_fields(const Scene& scene, NewParticle& p);
+class InitialFields {
+ public:
+  explicit InitialFields(const Scene& scene);
+
+  /// Density from the initial pressure through the group's equation of state, mass = density spacing^D. Of a
+  /// grain, whose radius must be known: its mass and velocity.
+  void set(NewParticle& p) const;
+
+ private:
+  [[nodiscard]] double pressure(const Double3& x) const;  ///< above the surface pressure
+
+  const Scene& scene_;
+  std::optional<HydrostaticColumn> hydrostatic_;
+};
 
 /// Adds one owned row with the given coordinates [quanta]: those fields that `particles` have.
 void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta, Particles& particles);

@@ -77,13 +77,14 @@ void place_particles_from_file(const Scene& scene, const PositionScale& scale, D
     return fmt::format("id {} was given in {} {} already", static_cast<std::uint64_t>(id[0]), rows.unit,
                        earlier);
   });
-  // The normal of a contact between centres that coincide would have no direction.
-  if (scene.of_grains())
-    check_differ(comm, scene, rows, places, [&](const decomp::Int3&, std::int64_t earlier) {
-      return fmt::format("the grain lies at exactly the point of that in {} {}", rows.unit, earlier);
-    });
+  // What acts between two centres that coincide would have no direction.
+  check_differ(comm, scene, rows, places, [&](const decomp::Int3&, std::int64_t earlier) {
+    return fmt::format("the {} lies at exactly the point of that in {} {}",
+                       scene.of_grains() ? "grain" : "particle", rows.unit, earlier);
+  });
+  const InitialFields fields(scene);
   for (std::size_t k = 0; k < rows.id.size(); ++k)
-    add_row(rows, k, rows.id[k], places[k], scene, scale, particles);
+    add_row(rows, k, rows.id[k], places[k], fields, scene, scale, particles);
   distribution.scatter(particles);
 }
 

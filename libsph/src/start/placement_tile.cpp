@@ -92,15 +92,15 @@ void check_differ(const StartRows& rows, const std::vector<std::size_t>& by_id,
                            rows.id[by_place[n - 1]]));
 }
 
-void check_count(const Scene& scene, std::size_t grains) {
+}  // namespace
+
+void check_tile_count(const Scene& scene, std::size_t grains) {
   constexpr double most_grains = 1e12;
   double all = static_cast<double>(grains);
   for (const std::int64_t n : scene.start.tile.repeat) all *= static_cast<double>(n);
   if (grains == 0) throw RowProblem(0, "holds no grains");
   if (all > most_grains) throw RowProblem(0, fmt::format("so many copies would make {:.1e} grains", all));
 }
-
-}  // namespace
 
 void place_tiles(const Scene& scene, const PositionScale& scale, const Distribution& distribution,
                  Particles& particles) {
@@ -121,7 +121,7 @@ void place_tiles(const Scene& scene, const PositionScale& scale, const Distribut
   std::vector<std::size_t> by_id;
   in_row_order(distribution.comm(), tile.file, [&] {
     rows = read_rows(scene, tile.file, 0, 1);
-    check_count(scene, rows.id.size());
+    check_tile_count(scene, rows.id.size());
     check_lengths(scene, rows);
     for (std::size_t k = 0; k < rows.id.size(); ++k) {
       check_row(rows, k, scene);
@@ -133,6 +133,7 @@ void place_tiles(const Scene& scene, const PositionScale& scale, const Distribut
               [&](std::size_t i, std::size_t j) { return rows.id[i] < rows.id[j]; });
     check_differ(rows, by_id, places);
   });
+  const InitialFields fields(scene);
   for (const std::int64_t kz : copies[2])
     for (const std::int64_t ky : copies[1])
       for (const std::int64_t kx : copies[0]) {
@@ -143,7 +144,7 @@ void place_tiles(const Scene& scene, const PositionScale& scale, const Distribut
           for (std::size_t a = 0; a < 3; ++a) q[a] += grid.origin()[a] + shift[a];
           if (!own.contains(grid.cell_of(q))) continue;
           const std::uint64_t id = static_cast<std::uint64_t>(copy) * by_id.size() + n;
-          add_row(rows, by_id[n], id, q, scene, scale, particles);
+          add_row(rows, by_id[n], id, q, fields, scene, scale, particles);
         }
       }
 }

@@ -10,6 +10,9 @@
 
 namespace sph {
 
+/// Throws RowProblem where copies of so many grains are none, or more than any machine holds.
+void check_tile_count(const Scene& scene, std::size_t grains);
+
 /// Fills `particles` (empty) with this rank's share. Throws InputError "file: row: what" on all ranks.
 void place_tiles(const Scene& scene, const PositionScale& scale, const Distribution& distribution,
                  Particles& particles);

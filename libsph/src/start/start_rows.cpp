@@ -47,12 +47,18 @@ StartRows read_rows(const Scene& scene, const std::string& file, int rank, int r
   return is_hdf5(file) ? read_hdf5_rows(scene, file, rank, ranks) : read_csv_rows(scene, file, rank, ranks);
 }
 
+std::int64_t count_rows(const std::string& file) {
+  return is_hdf5(file) ? count_hdf5_rows(file) : count_csv_rows(file);
+}
+
 void fail_row(const StartRows& rows, std::size_t k, const std::string& what) {
   throw RowProblem(rows.number[k], fmt::format("{} {}: {}", rows.unit, rows.number[k], what));
 }
 
 void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
   const auto d = static_cast<std::size_t>(scene.dim);
+  if (rows.id[k] > largest_id)
+    fail_row(rows, k, fmt::format("id is {}; it must be at most 2^63 - 1 = {}", rows.id[k], largest_id));
   check_finite(rows, k, "x", rows.x, d);
   check_finite(rows, k, "v", rows.v, d);
   check_finite(rows, k, "rho", rows.rho, 1);
@@ -100,12 +106,13 @@ decomp::Int3 quanta_of(const StartRows& rows, std::size_t k, const PositionScale
 }
 
 void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decomp::Int3& quanta,
-             const Scene& scene, const PositionScale& scale, Particles& particles) {
+             const InitialFields& fields, const Scene& scene, const PositionScale& scale,
+             Particles& particles) {
   const auto d = static_cast<std::size_t>(scene.dim), n = d * (d + 1) / 2;
   NewParticle p{id, {}, {}, rows.group[k], 0, 0};
   for (std::size_t a = 0; a < d; ++a) p.position[a] = scale.metres(quanta[a]);
   if (!rows.radius.empty()) p.radius = rows.radius[k];
-  set_initial_fields(scene, p);
+  fields.set(p);
   const bool fixed = scene.groups[p.group].grain.fixed;
   for (std::size_t a = 0; a < d && !fixed; ++a) {
     p.velocity[a] = rows.v[k * d + a];

@@ -4,8 +4,8 @@
 //   every bit
 // rho may be missing (then from the initial pressure) and so may m (the gas content; then the group's).
 // Without u [J/kg] an ideal gas has its start_pressure. Further columns: mass (else rho spacing^dim) and, in
-// HDF5, stress. Grains have radius instead of these, and may have a spin (CSV: wx, wy, wz); their mass
-// follows from radius and density of the group.
+// HDF5, stress (output/tensor_order.hpp). Grains have radius instead of these, and may have a spin (CSV: wx,
+// wy, wz); their mass follows from radius and density of the group.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +40,11 @@ struct RowProblem : InputError {
   std::int64_t number;
 };
 
+/// Rows of the file without reading them: of HDF5 exact, of CSV as many as lines like the first ones make.
+[[nodiscard]] std::int64_t count_rows(const std::string& file);
+[[nodiscard]] std::int64_t count_csv_rows(const std::string& file);
+[[nodiscard]] std::int64_t count_hdf5_rows(const std::string& file);
+
 /// The rank-th of `ranks` slices of the file.
 [[nodiscard]] StartRows read_rows(const Scene& scene, const std::string& file, int rank, int ranks);
 [[nodiscard]] StartRows read_csv_rows(const Scene& scene, const std::string& file, int rank, int ranks);
@@ -55,9 +60,10 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene);
 [[nodiscard]] decomp::Int3 quanta_of(const StartRows& rows, std::size_t k, const PositionScale& scale,
                                      int dim);
 
-/// Adds row k as particle `id` at `quanta`, wrapped.
+/// Adds row k as particle `id` at `quanta`, wrapped; `fields` has what the file does not say.
 void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decomp::Int3& quanta,
-             const Scene& scene, const PositionScale& scale, Particles& particles);
+             const InitialFields& fields, const Scene& scene, const PositionScale& scale,
+             Particles& particles);
 
 /// Runs `work` on every rank; throws what it threw in the lowest row of the file, on every rank.
 template <class Work>

@@ -167,6 +167,15 @@ std::int64_t line_breaks(std::ifstream& in, std::uint64_t bytes) {
 
 }  // namespace
 
+std::int64_t count_csv_rows(const std::string& file) {
+  constexpr std::uint64_t beginning = 1 << 20;
+  const std::uint64_t size = fs::file_size(file), looked_at = std::min(size, beginning);
+  std::ifstream in(file, std::ios::binary);
+  const std::int64_t lines = std::max<std::int64_t>(line_breaks(in, looked_at), 1);
+  return static_cast<std::int64_t>(static_cast<double>(lines) * static_cast<double>(size) /
+                                   static_cast<double>(std::max<std::uint64_t>(looked_at, 1)));
+}
+
 StartRows read_csv_rows(const Scene& scene, const std::string& file, int rank, int ranks) {
   const fs::path path = file;
   const std::uint64_t size = fs::file_size(path);
@@ -174,6 +183,9 @@ StartRows read_csv_rows(const Scene& scene, const std::string& file, int rank, i
   std::string line;
   std::int64_t header_line = 1;
   while (std::getline(in, line) && is_comment(line)) ++header_line;
+  // What is not the end of its line: those of a file with CR alone are one line to everyone else.
+  if (line.find('\r') < line.size() - 1)
+    throw RowProblem(0, "ends its lines with CR alone; save it with LF, or CR and LF, as line ends");
   if (!in && line.empty()) throw RowProblem(0, "is empty; it must begin with a header of column names");
   StartRows rows;
   rows.unit = "line";

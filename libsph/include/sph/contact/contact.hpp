@@ -27,8 +27,14 @@ struct ContactConstants {
   V shear_damping;     ///< of the normal dashpot, 0 to 1
   V friction;          ///< mu
   V rolling_friction;  ///< mu_r
-  V least_force;       ///< of the normal force: 0, or minus infinity where dashpots may pull
   V rolling_damping;   ///< of the rolling dashpot, 0 to 1 of the critical one
+  V damping_change;    ///< of the dashpot for the discrete step, times the stiffness; <= 0 [s]
+  V least_force;       ///< of the normal force: 0, or minus infinity where dashpots may pull
+
+  /// From the table of a scene, all but the last.
+  static ContactConstants of_row(const V (&k)[8], V least_force) {
+    return {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7], least_force};
+  }
 };
 
 /// What a normal law answers.

@@ -50,6 +50,7 @@ struct WallExtrapolationByDensity {
 /// direction of a flat wall follow (sph/wall_distance.hpp).
 struct WallShare {
   static constexpr Term term = Term::wall_share;
+  static constexpr bool only_beside_walls = true;
   static constexpr ValueSet reads{Value::volume, Value::mover};
   static constexpr Field writes = Field::wall_share;
   template <class Kernel, class P, class C, class S>

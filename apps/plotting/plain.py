@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+"""Draws runs in three dimensions: fluids and solids in a slice through their middle, grains from the side.
+
+    plain.py DIR [DIR ...] [--out DIR] [--time T] [--draw slice|side]
+
+Rows of the picture are times, the start and the end among them (--time: the snapshot nearest to T seconds alone).
+Columns are the speed and, of fluids and solids, the pressure, of grains their displacement since the first snapshot.
+The slice holds the particles within a spacing of the middle, those nearest to it on top.
+"""
+
+import sys
+import tomllib
+
+import h5py
+import numpy as np
+
+from run_folder import BadInput, RunFolder, drawing_parser, given_to, refusing
+
+PICTURES = ("slice", "side")
+TIMES = 3  # rows of a picture
+
+
+class Snapshot:
+    """Particles at one time, by ascending id. Fields are read when they are asked for."""
+
+    def __init__(self, path):
+        self.path = path
+        try:
+            with h5py.File(path) as file:
+                self.time, self.step = float(file.attrs["time"]), int(file.attrs["step"])
+                self.scene = tomllib.loads(file.attrs["scene"])
+                self.fields = set(file["particles"])
+        except (OSError, KeyError, ValueError) as error:
+            raise BadInput(f"{path}: not a snapshot: {error}") from None
+
+    def __getitem__(self, field):
+        try:
+            with h5py.File(self.path) as file:
+                order = np.argsort(file["particles/id"][()], kind="stable")  # long snapshots are in owner order
+                return file["particles"][field][()][order]
+        except (OSError, KeyError) as error:
+            raise BadInput(f"{self.path}: cannot read {field}: {error}") from None
+
+    def speed(self):
+        return np.linalg.norm(self["velocity"], axis=1)
+
+    def moves(self):
+        """Which particles are neither walls nor fixed grains."""
+        free = [g["kind"] != "wall" and not g.get("fixed", False) for g in self.scene["group"]]
+        return np.array(free)[self["group"]]
+
+    def displacement_since(self, first):
+        """Of each particle [m], the shortest way where axes are periodic; NaN if it was not there."""
+        ids, before = self["id"], first["id"]
+        place = np.minimum(np.searchsorted(before, ids), len(before) - 1)
+        way = self["position"] - first["position"][place]
+        domain = self.scene["domain"]
+        length = np.array(domain["upper"]) - np.array(domain["lower"])
+        around = np.array(domain.get("periodic", [False] * len(length)))
+        way -= np.where(around, length * np.round(way / length), 0)
+        return np.where(before[place] == ids, np.linalg.norm(way, axis=1), np.nan)
+
+
+class View:
+    """The plane of a picture: along the longer axis across gravity (z where there is none), against the depth along
+    the shorter one."""
+
+    def __init__(self, snapshot):
+        gravity = np.abs(snapshot.scene["domain"].get("gravity", [0, 0, 0]))
+        self.up = int(np.argmax(gravity)) if np.any(gravity) else 2
+        moving = snapshot["position"][snapshot.moves()]
+        if not len(moving):
+            raise BadInput(f"{snapshot.path}: nothing in it that moves")
+        self.low, self.high = moving.min(axis=0), moving.max(axis=0)
+        across = [axis for axis in range(3) if axis != self.up]
+        self.along, self.depth = sorted(across, key=lambda axis: self.low[axis] - self.high[axis])
+        self.middle = 0.5 * (self.low[self.depth] + self.high[self.depth])
+
+    def flat(self, position):
+        return position[:, [self.along, self.up]]
+
+    def name(self, axis):
+        return "xyz"[axis]
+
+
+def sliced(run, snapshot, view):
+    """What of a run of fluids and solids is drawn: rows, places in the plane, diameters, columns."""
+    position = snapshot["position"]
+    away = np.abs(position[:, view.depth] - view.middle)
+    rows = np.argsort(-away, kind="stable")
+    rows = rows[away[rows] < run.spacing]
+    diameter = np.cbrt(snapshot["mass"] / snapshot["density"])
+    return rows, view.flat(position)[rows], diameter[rows], {"speed": ("m/s", snapshot.speed()[rows]),
+                                                             "pressure": ("Pa", snapshot["pressure"][rows])}
+
+
+def from_the_side(run, snapshot, view):
+    """Of a run of grains: all, the nearer ones over the farther ones."""
+    position = snapshot["position"]
+    rows = np.argsort(-position[:, view.depth], kind="stable")
+    columns = {"speed": ("m/s", snapshot.speed()[rows])}
+    if len(run.snapshots) > 1:
+        columns["displacement"] = ("m", snapshot.displacement_since(run.snapshots[0])[rows])
+    return rows, view.flat(position)[rows], 2 * snapshot["radius"][rows], columns
+
+
+class Run(RunFolder):
+    """The folder of a run in three dimensions."""
+
+    def __init__(self, folder):
+        super().__init__(folder, Snapshot)
+        if self.scene["dimension"] != 3:
+            raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions, this draws 3: take apps/plot.py")
+        self.of_grains = "radius" in self.snapshots[-1].fields
+        self.spacing = self.scene["start"]["spacing"] if not self.of_grains else None
+
+    def chosen(self, time):
+        if time is not None:
+            return [min(self.snapshots, key=lambda s: abs(s.time - time))]
+        wanted = np.unique(np.linspace(0, len(self.snapshots) - 1, TIMES).round().astype(int))
+        return [self.snapshots[k] for k in wanted]
+
+
+def draw(run, snapshots):
+    """One row a snapshot, one column a quantity, each with a scale of its own."""
+    import figures
+    from figures import circles, plt
+    view = View(run.snapshots[0])
+    parts = [(from_the_side if run.of_grains else sliced)(run, s, view) for s in snapshots]
+    names = list(parts[0][3])
+    frame = np.concatenate([view.flat(s["position"][s.moves()]) for s in snapshots])
+    low, high = frame.min(axis=0), frame.max(axis=0)
+    margin = 0.03 * (high - low).max()
+    low, high = low - margin, high + margin
+    metre, length = figures.unit_for((high - low).max(), "m")
+    width = 5.2
+    height = min(max(width * (high - low)[1] / (high - low)[0], 1.2), 7.0)
+    figure, grid = plt.subplots(len(parts), len(names), squeeze=False, layout="constrained",
+                                figsize=(len(names) * (width + 0.9), len(parts) * (height + 0.75) + 1.3))
+    for column, name in zip(grid.T, names):
+        moving = [s.moves()[part[0]] for s, part in zip(snapshots, parts)]
+        values = np.concatenate([part[3][name][1][free] for part, free in zip(parts, moving)])
+        values = values[np.isfinite(values)]
+        bottom, top = np.quantile(values, (0.002, 0.998)) if len(values) else (0.0, 0.0)
+        bottom = min(bottom, 0.0)
+        size, unit = figures.unit_for(max(abs(bottom), abs(top)), parts[0][3][name][0])
+        limits = (bottom / size, top / size) if top > bottom else (0.0, 1.0)
+        for axes, snapshot, (_, place, diameter, columns), free in zip(column, snapshots, parts, moving):
+            drawn = columns[name][1] / size
+            place, diameter = place / metre, diameter / metre
+            circles(axes, place[~free], diameter[~free], facecolors=figures.WALL)
+            shown = circles(axes, place[free], diameter[free], array=drawn[free], cmap=plt.get_cmap("viridis", 16),
+                            clim=limits, linewidths=0)
+            axes.set(xlim=(low[0] / metre, high[0] / metre), ylim=(low[1] / metre, high[1] / metre), aspect="equal",
+                     title=f"{name.capitalize()}, t = {figures.time_text(snapshot.time)}",
+                     xlabel=f"{view.name(view.along)} ({length})", ylabel=f"{view.name(view.up)} ({length})")
+        figure.colorbar(shown, ax=list(column), location="bottom", label=f"{name} ({unit})", extend="both",
+                        shrink=0.8, aspect=40)
+    where = "from the side" if run.of_grains else f"slice at {view.name(view.depth)} = {view.middle:.4g} m"
+    figure.suptitle(f"{run.title}, {where}", x=0.01, ha="left", fontsize=13, weight="bold")
+    return figure
+
+
+def main():
+    parser = drawing_parser(__doc__, PICTURES)
+    parser.add_argument("--time", metavar="T", type=float, help="draw the snapshot nearest to T seconds alone")
+    given = given_to(parser, PICTURES)
+    if given.time is not None and not np.isfinite(given.time):
+        parser.error("--time: not a finite number")
+    runs = [Run(folder) for folder in given.runs]
+    out = given.out or runs[0].folder
+    out.mkdir(parents=True, exist_ok=True)
+    from figures import STYLE, plt, save  # only now: it takes a second, and refusals should not
+    plt.rcParams.update(STYLE)
+    for run in runs:
+        name = "side" if run.of_grains else "slice"
+        if name not in given.draw:
+            raise BadInput(f"{run.folder}: --draw: such a run has the picture {name}")
+        path = out / (f"{run.name}_{name}.png" if len(runs) > 1 else f"{name}.png")
+        save(draw(run, run.chosen(given.time)), path)
+        print(path)
+
+
+if __name__ == "__main__":
+    sys.exit(refusing(main))

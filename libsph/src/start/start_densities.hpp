@@ -1,0 +1,13 @@
+// A start whose suction is beyond the bulk modulus of a material leaves it no density.
+#pragma once
+
+#include "decomp/comm.hpp"
+#include "sph/particles.hpp"
+#include "sph/scene.hpp"
+
+namespace sph {
+
+/// Throws InputError on all ranks, naming the particle with the lowest id. Collective.
+void check_start_densities(const decomp::Comm& comm, const Scene& scene, const Particles& particles);
+
+}  // namespace sph

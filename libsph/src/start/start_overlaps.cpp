@@ -1,0 +1,145 @@
+#include "start/start_overlaps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "run/agree.hpp"
+#include "start/start_rows.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::uint64_t nobody = ~std::uint64_t{0};
+
+struct Overlap {
+  std::uint64_t low = nobody, high = nobody;  ///< ids; of a wall its key
+  double share = 0;                           ///< overlap in radii of the smaller grain
+  [[nodiscard]] bool before(const Overlap& o) const { return low != o.low ? low < o.low : high < o.high; }
+};
+
+class Search {
+ public:
+  Search(const Scene& scene, const PositionScale& scale, const Particles& p)
+      : scene_(scene),
+        scale_(scale),
+        owned_(p.owned()),
+        id_(p.data<Field::id>()),
+        x_(p.data<Field::position>()),
+        radius_(p.data<Field::radius>()) {}
+
+  /// The first of the pairs whose lower id this rank owns: another rank may not know all pairs of that grain.
+  [[nodiscard]] Overlap first(const ContactLists& lists, std::span<const PlaneNow> planes) const {
+    Overlap found;
+    const ContactGroups &pairs = lists.pairs(), &walls = lists.walls();
+    for (std::size_t k = 0; k < pairs.i.size(); ++k) keep(found, of_pair(pairs.i[k], pairs.j[k]));
+    for (std::size_t k = 0; k < walls.i.size(); ++k)
+      if (walls.j[k] < planes.size() && planes[walls.j[k]].present)
+        keep(found, of_wall(walls.i[k], walls.j[k], planes[walls.j[k]]));
+    return found;
+  }
+
+ private:
+  void keep(Overlap& found, const Overlap& o) const {
+    if (o.share > scene_.contact.largest_overlap && o.before(found)) found = o;
+  }
+  [[nodiscard]] Overlap of_pair(std::size_t i, std::size_t j) const {
+    const std::size_t low = id_[i] < id_[j] ? i : j;
+    if (i == j || low >= owned_) return {};
+    double square = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d = static_cast<double>(x_[i * 3 + a] - x_[j * 3 + a]) * scale_.quantum;
+      square += d * d;
+    }
+    return {std::min(id_[i], id_[j]), std::max(id_[i], id_[j]),
+            (radius_[i] + radius_[j] - std::sqrt(square)) / std::min(radius_[i], radius_[j])};
+  }
+  [[nodiscard]] Overlap of_wall(std::size_t i, std::uint32_t wall, const PlaneNow& plane) const {
+    if (i >= owned_) return {};
+    double away = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      away += static_cast<double>(x_[i * 3 + a] - plane.point[a]) * plane.normal[a];
+    return {id_[i], wall_key | wall, 1 - away * scale_.quantum / radius_[i]};
+  }
+
+  const Scene& scene_;
+  const PositionScale& scale_;
+  std::size_t owned_;
+  const std::uint64_t* id_;
+  const std::int64_t* x_;
+  const double* radius_;
+};
+
+/// Where in the start's file these grains stand, "row 7", by reading it again; empty for a lattice.
+std::array<std::string, 2> rows_of(const decomp::Comm& comm, const Scene& scene,
+                                   std::array<std::uint64_t, 2> ids) {
+  const std::string& tile = scene.start.tile.file;
+  const std::string& file = tile.empty() ? scene.start.file : tile;
+  std::array<std::string, 2> out;
+  if (file.empty()) return out;
+  const StartRows rows =
+      tile.empty() ? read_rows(scene, file, comm.rank(), comm.size()) : read_rows(scene, file, 0, 1);
+  std::vector<std::uint64_t> of_tile = rows.id;  // ascending: grain n of a copy is the n-th of them
+  std::sort(of_tile.begin(), of_tile.end());
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (ids[k] > largest_id) continue;
+    const std::uint64_t wanted = tile.empty() ? ids[k] : of_tile[ids[k] % of_tile.size()];
+    const auto at = std::find(rows.id.begin(), rows.id.end(), wanted);
+    if (at == rows.id.end()) continue;
+    out[k] = fmt::format("{} {}", rows.unit, rows.number[static_cast<std::size_t>(at - rows.id.begin())]);
+    if (!tile.empty()) out[k] += fmt::format(" in copy {}", ids[k] / of_tile.size());
+  }
+  for (std::string& text : out) text = agree(comm, text);
+  return out;
+}
+
+std::string advice(const Scene& scene) {
+  if (!scene.start.file.empty()) return "move them apart";
+  return scene.start.tile.file.empty() ? "raise start.spacing or lessen start.jitter"
+                                       : "settle the tile with walls or periods where its copies meet";
+}
+
+}  // namespace
+
+bool may_overlap(const Scene& scene) {
+  const Start& start = scene.start;
+  if (!start.file.empty() || !start.tile.file.empty()) return true;
+  // Two of the largest stand deepest in each other: R + r - limit r grows with both.
+  const double allowed = (2 - scene.contact.largest_overlap) * 0.5 * scene.support();
+  const double nearest = scene.spacing * (1 - 2 * std::sqrt(3.0) * start.jitter);
+  return nearest < allowed;
+}
+
+void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale,
+                     const Particles& particles, const ContactLists& lists,
+                     std::span<const PlaneNow> planes) {
+  const Overlap mine = Search(scene, scale, particles).first(lists, planes);
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t own = mine.low == nobody ? none : static_cast<std::int64_t>(mine.low);
+  const std::int64_t lowest = -comm.max(-own);
+  if (lowest == none) return;
+  std::array<std::uint64_t, 2> ids{own == lowest ? mine.low : 0, own == lowest ? mine.high : 0};
+  comm.sum(std::span<std::uint64_t>(ids));  // one rank owns the lowest
+  const std::array<std::string, 2> rows = rows_of(comm, scene, ids);
+  std::string what;
+  if (own == lowest) {
+    const auto named = [&](std::size_t k) {
+      return fmt::format("grain {}{}", ids[k], rows[k].empty() ? "" : " (" + rows[k] + ")");
+    };
+    if (mine.high > largest_id)
+      what = fmt::format("{} lies {:.3g} radii deep in wall \"{}\"", named(0), mine.share,
+                         scene.walls[mine.high & ~wall_key].name);
+    else
+      what = fmt::format("{} and {} overlap by {:.3g} radii", named(0), named(1), mine.share);
+    what +=
+        fmt::format("; contact.largest_overlap allows {}: {}", scene.contact.largest_overlap, advice(scene));
+  }
+  const std::string& file = scene.start.tile.file.empty() ? scene.start.file : scene.start.tile.file;
+  throw InputError(fmt::format("{}: {}", file.empty() ? "start" : file, agree(comm, what)));
+}
+
+}  // namespace sph

@@ -1,0 +1,114 @@
+"""Where a scene of SPH has matter: a lattice of n cells along each axis, what ends it on each side, and regions."""
+
+import math
+
+ENDS = {2: {"open": 3, "wall": 3, "floor": 2, "periodic": 4}, 3: {"open": 4, "wall": 3, "floor": 2, "periodic": 2}}
+
+
+def counts(d, dim, most):
+    """Cells of the lattice along each axis: from one particle to `most`, from slabs to needles."""
+    total = d.log("particles", 1, most) if d.chance("some", 0.9) else float(most)
+    if d.chance("one", 0.03):
+        return [1] * dim
+    shape = [d.log(f"shape/{a}", 1, 6) for a in range(dim)]
+    scale = (total / math.prod(shape)) ** (1 / dim)
+    return [max(1, round(s * scale)) for s in shape]
+
+
+class Box:
+    """Lengths in spacings. `reach`: range of the lists without a skin; `radius`: of the kernel."""
+
+    def __init__(self, d, dim, radius, reach, ends, most, least=1):
+        self.dim, self.radius, self.reach = dim, radius, reach
+        self.n = [max(least, n) for n in counts(d, dim, most)]
+        self.ends, self.lower, self.upper, self.layers = [], [], [], []
+        # A row of the lattice lies in the middle of the domain, where it is most often cut.
+        self.centred = d.chance("centred", 0.2)
+        period = math.ceil(3.02 * (reach + 0.2 * radius))
+        largest = 1e9
+        for a in range(dim):
+            end = d.weighted(f"end/{a}", {e: w for e, w in ENDS[dim].items() if e in ends})
+            room = [d.one(f"room/{a}/{s}", [2.0] + 6 * [10.0] + 6 * [20.0] + 3 * [60.0]) for s in "lu"]
+            if self.centred:
+                room = [room[0]] * 2
+                self.n[a] += 1 - self.n[a] % 2
+            if end == "periodic":
+                filled = d.chance(f"filled/{a}", 0.8)
+                roomy = d.one(f"period/{a}", [0, 0, 5, 20])
+                length = max(self.n[a], period + roomy)
+                if filled and length * math.prod(self.n) / self.n[a] <= 4 * most:
+                    self.n[a] = length
+                self.lower.append(0.0), self.upper.append(float(length))
+                self.layers.append((0, 0))
+                largest = min(largest, length)
+            else:
+                thick = d.one(f"layers/{a}", [math.ceil(radius), math.ceil(radius), 1, 2])
+                low = thick if end in ("wall", "floor") else 0
+                high = thick if end == "wall" else 0
+                self.lower.append(-low - (room[0] if low == 0 else d.one(f"gap/{a}", [0.5, 1.0, 5.0])))
+                self.upper.append(self.n[a] + high + (room[1] if high == 0 else d.one(f"gap/{a}", [0.5, 1.0, 5.0])))
+                self.layers.append((low, high))
+            self.ends.append(end)
+        self.skin = min(2.0, (largest / 3.001 - reach) / radius)
+
+    def walled(self):
+        return any(end in ("wall", "floor") for end in self.ends)
+
+    def outer(self):
+        """The lattice with its walls."""
+        return ([-float(low) for low, _ in self.layers], [n + float(high) for n, (_, high) in zip(self.n, self.layers)])
+
+    def fluid(self):
+        """As far as the domain goes where there is no wall."""
+        return [0.0] * self.dim, [float(n) for n in self.n]
+
+    def regions(self, d, groups, least=0.6):
+        """Balls and boxes of these groups, painted over each other."""
+        out = []
+        for k in range(d.weighted("regions", {0: 3, 1: 4, 2: 2, 3: 1})):
+            r = d.part("region", k)
+            group = r.one("group", groups + ["none"])
+            centre = [r.real(f"centre/{a}", 0, n) for a, n in enumerate(self.n)]
+            size = r.log("size", least, max(least, 0.4 * max(self.n)))
+            if r.chance("ball", 0.5):
+                out.append({"group": group, "shape": "ball", "centre": centre, "radius": size})
+            else:
+                half = [size * r.log(f"half/{a}", 0.5, 2) for a in range(self.dim)]
+                out.append({"group": group, "shape": "box", "lower": [c - s for c, s in zip(centre, half)],
+                            "upper": [c + s for c, s in zip(centre, half)]})
+        return out
+
+
+def scaled(region, dx, offset):
+    """In metres."""
+    out = dict(region)
+    for key in ("lower", "upper", "centre"):
+        if key in out:
+            out[key] = [dx * x + o for x, o in zip(out[key], offset)]
+    if "radius" in out:
+        out["radius"] *= dx
+    return out
+
+
+def painted(regions, point):
+    """The group of the last region that contains the point, None for an empty place."""
+    group = None
+    for r in regions:
+        shape = r.get("shape", "everywhere")
+        inside = shape == "everywhere"
+        if shape == "box":
+            inside = all(low <= x < high for x, low, high in zip(point, r["lower"], r["upper"]))
+        if shape == "ball":
+            inside = sum((x - c) ** 2 for x, c in zip(point, r["centre"])) < r["radius"] ** 2
+        if inside:
+            group = None if r["group"] == "none" else r["group"]
+    return group
+
+
+def lattice(lower, upper, dx):
+    """Centres of the cells."""
+    points = [[]]
+    for low, high in zip(lower, upper):
+        n = max(1, round((high - low) / dx))
+        points = [p + [low + (k + 0.5) * dx] for k in range(n) for p in points]
+    return points

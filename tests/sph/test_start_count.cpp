@@ -1,0 +1,131 @@
+// Particles counted without placing them, and what a machine is asked for.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "run/memory_need.hpp"
+#include "sph/distribution.hpp"
+#include "sph/physics.hpp"
+#include "sph/placement.hpp"
+#include "start/start_count.hpp"
+#include "state_fixture.hpp"
+
+namespace sph::test {
+namespace {
+
+Scene scene_of(const std::string& top, const std::string& start) {
+  return parse_scene(top + R"(
+[kernel]
+h_over_dx = 1.2
+[[group]]
+name = "water"
+kind = "fluid"
+density = 1000
+sound_speed = 20
+[[group]]
+name = "oil"
+kind = "fluid"
+density = 800
+sound_speed = 20
+[[group]]
+name = "wall"
+kind = "wall"
+[time]
+until = 1
+[start]
+)" + start,
+                     "count.toml", {});
+}
+
+std::string region(const std::string& group, const std::string& shape) {
+  return "[[start.region]]\ngroup = \"" + group + "\"\n" + shape;
+}
+std::string box(const std::string& lower, const std::string& upper) {
+  return "shape = \"box\"\nlower = " + lower + "\nupper = " + upper + "\n";
+}
+std::string ball(const std::string& centre, double radius) {
+  return "shape = \"ball\"\ncentre = " + centre + "\nradius = " + std::to_string(radius) + "\n";
+}
+
+const std::string square = "dimension = 2\n[domain]\nlower = [0, -0.5]\nupper = [1, 0.5]\n";
+const std::string cube = "dimension = 3\n[domain]\nlower = [0, 0, 0]\nupper = [1, 0.8, 0.6]\n";
+const std::string painted_square =
+    region("wall", "") + region("water", box("[0.1, -0.4]", "[0.9, 0.5]")) +
+    region("none", ball("[0.5, 0.1]", 0.3)) + region("oil", ball("[0.47, 0.13]", 0.171)) +
+    region("water", ball("[0.8, 0.45]", 0.12)) + region("oil", box("[0.2, 0]", "[0.25, 0.02]"));
+const std::string painted_cube =
+    region("wall", "") + region("water", box("[0.1, 0.1, 0.1]", "[0.9, 0.7, 0.6]")) +
+    region("none", box("[0.1, 0.1, 0.4]", "[0.5, 0.7, 0.6]")) +
+    region("oil", ball("[0.6, 0.4, 0.3]", 0.233)) + region("water", ball("[0.61, 0.4, 0.3]", 0.05)) +
+    region("oil", ball("[0.95, 0.75, 0.55]", 0.2));
+
+class StartCounts : public ::testing::Test {
+ protected:
+  void expect_as_placed(const Scene& scene) {
+    const PositionScale scale = position_scale(scene);
+    Distribution distribution(world_, scene, scale);
+    Particles particles(scene.dim, Physics(scene, scale).fields());
+    place_particles(scene, scale, distribution, particles);
+    std::vector<std::int64_t> placed(scene.groups.size(), 0);
+    for (std::size_t i = 0; i < particles.owned(); ++i) ++placed[particles.data<Field::group>()[i]];
+    world_.sum(std::span<std::int64_t>(placed));
+    const StartCount count = count_start(world_, scene);
+    EXPECT_EQ(count.by_group, placed);
+    EXPECT_EQ(count.all, std::accumulate(placed.begin(), placed.end(), std::int64_t{0}));
+    EXPECT_GT(count.all, 100);
+  }
+  std::string refusal(const Scene& scene) {
+    try {
+      require_memory(world_, scene);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "(accepted)";
+  }
+  decomp::Comm world_{MPI_COMM_WORLD};
+};
+
+TEST_F(StartCounts, EqualWhatIsPlaced) {
+  for (const char* spacing : {"0.05", "0.031", "0.02", "0.0237"}) {
+    SCOPED_TRACE(spacing);
+    const std::string dx = std::string("spacing = ") + spacing + "\n";
+    expect_as_placed(scene_of(square, dx + painted_square));
+    expect_as_placed(scene_of(square, dx + "lattice = \"hexagonal\"\n" + painted_square));
+    expect_as_placed(scene_of(square, dx +
+                                          "origin = [0.013, -0.211]\nlower = [0.003, -0.5]\nupper = "
+                                          "[0.97, 0.4]\njitter = 0.2\n" +
+                                          painted_square));
+    expect_as_placed(scene_of(cube, dx + painted_cube));
+  }
+}
+
+TEST_F(StartCounts, OfMoreThanAnyMachineHoldsTakeNoMemory) {
+  const StartCount count = count_start(world_, scene_of(square, "spacing = 1e-5\n" + painted_square));
+  EXPECT_EQ(count.all, count.by_group[0] + count.by_group[1] + count.by_group[2]);
+  EXPECT_NEAR(static_cast<double>(count.all), 1e10, 0.2e10);
+}
+
+TEST_F(StartCounts, RefuseWhatTheMachineCannotHold) {
+  const std::string sph = refusal(scene_of(square, "spacing = 1e-5\n" + painted_square));
+  for (const char* part : {"start: ", " particles in ", " cells need ", " TB", "the machine has ", " GB"})
+    EXPECT_NE(sph.find(part), std::string::npos) << sph;
+  // Few particles in a wide domain take little: memory follows the cells that hold any.
+  const std::string few = refusal(scene_of(
+      "dimension = 3\n[domain]\nlower = [0, 0, 0]\nupper = [5000, 5000, 5000]\n",
+      "spacing = 1e-2\nupper = [0.1, 0.1, 0.1]\n" + region("water", box("[0, 0, 0]", "[0.1, 0.1, 0.1]"))));
+  EXPECT_EQ(few, "(accepted)");
+  EXPECT_EQ(refusal(scene_of(square, "spacing = 1e-2\n" + painted_square)), "(accepted)");
+}
+
+TEST_F(StartCounts, ShareOfTheMachine) {
+  MemoryNeed need;
+  need.bytes = 3e12;
+  EXPECT_EQ(memory_problem(need, {24e9, 1.0 / 200}), "");
+  EXPECT_NE(memory_problem(need, {24e9, 1.0 / 100}).find("3 TB, 30 GB on each machine"), std::string::npos);
+  EXPECT_EQ(memory_problem(need, {24e9, 1.0 / 100}, 1.5), "");
+  EXPECT_EQ(bytes_text(999), "0.999 kB");
+  EXPECT_EQ(bytes_text(3.1e12), "3.1 TB");
+}
+
+}  // namespace
+}  // namespace sph::test
