@@ -278,6 +278,37 @@ TEST(Scene, IdealGasHasDefaultsOfItsOwn) {
   EXPECT_EQ(parse(sph::to_toml(without)), without);
 }
 
+TEST(Scene, LargestGrowthFollowsThePeriodsAndNotTheSkin) {
+  const auto growth = [](const char* skin) {
+    return parse(R"(dimension = 2
+[domain]
+lower = [0, 0]
+upper = [1, 0.3]
+periodic = [true, true]
+[kernel]
+h_over_dx = 1
+[[group]]
+name = "gas"
+kind = "fluid"
+eos = "ideal_gas"
+heat_ratio = 1.4
+density = 1
+start_pressure = 1
+[start]
+spacing = 0.02
+[[start.region]]
+group = "gas"
+[time]
+until = 1
+)",
+                 {skin})
+        .largest_growth;
+  };
+  EXPECT_NEAR(growth("decomposition.skin=0.2"), 0.3 / (3 * 0.06) - 0.2, 1e-6);
+  EXPECT_EQ(growth("decomposition.skin=0"), growth("decomposition.skin=0.2"));
+  EXPECT_EQ(growth("decomposition.skin=0.05"), growth("decomposition.skin=0.2"));
+}
+
 TEST(Scene, CentralPullRoundTrips) {
   std::ifstream in(accuracy_dir / "oscillating_drop.toml");
   const std::string drop((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

@@ -2,14 +2,11 @@
 // arrival, the lists and the restarts. One MPI program on 8 ranks; a row on k ranks uses the first k, the
 // others sleep. Every row's fingerprints are compared with those of the scene's run on one rank.
 //
-//   equivalence --array SEED [--scenes START]   a 3-way covering array of the factors; of scenes whose names
-//   start so equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run
-//   again equivalence --row "scene=... ranks=..."     one row, as printed
-// with --grains or --sph (the default; scenes of which), --seed S (of the order, the cuts and the restarts:
-// 1),
-// --steps N (the last that is compared: 300), --long N (of every eighth row of an array: 2000), --every
-// (compare at every step), --limit SECONDS (start no row after that long). The last line is "N passed, M
-// failed"; exit status 1 if any failed.
+//   equivalence --array SEED [--scenes START]   a 3-way covering array of the factors
+//   equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run again
+//   equivalence --row "scene=... ranks=..."     one row, as printed
+//
+// Options: --help. The last line is "N passed, M failed"; exit status 1 if any failed.
 #include <mpi.h>
 
 #include <algorithm>

@@ -16,8 +16,10 @@ void check_start_densities(const decomp::Comm& comm, const Scene& scene, const P
     if (density[i] > 0 || g.eos == EosKind::ideal_gas) continue;  // that of a gas is summed later
     found.add(id, [&] {
       return fmt::format(
-          "start: particle {} of group {} would have a density of {:.6g} kg/m^3; raise the group's {}", id,
-          g.name, density[i], "bulk_modulus or sound_speed, or the least pressure of the start");
+          "start: particle {} of group {} would have a density of {:.6g} kg/m^3; {}", id, g.name, density[i],
+          g.eos == EosKind::bubbly
+              ? "without pressure bubbly magma is all gas: raise domain.surface_pressure"
+              : "raise the group's bulk_modulus or sound_speed, or the least pressure of the start");
     });
   }
   if (const std::string text = found.agree(comm); !text.empty()) throw InputError(scene.file + ": " + text);
