@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The pictures of the repository are those that pictures.json beside them names, made by a commit of its history from
+"""The pictures of the repository are those that pictures.json beside them names, made by a commit of theirs from
 the scenes as they are. cmake/pictures.sh makes them anew.
 
     test_pictures.py --source .
@@ -52,13 +52,12 @@ class Pictures(unittest.TestCase):
                     self.assertEqual(manifest.scene_hash((self.source / scene).read_text()), was,
                                      "the scene has changed since the picture was made: cmake/pictures.sh")
 
-    def test_commits_are_known(self):
-        history = git("rev-parse", "--is-shallow-repository") == "false"
+    def test_each_names_the_commit_that_made_it(self):
+        """Prints how old each is. Histories may be shallow or squashed: a commit need not be in this one."""
         for path, entry in self.entries():
             self.assertRegex(entry["commit"], re.compile(r"[0-9a-f]{7,40}\Z"), f"{path}: not made by a commit")
-            age = git("rev-list", "--count", f"{entry['commit']}..HEAD") if history else "?"
-            self.assertIsNotNone(age, f"{path}: {entry['commit']} is no commit of this repository")
-            print(f"{path.relative_to(self.source)}: {entry['commit']}, {age} commits ago")
+            age = git("rev-list", "--count", f"{entry['commit']}..HEAD")
+            print(f"{path.relative_to(self.source)}: {entry['commit']}, {age or '?'} commits ago")
 
     def test_readme_shows_pictures_that_are_there(self):
         shown = re.findall(r"!\[[^]]*\]\(([^)]*)\)", (self.source / "README.md").read_text())
