@@ -14,7 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-from runner import Runner, kill_tree, rows_in, wait_for
+from runner import Runner, kill_tree, rows_in, run_all, wait_for
 
 ENDLESS = 10**9
 
@@ -264,20 +264,9 @@ def main():
         parser.add_argument(other)
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
-    run = Runner(Path(arguments.programs).resolve(), arguments.mpirun)
+    run = Runner(arguments.programs, arguments.mpirun)
     cases = Cases(run, arguments.source)
-    failed = 0
-    for name in arguments.names or [n[5:] for n in dir(Cases) if n.startswith("test_")]:
-        begin = time.monotonic()
-        try:
-            getattr(cases, f"test_{name}")()
-            verdict = "ok"
-        except Exception as error:
-            verdict = f"FAILED: {type(error).__name__}: {error}"
-            failed += 1
-        print(f"{name}: {verdict} ({time.monotonic() - begin:.1f} s)", flush=True)
-    run.close()
-    sys.exit(1 if failed else 0)
+    sys.exit(run_all(cases, arguments.names))
 
 
 if __name__ == "__main__":

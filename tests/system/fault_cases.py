@@ -146,7 +146,7 @@ class Family:
 
 class Faults:
     def __init__(self, arguments):
-        self.run = Runner(Path(arguments.programs).resolve(), arguments.mpirun)
+        self.run = Runner(arguments.programs, arguments.mpirun)
         self.preload = Path(arguments.preload).resolve()
         self.lock = threading.Lock()
         self.counts = collections.Counter()

@@ -13,7 +13,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from runner import Runner
+from runner import Runner, run_all
 
 SAND = """
 [domain]
@@ -311,20 +311,9 @@ def main():
     parser.add_argument("--mpirun", default="mpirun")
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
-    run = Runner(Path(arguments.programs).resolve(), arguments.mpirun)
+    run = Runner(arguments.programs, arguments.mpirun)
     cases = Cases(run, Path(arguments.source).resolve())
-    failed = 0
-    for name in arguments.names or [n[5:] for n in dir(Cases) if n.startswith("test_")]:
-        begin = time.monotonic()
-        try:
-            getattr(cases, f"test_{name}")()
-            verdict = "ok"
-        except Exception as error:
-            verdict = f"FAILED: {type(error).__name__}: {error}"
-            failed += 1
-        print(f"{name}: {verdict} ({time.monotonic() - begin:.1f} s)", flush=True)
-    run.close()
-    sys.exit(1 if failed else 0)
+    sys.exit(run_all(cases, arguments.names))
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 import runner
-from runner import Runner, damage, kill_somehow, rows_in, wait_for
+from runner import Runner, damage, kill_somehow, rows_in, run_all, wait_for
 
 LONG = 8000  # steps: one and a half seconds on an idle machine, long enough to be interrupted
 # Interrupted runs: a row every step, six snapshots, a checkpoint as often as possible.
@@ -381,19 +381,8 @@ def main():
     arguments = parser.parse_args()
     print(f"seed {arguments.seed}")
     run = Runner(arguments.programs, arguments.mpirun)
-    cases = Cases(run, arguments.source, arguments.kills, arguments.seed)
-    failed = 0
-    for name in arguments.names or [n[5:] for n in dir(Cases) if n.startswith("test_")]:
-        begin = time.monotonic()
-        try:
-            getattr(cases, f"test_{name}")()
-            verdict = "ok"
-        except Exception as error:
-            verdict = f"FAILED: {type(error).__name__}: {error}"
-            failed += 1
-        print(f"{name}: {verdict} ({time.monotonic() - begin:.1f} s)", flush=True)
-    run.close()
-    sys.exit(1 if failed else 0)
+    cases = Cases(run, Path(arguments.source).resolve(), arguments.kills, arguments.seed)
+    sys.exit(run_all(cases, arguments.names))
 
 
 if __name__ == "__main__":

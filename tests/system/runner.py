@@ -36,7 +36,7 @@ class Finished:
 
 class Runner:
     def __init__(self, programs, mpirun):
-        self.programs = Path(programs)
+        self.programs = Path(programs).resolve()
         self.mpirun = mpirun
         self.folder = Path(tempfile.mkdtemp(prefix="peperite_run_"))
         self.environment = {**os.environ, **ENVIRONMENT}
@@ -144,3 +144,19 @@ def damage(checkpoint, generator):
 
 def generator(seed):
     return random.Random(seed)
+
+
+def run_all(cases, names):
+    """Calls the methods test_NAME of `cases`, or all, tells what came of each and closes its runner: the exit status."""
+    failed = 0
+    for name in names or [n[5:] for n in dir(cases) if n.startswith("test_")]:
+        begin = time.monotonic()
+        try:
+            getattr(cases, f"test_{name}")()
+            verdict = "ok"
+        except Exception as error:
+            verdict = f"FAILED: {type(error).__name__}: {error}"
+            failed += 1
+        print(f"{name}: {verdict} ({time.monotonic() - begin:.1f} s)", flush=True)
+    cases.run.close()
+    return 1 if failed else 0
