@@ -11,8 +11,8 @@ sph::Simulation dam(const decomp::Comm& comm) {
       comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/dam_break.toml",
                             {"domain.lower=[-0.2, -0.2]", "domain.upper=[4.2, 6]",
                              "group.water.sound_speed=40", "group.water.viscosity=0", "start.spacing=0.02",
-                             "start.lower=[-0.08, -0.08]", "start.upper=[4.08, 3]",
-                             "start.region.1.upper=[4, 3]", "start.region.2.upper=[1, 1]", "time.cfl="}));
+                             "start.lower=[-0.08, -0.08]", "start.upper=[4.08, 5]",
+                             "start.region.1.upper=[4, 5]", "start.region.2.upper=[1, 1]", "time.cfl="}));
 }
 
 TEST(Walls, HoldTornFluid) {

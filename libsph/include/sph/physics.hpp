@@ -125,7 +125,7 @@ class Physics {
   [[nodiscard]] double tension_control(const Particles&, std::size_t row) const;
   static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&, const GlobalState&) const;
-  void hold_off(Particles&, const RowRanges&) const;
+  void hold_off(Particles&, const RowRanges&, double dt) const;
   void find_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   template <int D>

@@ -286,8 +286,8 @@ void Physics::find_walls_nearby() {
   wall_distance_.emplace(scene_->kernel, scene_->dim, scene_->spacing / scene_->smoothing_length);
   add_pass("wall distance", {Term::wall_share}, true, false);
   if (!scene_->free_surface) return;
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState&) {
-    hold_off(p, ranges);
+  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+    hold_off(p, ranges, global.dt);
   };
   passes_.back().changes = {Field::force};
 }
@@ -295,11 +295,13 @@ void Physics::find_walls_nearby() {
 void Physics::build_implicit_viscosity(bool walls) {
   if (walls) fields_ |= FieldSet{Field::wall_slope};
   const auto solver = std::make_shared<ViscositySolver>(*this, scene_->terms.viscosity_tolerance);
-  passes_.back().update = [this, walls, solver](Particles& p, const RowRanges& ranges, const GlobalState&) {
+  passes_.back().update = [this, walls, solver, before = passes_.back().update](
+                              Particles& p, const RowRanges& ranges, const GlobalState& global) {
+    if (before) before(p, ranges, global);
     if (walls) find_walls(p, ranges);
     solver->begin(p, ranges);
   };
-  passes_.back().changes = {Field::wall_slope, Field::direction};
+  passes_.back().changes |= {Field::wall_slope, Field::direction};
   const bool symmetric = scene_->terms.viscosity == ViscosityForm::symmetric;
   add_pass("viscosity", {symmetric ? Term::symmetric_viscous_operator : Term::viscous_operator}, true, false);
   passes_.back().solver = solver;

@@ -145,31 +145,39 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges, const GlobalSt
   }
 }
 
-// Fluid that is torn keeps its density while its neighbours part, and no pressure stops it before a wall: a
-// potential does, 0 at 0.4 spacings before the face, c^2 / 8 half a spacing further on. What rests on a wall
-// is farther. In corners the walls' share is as large where particles rest, but its gradient is at most 0.94
-// of that of a flat wall, by the lattice sums of all kernels. Solids rest on walls without it.
-void Physics::hold_off(Particles& p, const RowRanges& ranges) const {
-  constexpr double before = 0.4, corner = 0.96, flat = 0.99;
+// Fluid that is torn keeps its density while its neighbours part, so that no pressure stops it before a wall,
+// and one below 0 draws it in. Here walls stop it, without spring or rebound: where the way is y to 0.4
+// spacings before a face, no particle moves towards it faster than c y / 2h, and from beyond it comes out at
+// up to c / 50, whatever the other forces. So walls take energy and give hardly any, at any time step. In
+// corners, where the walls' gradient is less than their share tells, rest has a larger share.
+void Physics::hold_off(Particles& p, const RowRanges& ranges, double dt) const {
+  constexpr double approach = 0.5, outwards = 0.02, flat = 0.96, inside = 0.05;
   const auto d = static_cast<std::size_t>(p.dim());
-  const double h = scene_->smoothing_length, spacing = scene_->spacing;
+  const double h = scene_->smoothing_length, before = 0.4 * scene_->spacing / h;
   const double* share = p.data<Field::wall_share>();
   const double* mass = p.data<Field::mass>();
+  const double* v = p.data<Field::velocity>();
   const double* sound = p.data<Field::sound_speed>();
   const auto* group = p.data<Field::group>();
   double* force = p.data<Field::force>();
   for_movers(ranges, [&](std::size_t i) {
     const double* s = share + i * (d + 1);
-    const double depth = h * wall_distance_->depth(h * s[d]) + before * spacing;
-    if (!(depth > 0) || scene_->groups[group[i]].kind != GroupKind::fluid) return;
-    double square = 0;
-    for (std::size_t a = 0; a < d; ++a) square += s[a] * s[a];
-    const double length = std::sqrt(square), straight = h * length / wall_distance_->gradient(h * s[d]);
-    if (!(straight > corner)) return;
+    if (!(s[d] > 0) || scene_->groups[group[i]].kind != GroupKind::fluid) return;
+    const Double3 body = body_acceleration(p, i);
+    double square = 0, way = 0;
+    for (std::size_t a = 0; a < d; ++a) {
+      square += s[a] * s[a];
+      way += (v[i * d + a] + dt * (force[i * d + a] / mass[i] + body[a])) * s[a];
+    }
+    const double length = std::sqrt(square);
+    if (!(h * length > inside)) return;
+    const double straight = h * length / wall_distance_->gradient(h * s[d]);
+    const double face = straight > flat ? -before : wall_distance_->depth_in_corner();
     const double c = sound != nullptr ? sound[i] : groups_.sound_speed[group[i]];
-    const double push = mass[i] * c * c * depth / (spacing * spacing) *
-                        std::fmin((straight - corner) / (flat - corner), 1.0) / length;
-    for (std::size_t a = 0; a < d; ++a) force[i * d + a] -= push * s[a];
+    const double most = c * std::fmax(approach * (face - wall_distance_->depth(h * s[d])), -outwards);
+    const double excess = way / length - most;
+    if (!(excess > 0)) return;
+    for (std::size_t a = 0; a < d; ++a) force[i * d + a] -= mass[i] * excess / dt * (s[a] / length);
   });
 }
 

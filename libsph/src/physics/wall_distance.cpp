@@ -36,6 +36,11 @@ WallDistance::WallDistance(KernelShape kernel, int dim, double spacing)
     gradient_[n] = (here - next) / step;
     distance_[n] = step * (static_cast<double>(k) + (here > next ? (here - wanted) / (here - next) : 0.0));
   }
+  // What two or three walls leave free is the product of what each does, but for the kernel's roundness.
+  constexpr double roundness = 0.1;  // of a spacing
+  double free = 1;
+  for (int a = 0; a < dim; ++a) free *= 1 - share_at(steps / 2);
+  depth_in_corner_ = std::fmax(0.0, depth(1 - free) + roundness * spacing);
 }
 
 double WallDistance::look_up(const std::vector<double>& table, double share) const {
