@@ -164,6 +164,7 @@ void Physics::set_sph_constants() {
     groups_.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
     groups_.side.push_back(side_of(scene, static_cast<int>(&g - scene.groups.data())));
     groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
+    groups_.matter.push_back(g.kind == GroupKind::solid ? 1.0 : g.kind == GroupKind::fluid ? -1.0 : 0.0);
     groups_.density.push_back(g.density);
     const std::size_t body = g.clamps < 0 ? groups_.body.size() : static_cast<std::size_t>(g.clamps);
     groups_.body.push_back(static_cast<double>(body));
