@@ -23,7 +23,7 @@ from runs import Runner, source, write_start  # noqa: E402
 CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "poiseuille", "couette", "cavity", "cavity_1000",
          "hydrostatic", "hydrostatic_3d", "two_layers", "rayleigh_taylor", "rising_bubble", "rising_bubble_2",
          "drop_at_rest", "drop_mode", "elliptic_drop", "oscillating_drop", "rotating_patch", "dam_break", "dam_break_3d",
-         "sloshing", "standing_wave", "standing_wave_2500", "acoustic", "shock_tube", "shock_tube_10", "sod", "sod_equal", "sedov", "sedov_3d",
+         "sloshing", "kelvin_helmholtz", "kelvin_helmholtz_2", "added_mass", "rayleigh_wave", "standing_wave", "standing_wave_2500", "acoustic", "shock_tube", "shock_tube_10", "sod", "sod_equal", "sedov", "sedov_3d",
          "gaussian_blast", "noh", "cantilever", "rings", "spinning_plate",
          "bar_wave", "gravity_patch", "cylinder")
 

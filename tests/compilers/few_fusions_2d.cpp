@@ -10,7 +10,7 @@ std::vector<Fusion> few() {
   return {
       List::template fuse<Quintic, Divergence, DensityDiffusion>(),
       List::template fuse<Quintic, WeightedDivergence, DensityDiffusion, Shifting, ColourGradient>(),
-      List::template fuse<Quintic, VelocityGradient, DensityDiffusion>(),
+      List::template fuse<Quintic, SlippingGradient, DensityDiffusion>(),
       List::template fuse<Quintic, WallExtrapolation>(),
       List::template fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
       List::template fuse<Quintic, WeightedPressure, SymmetricViscosity, SurfaceTension>(),
@@ -18,7 +18,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, WeightedPressure, SurfaceTension>(),
       List::template fuse<Quintic, WallShare>(),
       List::template fuse<Quintic, SymmetricViscousOperator>(),
-      List::template fuse<Quintic, StressDivergence, Viscosity, ArtificialViscosity>(),
+      List::template fuse<Quintic, SlippingStress, Viscosity, ArtificialViscosity>(),
       List::template fuse<Quintic, Deformation, BodyContactEnergy>(),
       List::template fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
       List::template fuse<Quintic, NumberDensity, GasMoments>(),

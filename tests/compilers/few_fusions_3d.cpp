@@ -8,10 +8,10 @@ template <class T>
 std::vector<Fusion> few() {
   using List = FusionList<T, 3>;
   return {
-      List::template fuse<Quintic, VelocityGradient, DensityDiffusion>(),
+      List::template fuse<Quintic, SlippingGradient, DensityDiffusion>(),
       List::template fuse<Quintic, WallExtrapolation>(),
       List::template fuse<Quintic, WallShare>(),
-      List::template fuse<Quintic, StressDivergence, Viscosity>(),
+      List::template fuse<Quintic, SlippingStress, Viscosity>(),
   };
 }
 

@@ -25,6 +25,7 @@ enum class Term : std::uint8_t {
   viscous_operator,
   symmetric_viscous_operator,
   stress_divergence,
+  slipping_stress,
   artificial_viscosity,
   number_density,
   gas_moments,
@@ -34,6 +35,7 @@ enum class Term : std::uint8_t {
   divergence,
   weighted_divergence,
   velocity_gradient,
+  slipping_gradient,
   density_diffusion,
   uniform_density_diffusion,
   pulled_density_diffusion,
@@ -80,6 +82,7 @@ enum class Value : std::uint8_t {
   width,              ///< of ideal gases: smoothing length of the particle / h
   kernel_correction,  ///< 1 / Omega (terms/gas.hpp)
   velocity_gradient,  ///< h d v_a / d x_b [m/s]
+  shears,             ///< 1 for solids and walls, 0 for fluids
   count_
 };
 
@@ -135,6 +138,7 @@ class ValueSet {
   if (values.has(Value::width)) f |= FieldSet{Field::smoothing_length};
   if (values.has(Value::kernel_correction)) f |= FieldSet{Field::kernel_correction};
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
+  if (values.has(Value::shears)) f |= FieldSet{Field::group};
   return f;
 }
 
@@ -159,6 +163,7 @@ struct GroupTable {
   std::vector<double> mover;        ///< 1 or 0
   std::vector<double> heavy;        ///< 1 or 0
   std::vector<double> side;         ///< 1, -1 or 0
+  std::vector<double> shears;       ///< 1 or 0
   double surface_tension = 0;       ///< [N/m]
   std::vector<double> density;      ///< rho_0 [kg/m^3]
   std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
@@ -277,6 +282,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
       for (int k = 0; k < D * D; ++k)
         put(Value::velocity_gradient, k,
             groups.mover[group[i]] == 0 ? 0.0 : gradient[i * D * D + k] / scale.inverse_h);
+    if constexpr (S.has(Value::shears)) put(Value::shears, 0, groups.shears[group[i]]);
   }
 }
 

@@ -84,6 +84,7 @@ struct FusionList {
              fuse<Quintic, NumberDensity, GasMoments>(),
              fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
+             fuse<Quintic, SlippingGradient, DensityDiffusion>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),
              fuse<Quintic, IdaStress, ArtificialViscosity>(),
@@ -111,6 +112,8 @@ struct FusionList {
         fuse<Quintic, WeightedPressure, Viscous, SurfaceTension>(),
         fuse<Quintic, StressDivergence, Viscous>(),
         fuse<Quintic, StressDivergence, Viscous, ArtificialViscosity>(),
+        fuse<Quintic, SlippingStress, Viscous>(),
+        fuse<Quintic, SlippingStress, Viscous, ArtificialViscosity>(),
     };
   }
 };

@@ -38,6 +38,8 @@ std::string name_of(Term term) {
       return "SymmetricViscousOperator";
     case Term::stress_divergence:
       return "StressDivergence";
+    case Term::slipping_stress:
+      return "SlippingStress";
     case Term::artificial_viscosity:
       return "ArtificialViscosity";
     case Term::number_density:
@@ -56,6 +58,8 @@ std::string name_of(Term term) {
       return "WeightedDivergence";
     case Term::velocity_gradient:
       return "VelocityGradient";
+    case Term::slipping_gradient:
+      return "SlippingGradient";
     case Term::density_diffusion:
       return "DensityDiffusion";
     case Term::uniform_density_diffusion:

@@ -164,6 +164,7 @@ void Physics::set_sph_constants() {
     groups_.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
     groups_.side.push_back(side_of(scene, static_cast<int>(&g - scene.groups.data())));
     groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
+    groups_.shears.push_back(g.kind == GroupKind::fluid ? 0.0 : 1.0);
     groups_.density.push_back(g.density);
     const std::size_t body = g.clamps < 0 ? groups_.body.size() : static_cast<std::size_t>(g.clamps);
     groups_.body.push_back(static_cast<double>(body));
@@ -218,17 +219,16 @@ void Physics::build_conservative() {
   const Scene& s = *scene_;
   std::size_t movers = 0;
   bool uniform_viscosity = true;
-  double viscosity = -1;
   for (const Group& g : s.groups) {
     if (g.kind != GroupKind::wall) ++movers;
-    uniform_viscosity = uniform_viscosity && (viscosity < 0 || viscosity == g.viscosity);
-    viscosity = g.viscosity;
+    uniform_viscosity = uniform_viscosity && g.viscosity == s.groups[0].viscosity;
   }
   const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
+  const bool slips = solid && s.has_kind(GroupKind::fluid);
   const bool single = movers == 1 && !walls && !s.has_eos(EosKind::bubbly);
-
   const bool weighted = s.terms.pressure_weights == PressureWeights::density;
-  std::vector<Term> kinematics{solid      ? Term::velocity_gradient
+  std::vector<Term> kinematics{slips      ? Term::slipping_gradient
+                               : solid    ? Term::velocity_gradient
                                : weighted ? Term::weighted_divergence
                                           : Term::divergence,
                                s.central_pull > 0              ? Term::pulled_density_diffusion
@@ -251,7 +251,8 @@ void Physics::build_conservative() {
 
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
   const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
-  std::vector<Term> forces{solid      ? Term::stress_divergence
+  std::vector<Term> forces{slips      ? Term::slipping_stress
+                           : solid    ? Term::stress_divergence
                            : weighted ? Term::weighted_pressure
                                       : Term::pressure};
   if (!s.terms.implicit_viscosity)

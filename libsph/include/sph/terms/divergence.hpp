@@ -57,4 +57,30 @@ struct VelocityGradient {
   }
 };
 
+/// Where solids meet fluids. A solid is not strained by what flows past it: partners that are fluid count
+/// with the isotropic part of their gradient alone, so that div v is that of all and the stress finds no
+/// shear.
+struct SlippingGradient {
+  static constexpr Term term = Term::slipping_gradient;
+  static constexpr ValueSet reads{Value::volume, Value::velocity, Value::shears};
+  static constexpr Field writes = Field::velocity_gradient;
+  static constexpr bool half_step_back = true;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    const V s = p.template j<Value::volume>() * p.f;
+    const V whole = s * p.template j<Value::shears>();
+    V approach = V::zero();
+    for (int a = 0; a < P::dim; ++a)
+      approach += (p.template i<Value::velocity>(a) - p.template j<Value::velocity>(a)) * p.e[a];
+    const V mean = (s - whole) * approach * V(typename P::Scalar(1) / P::dim);
+    for (int a = 0; a < P::dim; ++a) {
+      const V dv = whole * (p.template i<Value::velocity>(a) - p.template j<Value::velocity>(a));
+      for (int b = 0; b < P::dim; ++b)
+        sums.template add<Field::velocity_gradient>(a * P::dim + b,
+                                                    a == b ? dv * p.e[b] + mean : dv * p.e[b]);
+    }
+  }
+};
+
 }  // namespace sph
