@@ -6,10 +6,10 @@
 namespace sph {
 namespace {
 
-// Of rho c h, across the interface. With 0 drops at rest are a fifth less quiet, with 0.1 waves decay sooner.
+// Of rho c h, across the interface. With 0 that of a drop at rest moves 1.2 to 1.7 times as fast.
 constexpr double damping = 0.03;
 // Of sigma / h: what keeps particles evenly spread where the pressure beside a drop is negative. With 0 the
-// interface of a drop at rest moves ten times as fast.
+// interface of a drop at rest moves ten times as fast, with 0.3 2.5 times.
 constexpr double background = 0.75;
 
 }  // namespace
