@@ -8,8 +8,11 @@ SCENE = "drop.toml"
 SIZES = (8, 12, 16)  # spacings a radius
 ERROR = "rms at the interface"
 
+JUMP = "terms.surface_tension.form=jump"
 FORMULATIONS = {
     "default": (),
+    "tension as a jump": (JUMP,),
+    "jump, pressures by density": (JUMP, "terms.pressure_weights=density"),
     "pressures by density": ("terms.pressure_weights=density",),
     "no shifting": ("terms.shifting=false",),
 }

@@ -15,6 +15,7 @@ FORMULATIONS = {
     "mixed": ("precision=mixed",),
     "laplacian viscosity": ("terms.viscosity=laplacian",),
     "pressures by volume": ("terms.pressure_weights=volume",),
+    "tension as a jump": ("terms.surface_tension.form=jump",),
     "no tension": ("terms.surface_tension=",),
 }
 

@@ -49,6 +49,8 @@ class Terms:
             out.pop("artificial_viscosity", None)
             out["surface_tension"] = {"between": fluids[:2],
                                       "coefficient": self.rho * self.c**2 * self.dx * d.log("sigma", 1e-4, 0.1)}
+            if len(fluids) == 2 and d.chance("tension form", 0.6):
+                out["surface_tension"]["form"] = d.one("tension form value", ["jump", "jump", "stress"])
         slips = any(g.get("slip") for g in scene["group"])
         if not slips and d.chance("implicit", 0.25):
             out.pop("artificial_viscosity", None)

@@ -43,6 +43,10 @@ const std::vector<Source>& sources() {
       {"bubble2d",
        "benchmarks/accuracy/rising_bubble.toml",
        {"start.velocity=[2, 0.3]", "time.until=", "time.steps=1"}},
+      // tension as a jump of the pressure: two passes more, each with its halo refresh
+      {"jump2d",
+       "benchmarks/accuracy/rising_bubble.toml",
+       {"start.velocity=[2, 0.3]", "time.until=", "time.steps=1", "terms.surface_tension.form=jump"}},
       // viscous forces of the end of the step: a solver with its own halo refreshes and reductions
       {"viscous2d",
        "benchmarks/accuracy/rising_bubble.toml",

@@ -53,6 +53,8 @@ enum class Field : std::uint8_t {
   viscous_sums,
   wall_share,
   wall_slope,
+  curvature_sums,
+  curvature,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -165,6 +167,10 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "gradient of the walls' share of the kernel's volume, and it itself over h"},
     {Field::wall_slope, "wall_slope", "1", Type::f64, Shape::vector, false, false,
      "normal of the wall nearby times h over the distance from it"},
+    {Field::curvature_sums, "curvature_sums", "1", Type::f64, Shape::two, false, false,
+     "near an interface with tension: how its normals turn and over how far, or curvatures and their weight"},
+    {Field::curvature, "curvature", "1/m", Type::f64, Shape::scalar, false, false,
+     "of the interface with tension nearby, positive where its first fluid is inside; 0 far from it"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

@@ -28,6 +28,8 @@ struct TermConstants {
   T artificial_viscosity;           ///< alpha
   T quadratic_viscosity;            ///< beta
   T conduction;                     ///< alpha_u
+  T interface_damping;              ///< beta of terms/tension_jump.hpp
+  T background_pressure;            ///< twice p_b of terms/tension_jump.hpp [Pa]
   T inverse_w_spacing;              ///< 1 / w(spacing/h), unnormalised kernel
   T half_step;                      ///< dt / 2h [s/m]
   T bond_range;                     ///< largest distance of two bonded particles / h
@@ -116,6 +118,12 @@ inline constexpr bool looks_only_beside_walls = requires {
   Term::only_beside_walls;
 };
 
+/// Of a block of particles that all have 0 for that value the sums are not needed: they are 0.
+template <class Term>
+inline constexpr bool is_idle_without_a_value = requires {
+  Term::nothing_without;
+};
+
 template <class T, int D, class Kernel, class... Terms>
 struct PairPass {
   static constexpr ValueSet values = (Terms::reads | ...);
@@ -126,6 +134,7 @@ struct PairPass {
   // (omega dt)^2 a step, were the pairs not taken where they were then.
   static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
   static constexpr bool only_beside_walls = (looks_only_beside_walls<Terms> && ...);
+  static constexpr bool can_be_idle = (is_idle_without_a_value<Terms> && ...);
   static constexpr int velocity = half_step_back ? Layout::offset(Value::velocity) : 0;
 
   static void pack(const PassContext& c, std::size_t first, std::size_t last) {
@@ -162,6 +171,11 @@ struct PairPass {
         own_rows[l] = static_cast<std::uint32_t>(std::min(first + l, range.last - 1));
       V own[Layout::stride], other[Layout::stride];
       load_rows<Layout::stride>(rows, own_rows, own);
+      if constexpr (can_be_idle)
+        if (all_zero((own[Layout::offset(Terms::nothing_without)], ...))) {
+          store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
+          continue;
+        }
       const std::span<const std::uint32_t> entries = c.lists->block(block);
       for (std::size_t k = 0; k < entries.size(); k += V::lanes) {
         load_rows<Layout::stride>(rows, entries.data() + k, other);
@@ -187,6 +201,12 @@ struct PairPass {
   }
 
  private:
+  static bool all_zero(const V& value) {
+    for (int l = 0; l < static_cast<int>(V::lanes); ++l)
+      if (value[l] != 0) return false;
+    return true;
+  }
+
   // W(r, h) = alpha / h^D w(r / h): f of a kernel that is s times as wide is w'(r / s) / (r s^(D+1)).
   static void look_at_widths(const V* own, const V* other, Pair<T, D, values>& pair) {
     constexpr int width = Layout::offset(Value::width);
@@ -254,6 +274,8 @@ struct PairPass {
     c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
     c.quadratic_viscosity = static_cast<T>(d.quadratic_viscosity);
     c.conduction = static_cast<T>(d.conduction);
+    c.interface_damping = static_cast<T>(d.interface_damping);
+    c.background_pressure = static_cast<T>(d.background_pressure);
     c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
     c.half_step = static_cast<T>(d.half_step);
     c.bond_range = static_cast<T>(d.bond_range);
@@ -266,7 +288,8 @@ struct PairPass {
 
   static constexpr bool has_own_scale(Field f) {
     return f == Field::number_density || f == Field::gas_moments || f == Field::wall_sums ||
-           f == Field::wall_sums_by_density || f == Field::deformation || f == Field::contact_energy;
+           f == Field::wall_sums_by_density || f == Field::deformation || f == Field::contact_energy ||
+           f == Field::curvature_sums;
   }
 
   template <Field F>
@@ -303,6 +326,7 @@ struct PairPass {
     store_field<Field::contact_energy>(c, first, count, sums);
     store_field<Field::viscous_sums>(c, first, count, sums);
     store_field<Field::wall_share>(c, first, count, sums);
+    store_field<Field::curvature_sums>(c, first, count, sums);
   }
 };
 

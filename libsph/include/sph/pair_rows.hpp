@@ -42,6 +42,10 @@ enum class Term : std::uint8_t {
   shifting,
   colour_gradient,
   surface_tension,
+  curvature,
+  curvature_mean,
+  tension_jump,
+  weighted_tension_jump,
   wall_extrapolation,
   wall_extrapolation_by_density,
   wall_share,
@@ -56,33 +60,37 @@ enum class Term : std::uint8_t {
 
 /// What a term can read of a particle besides its position.
 enum class Value : std::uint8_t {
-  velocity,           ///< [m/s]
-  volume,             ///< mass / density [spacing^D]
-  pressure,           ///< [Pa]
-  density,            ///< [kg/m^3]
-  viscosity,          ///< eta / h [Pa s/m]
-  sound_speed,        ///< [m/s]
-  phase,              ///< index of the group
-  mover,              ///< 1, or 0 for walls
-  stress,             ///< total: -pressure delta + stress field [Pa]
-  heavy,              ///< 1 for the heavier fluids of the scene, 0 for all others
-  pressures,          ///< for lighter and for heavier partners: of walls they differ [Pa]
-  side,               ///< of the interface with tension: 1 or -1, 0 elsewhere
-  capillary,          ///< surface stress sigma (I - n n) |grad C| [Pa]
-  potential,          ///< of the central pull [m^2/s^2]
-  reference,          ///< reference position, stored as the position is
-  reference_cell,     ///< the bits of it that a row in single precision has no room for
-  reference_volume,   ///< mass / rho_0 [spacing^D]
-  body,               ///< particles of one body have one number
-  bond_stress,        ///< [Pa]
-  modulus,            ///< K + 4/3 mu of the group [Pa]
-  direction,          ///< what the viscous operator is applied to [m/s]
-  wall_slope,         ///< gradient of a flow that is 0 at the wall and 1 here, times h
-  specific_energy,    ///< of ideal gases, 0 of all else [J/kg]
-  width,              ///< of ideal gases: smoothing length of the particle / h
-  kernel_correction,  ///< 1 / Omega (terms/gas.hpp)
-  velocity_gradient,  ///< h d v_a / d x_b [m/s]
-  shears,             ///< 1 for solids and walls, 0 for fluids
+  velocity,            ///< [m/s]
+  volume,              ///< mass / density [spacing^D]
+  pressure,            ///< [Pa]
+  density,             ///< [kg/m^3]
+  viscosity,           ///< eta / h [Pa s/m]
+  sound_speed,         ///< [m/s]
+  phase,               ///< index of the group
+  mover,               ///< 1, or 0 for walls
+  stress,              ///< total: -pressure delta + stress field [Pa]
+  heavy,               ///< 1 for the heavier fluids of the scene, 0 for all others
+  pressures,           ///< for lighter and for heavier partners: of walls they differ [Pa]
+  side,                ///< of the interface with tension: 1 or -1, 0 elsewhere
+  capillary,           ///< surface stress sigma (I - n n) |grad C| [Pa]
+  interface_normal,    ///< of the interface with tension, from the first fluid to the second; 0 far from it
+  interface_weight,    ///< h |grad C| V [spacing^D]; 0 far from it
+  curvature,           ///< of the interface with tension [1/m]
+  capillary_pressure,  ///< sigma times it [Pa]
+  potential,           ///< of the central pull [m^2/s^2]
+  reference,           ///< reference position, stored as the position is
+  reference_cell,      ///< the bits of it that a row in single precision has no room for
+  reference_volume,    ///< mass / rho_0 [spacing^D]
+  body,                ///< particles of one body have one number
+  bond_stress,         ///< [Pa]
+  modulus,             ///< K + 4/3 mu of the group [Pa]
+  direction,           ///< what the viscous operator is applied to [m/s]
+  wall_slope,          ///< gradient of a flow that is 0 at the wall and 1 here, times h
+  specific_energy,     ///< of ideal gases, 0 of all else [J/kg]
+  width,               ///< of ideal gases: smoothing length of the particle / h
+  kernel_correction,   ///< 1 / Omega (terms/gas.hpp)
+  velocity_gradient,   ///< h d v_a / d x_b [m/s]
+  shears,              ///< 1 for solids and walls, 0 for fluids
   count_
 };
 
@@ -104,7 +112,7 @@ class ValueSet {
 
 [[nodiscard]] constexpr int components(Value v, int dim) {
   const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
-                      v == Value::direction || v == Value::wall_slope;
+                      v == Value::direction || v == Value::wall_slope || v == Value::interface_normal;
   const bool tensor = v == Value::stress || v == Value::capillary;
   return vector                                                     ? dim
          : v == Value::pressures                                    ? 2
@@ -129,6 +137,11 @@ class ValueSet {
   if (values.has(Value::pressures)) f |= FieldSet{Field::group, Field::pressure, Field::wall_pressures};
   if (values.has(Value::side)) f |= FieldSet{Field::group};
   if (values.has(Value::capillary)) f |= FieldSet{Field::colour_gradient};
+  if (values.has(Value::interface_normal)) f |= FieldSet{Field::group, Field::colour_gradient};
+  if (values.has(Value::interface_weight))
+    f |= FieldSet{Field::group, Field::mass, Field::density, Field::colour_gradient};
+  if (values.has(Value::curvature) || values.has(Value::capillary_pressure))
+    f |= FieldSet{Field::group, Field::curvature};
   if (values.has(Value::reference) || values.has(Value::reference_cell)) f |= FieldSet{Field::displacement};
   if (values.has(Value::reference_volume)) f |= FieldSet{Field::mass, Field::group};
   if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
@@ -181,6 +194,15 @@ struct RowScale {
   double pull_centre[3]{};
 };
 
+/// h |grad C| in the layer about the interface, as far as it is not noise; 0 farther off.
+[[nodiscard]] inline double layer_share(const double* colour, int dim, double inverse_h) {
+  constexpr double least = 0.02;
+  double square = 0;
+  for (int a = 0; a < dim; ++a) square += colour[a] * colour[a];
+  const double share = std::sqrt(square) / inverse_h;
+  return share > least ? share : 0.0;
+}
+
 /// Fills rows [first, last) of `rows`.
 template <class T, int D, ValueSet S>
 void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& scale, std::size_t first,
@@ -196,6 +218,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* group = p.data<Field::group>();
   const auto* walls = p.data<Field::wall_pressures>();
   const auto* colour = p.data<Field::colour_gradient>();
+  const auto* curvature = p.data<Field::curvature>();
   const auto* displacement = p.data<Field::displacement>();
   const auto* bond_stress = p.data<Field::bond_stress>();
   const auto* direction = p.data<Field::direction>();
@@ -254,6 +277,21 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
           put(Value::capillary, symmetric_index(a, b, D),
               groups.surface_tension * ((a == b ? length : 0.0) - g[a] * g[b] * inverse));
     }
+    // Of particles on neither side nothing is known.
+    if constexpr (S.has(Value::interface_weight)) {
+      const double side = groups.side[group[i]];
+      const double share = side != 0 ? layer_share(colour + i * D, D, scale.inverse_h) : 0.0;
+      put(Value::interface_weight, 0, share > 0 ? mass[i] / rho[i] * scale.inverse_volume * share : 0.0);
+      if constexpr (S.has(Value::interface_normal))
+        for (int a = 0; a < D; ++a)
+          put(Value::interface_normal, a,
+              share > 0 ? side * colour[i * D + a] / (share * scale.inverse_h) : 0.0);
+    }
+    if constexpr (S.has(Value::curvature))
+      put(Value::curvature, 0, groups.side[group[i]] != 0 ? curvature[i] : 0.0);
+    if constexpr (S.has(Value::capillary_pressure))
+      put(Value::capillary_pressure, 0,
+          groups.side[group[i]] != 0 ? groups.surface_tension * curvature[i] : 0.0);
     // A difference: it passes through a periodic face with the position, which has the image's shift.
     if constexpr (S.has(Value::reference))
       for (int k = 0; k < D; ++k)

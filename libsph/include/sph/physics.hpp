@@ -117,6 +117,7 @@ class Physics {
   void add_walls(bool weighted);
   void find_walls_nearby();
   void build_implicit_viscosity(bool walls);
+  void add_curvature();
   void build_ida();
   void build_gas();
   void build_total_lagrangian();
@@ -126,6 +127,8 @@ class Physics {
   static double filling(const GlobalState&);
   void update_walls(Particles&, const RowRanges&, const GlobalState&) const;
   void hold_off(Particles&, const RowRanges&, double dt) const;
+  void find_curvature(Particles&, const RowRanges&) const;
+  void average_curvature(Particles&, const RowRanges&) const;
   void find_walls(Particles&, const RowRanges&) const;
   void update_ida(Particles&, std::size_t first, std::size_t last, double dt) const;
   template <int D>

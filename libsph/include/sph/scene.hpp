@@ -94,10 +94,15 @@ struct Start {
   friend bool operator==(const Start&, const Start&) = default;
 };
 
+/// A stress in a layer as thick as the kernel, or the jump of the pressure (terms/surface_tension.hpp,
+/// terms/tension_jump.hpp).
+enum class TensionForm { stress, jump };
+
 /// Between the particles of two groups of fluid.
 struct InterfaceTension {
   std::array<int, 2> between{-1, -1};  ///< groups; -1: there is none
   double coefficient = 0;              ///< sigma [N/m]
+  TensionForm form = TensionForm::stress;
   friend bool operator==(const InterfaceTension&, const InterfaceTension&) = default;
 };
 

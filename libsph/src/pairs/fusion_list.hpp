@@ -10,11 +10,13 @@
 #include "sph/terms/divergence.hpp"
 #include "sph/terms/gas.hpp"
 #include "sph/terms/ida.hpp"
+#include "sph/terms/interface_curvature.hpp"
 #include "sph/terms/pressure.hpp"
 #include "sph/terms/shifting.hpp"
 #include "sph/terms/shock.hpp"
 #include "sph/terms/stress.hpp"
 #include "sph/terms/surface_tension.hpp"
+#include "sph/terms/tension_jump.hpp"
 #include "sph/terms/viscosity.hpp"
 #include "sph/terms/viscous_operator.hpp"
 #include "sph/terms/wall.hpp"
@@ -80,6 +82,10 @@ struct FusionList {
              fuse<Quintic, WeightedPressure>(),
              fuse<Quintic, Pressure, SurfaceTension>(),
              fuse<Quintic, WeightedPressure, SurfaceTension>(),
+             fuse<Quintic, Curvature>(),
+             fuse<Quintic, CurvatureMean>(),
+             fuse<Quintic, Pressure, TensionJump>(),
+             fuse<Quintic, WeightedPressure, WeightedTensionJump>(),
              fuse<Quintic, SymmetricViscousOperator>(),
              fuse<Quintic, NumberDensity, GasMoments>(),
              fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
@@ -107,9 +113,11 @@ struct FusionList {
     return {
         fuse<Quintic, Pressure, Viscous, ArtificialViscosity>(),
         fuse<Quintic, Pressure, Viscous, SurfaceTension>(),
+        fuse<Quintic, Pressure, Viscous, TensionJump>(),
         fuse<Quintic, WeightedPressure, Viscous>(),
         fuse<Quintic, WeightedPressure, Viscous, ArtificialViscosity>(),
         fuse<Quintic, WeightedPressure, Viscous, SurfaceTension>(),
+        fuse<Quintic, WeightedPressure, Viscous, WeightedTensionJump>(),
         fuse<Quintic, StressDivergence, Viscous>(),
         fuse<Quintic, StressDivergence, Viscous, ArtificialViscosity>(),
         fuse<Quintic, SlippingStress, Viscous>(),

@@ -72,6 +72,14 @@ std::string name_of(Term term) {
       return "ColourGradient";
     case Term::surface_tension:
       return "SurfaceTension";
+    case Term::curvature:
+      return "Curvature";
+    case Term::curvature_mean:
+      return "CurvatureMean";
+    case Term::tension_jump:
+      return "TensionJump";
+    case Term::weighted_tension_jump:
+      return "WeightedTensionJump";
     case Term::wall_extrapolation:
       return "WallExtrapolation";
     case Term::wall_extrapolation_by_density:

@@ -248,6 +248,8 @@ void Physics::build_conservative() {
 
   if (weighted) fields_ |= FieldSet{Field::wall_pressures};
   if (walls) add_walls(weighted);
+  const bool jump = tension && s.terms.surface_tension.form == TensionForm::jump;
+  if (jump) add_curvature();
 
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
   const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
@@ -259,7 +261,10 @@ void Physics::build_conservative() {
     forces.push_back(uniform     ? Term::uniform_viscosity
                      : symmetric ? Term::symmetric_viscosity
                                  : Term::viscosity);
-  if (tension) forces.push_back(Term::surface_tension);
+  if (tension)
+    forces.push_back(!jump      ? Term::surface_tension
+                     : weighted ? Term::weighted_tension_jump
+                                : Term::tension_jump);
   if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
   add_pass("forces", forces, true, false);
   if (walls && s.has_kind(GroupKind::fluid) && (s.terms.implicit_viscosity || s.free_surface))
@@ -291,23 +296,6 @@ void Physics::find_walls_nearby() {
     hold_off(p, ranges, global.dt);
   };
   passes_.back().changes = {Field::force};
-}
-
-void Physics::build_implicit_viscosity(bool walls) {
-  if (walls) fields_ |= FieldSet{Field::wall_slope};
-  const auto solver = std::make_shared<ViscositySolver>(*this, scene_->terms.viscosity_tolerance);
-  passes_.back().update = [this, walls, solver, before = passes_.back().update](
-                              Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    if (before) before(p, ranges, global);
-    if (walls) find_walls(p, ranges);
-    solver->begin(p, ranges);
-  };
-  passes_.back().changes |= {Field::wall_slope, Field::direction};
-  const bool symmetric = scene_->terms.viscosity == ViscosityForm::symmetric;
-  add_pass("viscosity", {symmetric ? Term::symmetric_viscous_operator : Term::viscous_operator}, true, false);
-  passes_.back().solver = solver;
-  passes_.back().changes = {Field::direction, Field::force};
-  fields_ |= FieldSet{Field::direction};
 }
 
 // The paper's cycle: velocity gradient (10), density (8), pressure, stress (9) or (11) of every particle,

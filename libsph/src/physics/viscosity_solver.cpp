@@ -122,4 +122,21 @@ void ViscositySolver::finish(Particles& p, const RowRanges& ranges, double dt) c
   });
 }
 
+void Physics::build_implicit_viscosity(bool walls) {
+  if (walls) fields_ |= FieldSet{Field::wall_slope};
+  const auto solver = std::make_shared<ViscositySolver>(*this, scene_->terms.viscosity_tolerance);
+  passes_.back().update = [this, walls, solver, before = passes_.back().update](
+                              Particles& p, const RowRanges& ranges, const GlobalState& global) {
+    if (before) before(p, ranges, global);
+    if (walls) find_walls(p, ranges);
+    solver->begin(p, ranges);
+  };
+  passes_.back().changes |= {Field::wall_slope, Field::direction};
+  const bool symmetric = scene_->terms.viscosity == ViscosityForm::symmetric;
+  add_pass("viscosity", {symmetric ? Term::symmetric_viscous_operator : Term::viscous_operator}, true, false);
+  passes_.back().solver = solver;
+  passes_.back().changes = {Field::direction, Field::force};
+  fields_ |= FieldSet{Field::direction};
+}
+
 }  // namespace sph

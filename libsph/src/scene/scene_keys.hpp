@@ -64,7 +64,7 @@ inline constexpr auto terms_list = std::to_array<Word>(
     {"density_diffusion", "artificial_viscosity", "quadratic_viscosity", "artificial_conduction", "shifting",
      "viscosity", "implicit_viscosity", "viscosity_tolerance", "pressure_weights", "surface_tension",
      "hourglass", "largest_stretch"});
-inline constexpr auto surface_tension_list = std::to_array<Word>({"between", "coefficient"});
+inline constexpr auto surface_tension_list = std::to_array<Word>({"between", "coefficient", "form"});
 inline constexpr auto time_list = std::to_array<Word>({"dt", "cfl", "until", "steps"});
 inline constexpr auto decomposition_list =
     std::to_array<Word>({"cut_axes", "skin", "rebuild_every", "overlap", "balance", "cost", "chaos_seed",

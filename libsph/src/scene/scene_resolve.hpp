@@ -76,6 +76,7 @@ void read_grain_velocity(const TableReader& table, Start& start);
 [[nodiscard]] const Choices<Formulation>& formulation_words();
 [[nodiscard]] const Choices<Precision>& precision_words();
 [[nodiscard]] const Choices<PressureWeights>& pressure_weights_words();
+[[nodiscard]] const Choices<TensionForm>& tension_form_words();
 [[nodiscard]] const Choices<KernelShape>& kernel_words();
 [[nodiscard]] const Choices<ViscosityForm>& viscosity_words();
 [[nodiscard]] const Choices<GroupKind>& group_kind_words();

@@ -156,8 +156,10 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
     const auto name = [&](int k) {
       return SceneWriter::quoted(scene.groups[static_cast<std::size_t>(k)].name);
     };
-    out.raw("surface_tension", fmt::format("{{ between = [{}, {}], coefficient = {} }}", name(t.between[0]),
-                                           name(t.between[1]), SceneWriter::real(t.coefficient)));
+    out.raw("surface_tension",
+            fmt::format("{{ between = [{}, {}], coefficient = {}, form = {} }}", name(t.between[0]),
+                        name(t.between[1]), SceneWriter::real(t.coefficient),
+                        SceneWriter::quoted(word(tension_form_words(), t.form))));
   }
 }
 

@@ -121,6 +121,16 @@ InterfaceTension read_surface_tension(const TableReader& table, const std::vecto
     table.fail("between", "names groups that fragment into each other or into the same one",
                "fragments stay on the side of what they broke from");
   tension.coefficient = table.required_number("coefficient", dimension::stiffness, Bound::not_negative);
+  tension.form = table.choice("form", tension_form_words()).value_or(tension.form);
+  for (const Group& g : groups) {
+    const int k = static_cast<int>(&g - groups.data());
+    const bool on_a_side = std::any_of(tension.between.begin(), tension.between.end(), [&](int of) {
+      return k == of || k == groups[static_cast<std::size_t>(of)].fragments_to;
+    });
+    if (tension.form == TensionForm::jump && g.kind == GroupKind::fluid && !on_a_side)
+      table.fail("form", fmt::format("is \"jump\", and \"{}\" is a third fluid", g.name),
+                 "where three fluids meet no curvature says the jump: use \"stress\"");
+  }
   table.finish();
   return tension;
 }

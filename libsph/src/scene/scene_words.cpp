@@ -17,6 +17,10 @@ const Choices<PressureWeights>& pressure_weights_words() {
                                               {"density", PressureWeights::density}};
   return words;
 }
+const Choices<TensionForm>& tension_form_words() {
+  static const Choices<TensionForm> words{{"stress", TensionForm::stress}, {"jump", TensionForm::jump}};
+  return words;
+}
 const Choices<ViscosityForm>& viscosity_words() {
   static const Choices<ViscosityForm> words{{"laplacian", ViscosityForm::laplacian},
                                             {"symmetric", ViscosityForm::symmetric}};
