@@ -35,7 +35,7 @@ RunRecord record_of(std::int64_t step) {
   record.global.step = step;
   record.global.max_speed = -0.0;
   record.global.fluid_volume = {std::int64_t{1} << 62, -7};
-  record.global.motion = {{0.1, -0.0, 1e300}, 0.3};
+  record.global.motion = {{0.1, -0.0, 1e300}, 0.3, 0.7};
   record.global.max_acceleration = std::bit_cast<double>(std::uint64_t{0x7ff8dead0000beef});
   return record;
 }

@@ -86,6 +86,9 @@ TEST(Fingerprint, ChangesWithEveryGlobalValue) {
   g = make_global();
   g.motion.unlike = 1;
   EXPECT_NE(print_of(comm, p, g), before);
+  g = make_global();
+  g.motion.largest = 1;
+  EXPECT_NE(print_of(comm, p, g), before);
   PositionScale scale = make_scale();
   scale.quantum /= 2;
   EXPECT_NE(fingerprint(comm, p, make_global(), scale, make_wrap()), before);

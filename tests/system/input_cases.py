@@ -265,6 +265,28 @@ until = 1
         self.file("start.csv", f"# first\r{HEADER}\r{rows[1]}\r")
         self.refused("check", self.sand, says="ends its lines with CR alone", ranks=(1,))
 
+    def test_encodings(self):
+        scene = self.file("fluid.toml", self.FLUID)
+        text = "id,x,y,z,vx,vy,vz,group\n1,0.5,0.5,0.5,0,0,0,water\n"
+        rows = self.run.folder / "rows.csv"
+        use = ["--set", "start.region=", "--set", "start.file=rows.csv"]
+        rows.write_bytes(text.encode("utf-8-sig"))
+        self.run.run(1, "peperite", "check", scene, *use)
+        rows.write_bytes(text.encode("utf-16"))
+        self.refused("check", scene, *use, says="UTF-16; save it as ASCII or UTF-8")
+        rows.write_bytes(text.replace("water", "wa\0ter").encode())
+        self.refused("check", scene, *use, says="line 2: holds a byte of value 0")
+
+    def test_extreme_rows(self):
+        scene = self.file("fluid.toml", self.FLUID)
+        rows = self.run.folder / "rows.csv"
+        for column, value, says in (("rho", "1e-300", "particle 7 of group water would have a density of 1e-300 kg/m^3"),
+                                    ("mass", "1e30", "particle 7 of group water would have a mass of 1e+30 kg")):
+            rows.write_text(f"id,x,y,z,vx,vy,vz,group,{column}\n7,0.5,0.5,0.5,0,0,0,water,{value}\n")
+            for command in (["check"], ["run", "--out", "no"]):
+                self.refused(command[0], scene, *command[1:], "--set", "start.region=", "--set", "start.file=rows.csv",
+                             says=says)
+
     def test_hdf5_types(self):
         good = dict(id=np.array([1, 2], "u8"), x=np.array([[0.01, 0.006, 0.002], [0.02, 0.006, 0.002]]),
                     v=np.zeros((2, 3)), group=np.array([0, 0], "u4"), radius=np.array([5e-4, 5e-4]))

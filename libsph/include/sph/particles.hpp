@@ -82,11 +82,15 @@ struct FluidVolume {
 struct CommonMotion {
   std::array<double, 3> velocity{};  ///< mean of theirs [m/s]
   double unlike = 0;                 ///< mean difference from it, of eighth powers [m/s]
+  double largest = 0;                ///< difference from the mean of the step before [m/s]
   friend bool operator==(const CommonMotion&, const CommonMotion&) = default;
 };
 /// Its sums over a rank's particles, in integers, so that ranks may add in any order: their number, how much
 /// their velocities differ from the mean known before, and the eighth powers of that, in four digits.
-using MotionSums = std::array<std::int64_t, 8>;
+struct MotionSums {
+  std::array<std::int64_t, 8> sums{};
+  double largest = 0;  ///< of the differences [m/s]
+};
 
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {

@@ -97,7 +97,7 @@ class Physics {
   [[nodiscard]] std::int64_t fluid_volume(const Particles& particles) const;
   /// Of this rank's particles that move, about the mean known before; and what the sums over all ranks say.
   [[nodiscard]] MotionSums motion_sums(const Particles& particles, const GlobalState& global) const;
-  [[nodiscard]] CommonMotion common_motion(const MotionSums& sums, const GlobalState& global) const;
+  [[nodiscard]] CommonMotion common_motion(const MotionSums& found, const GlobalState& global) const;
   /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
   [[nodiscard]] double courant_number(double dt) const;
 

@@ -84,10 +84,10 @@ class Simulation {
   void refresh_end();
   std::int64_t finish_step(std::int64_t request);
   [[nodiscard]] Findings find_leavers() const;
-  void take_motion(std::span<const std::int64_t> sums);
+  void take_motion(std::span<const std::int64_t> sums, double largest);
   void find_stale(double next);
   void guard_motion(double next) const;
-  void guard_sweep(const std::array<double, 8>& all) const;
+  void guard_sweep(const std::array<double, 9>& all) const;
   [[noreturn]] void stop_at_bad_particle() const;
   [[noreturn]] void stop_at_fastest(const std::string& what) const;
   [[nodiscard]] std::vector<double> metres_of(std::size_t row) const;

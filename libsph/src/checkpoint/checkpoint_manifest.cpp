@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* format = "peperite checkpoint 4";
+constexpr const char* format = "peperite checkpoint 5";
 
 /// The bits are what counts; the value is for readers with eyes.
 Json exact(double x) { return {{"bits", to_hex(std::bit_cast<std::uint64_t>(x))}, {"value", x}}; }
@@ -91,6 +91,7 @@ std::string to_text(const Manifest& m) {
   Json motion = Json::array();
   for (const double v : g.motion.velocity) motion.push_back(exact(v));
   motion.push_back(exact(g.motion.unlike));
+  motion.push_back(exact(g.motion.largest));
   Json walls = Json::array();
   for (const WallState& wall : g.walls) walls.push_back(json_of(wall));
   Json parts = Json::array();
@@ -139,7 +140,8 @@ Manifest manifest_from_text(const std::string& text) {
       {},
       {json.at("fluid_volume").at(0), json.at("fluid_volume").at(1)},
       {{exact(json.at("motion").at(0)), exact(json.at("motion").at(1)), exact(json.at("motion").at(2))},
-       exact(json.at("motion").at(3))}};
+       exact(json.at("motion").at(3)),
+       exact(json.at("motion").at(4))}};
   for (const Json& wall : json.at("walls")) m.record.global.walls.push_back(wall_of(wall));
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();

@@ -128,6 +128,8 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
         return unequal("mean_velocity", x, y);
     if (differ(g.motion.unlike, h.motion.unlike))
       return unequal("unlike_motion", g.motion.unlike, h.motion.unlike);
+    if (differ(g.motion.largest, h.motion.largest))
+      return unequal("largest_motion", g.motion.largest, h.motion.largest);
   }
   if (a.kind == b.kind)  // a snapshot does not have the walls
     if (std::string text = wall_difference(g.walls, h.walls); !text.empty()) return text;

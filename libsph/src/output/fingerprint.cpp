@@ -102,6 +102,7 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
   if (global.motion != CommonMotion{}) {
     for (const double v : global.motion.velocity) words.push_back(std::bit_cast<std::uint64_t>(v));
     words.push_back(std::bit_cast<std::uint64_t>(global.motion.unlike));
+    words.push_back(std::bit_cast<std::uint64_t>(global.motion.largest));
   }
   for (const WallState& wall : global.walls)
     for (std::size_t a = 0; a < 3; ++a) {

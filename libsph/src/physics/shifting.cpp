@@ -25,7 +25,8 @@ constexpr double at_rest = 0.02;
 constexpr double longest = 0.5;  // of U dt
 constexpr double drift = 2e-4;   // of U dt
 
-// In units of the largest speed of the step before; what is beyond four of them counts as four.
+// In units of the largest difference of the step before, which are the same in every frame; what is beyond
+// four of them counts as four.
 constexpr double most = 4;
 constexpr double way_digits = 0x1p26, first_digit = 0x1p12, next_digit = 0x1p28;
 
@@ -43,8 +44,10 @@ MotionSums Physics::motion_sums(const Particles& p, const GlobalState& global) c
   const auto d = static_cast<std::size_t>(p.dim());
   const double* v = p.data<Field::velocity>();
   const auto* group = p.data<Field::group>();
-  const double inverse = 1 / unit_of(global.max_speed);
-  MotionSums sums{};
+  const double unit = unit_of(global.motion.largest), inverse = 1 / unit;
+  MotionSums out;
+  auto& sums = out.sums;
+  double largest2 = 0;
   for (std::size_t i = 0; i < p.owned(); ++i) {
     if (is_wall(group[i])) continue;
     double square = 0;
@@ -54,6 +57,7 @@ MotionSums Physics::motion_sums(const Particles& p, const GlobalState& global) c
       sums[1 + a] += round_to_quanta(std::fmax(-most, std::fmin(way, most)) * way_digits);
       square += way * way;
     }
+    largest2 = std::fmax(largest2, square);
     const double fastest = per_sound * groups_.sound_speed[group[i]] * inverse;
     square = std::fmin(square, std::fmin(fastest * fastest, most * most));
     double power = square * square * (square * square) * first_digit;
@@ -63,16 +67,18 @@ MotionSums Physics::motion_sums(const Particles& p, const GlobalState& global) c
       power = (power - static_cast<double>(whole)) * next_digit;
     }
   }
-  return sums;
+  out.largest = unit * std::sqrt(largest2);
+  return out;
 }
 
 // The sums are about the mean of the step before. That a frame may be accelerated must not count: the eighth
 // mean about the mean of now is larger than this one less the way between them (Minkowski).
-CommonMotion Physics::common_motion(const MotionSums& sums, const GlobalState& global) const {
+CommonMotion Physics::common_motion(const MotionSums& found, const GlobalState& global) const {
+  const auto& sums = found.sums;
   const auto count = static_cast<double>(sums[0]);
   CommonMotion motion = global.motion;
   if (sums[0] == 0) return motion;
-  const double unit = unit_of(global.max_speed);
+  const double unit = unit_of(global.motion.largest);
   double power = 0, square = 0;
   for (std::size_t k = sums.size(); k-- > 4;) power = power / next_digit + static_cast<double>(sums[k]);
   for (std::size_t a = 0; a < 3; ++a) {
@@ -81,6 +87,7 @@ CommonMotion Physics::common_motion(const MotionSums& sums, const GlobalState& g
     square += way * way;
   }
   const double mean = std::fmax(0.0, power) / first_digit / count;
+  motion.largest = found.largest;
   motion.unlike = unit * std::fmax(0.0, std::sqrt(std::sqrt(std::sqrt(mean))) - std::sqrt(square));
   return motion;
 }

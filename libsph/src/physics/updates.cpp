@@ -147,11 +147,12 @@ void Physics::update_walls(Particles& p, const RowRanges& ranges, const GlobalSt
 
 // Fluid that is torn keeps its density while its neighbours part, so that no pressure stops it before a wall,
 // and one below 0 draws it in. Here walls stop it, without spring or rebound: where the way is y to 0.4
-// spacings before a face, no particle moves towards it faster than c y / 2h, and from beyond it comes out at
-// up to c / 50, whatever the other forces. So walls take energy and give hardly any, at any time step. In
-// corners, where the walls' gradient is less than their share tells, rest has a larger share.
+// spacings before a face, no particle moves towards it faster than c y / 10h, and beyond that not at all,
+// whatever the other forces. So walls take energy and never give any, at any time step; what is behind a face
+// comes out by its pressure. In corners, where the walls' gradient is less than their share tells, rest has a
+// larger share.
 void Physics::hold_off(Particles& p, const RowRanges& ranges, double dt) const {
-  constexpr double approach = 0.5, outwards = 0.02, flat = 0.96, inside = 0.05;
+  constexpr double approach = 0.1, flat = 0.96, inside = 0.05;
   const auto d = static_cast<std::size_t>(p.dim());
   const double h = scene_->smoothing_length, before = 0.4 * scene_->spacing / h;
   const double* share = p.data<Field::wall_share>();
@@ -174,7 +175,7 @@ void Physics::hold_off(Particles& p, const RowRanges& ranges, double dt) const {
     const double straight = h * length / wall_distance_->gradient(h * s[d]);
     const double face = straight > flat ? -before : wall_distance_->depth_in_corner();
     const double c = sound != nullptr ? sound[i] : groups_.sound_speed[group[i]];
-    const double most = c * std::fmax(approach * (face - wall_distance_->depth(h * s[d])), -outwards);
+    const double most = c * std::fmax(approach * (face - wall_distance_->depth(h * s[d])), 0.0);
     const double excess = way / length - most;
     if (!(excess > 0)) return;
     for (std::size_t a = 0; a < d; ++a) force[i * d + a] -= mass[i] * excess / dt * (s[a] / length);

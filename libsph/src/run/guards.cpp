@@ -18,7 +18,7 @@ std::vector<double> Simulation::metres_of(std::size_t row) const {
 }
 
 // all[0]: largest speed. all[4], all[5]: a contact on any rank is too strong, too deep.
-void Simulation::guard_sweep(const std::array<double, 8>& all) const {
+void Simulation::guard_sweep(const std::array<double, 9>& all) const {
   const auto contact = [&](const ContactFault& fault) {
     const std::array<double, 3> at{scale_.metres(fault.x[0]), scale_.metres(fault.x[1]),
                                    scale_.metres(fault.x[2])};
@@ -86,12 +86,13 @@ std::vector<std::int64_t> Simulation::wall_forces(std::span<const std::int64_t> 
   return forces;
 }
 
-// What the physics found comes first: what is not finite may follow from it.
+// What the physics found comes first: what is not finite may follow from it. Then in the order in which a
+// step goes on: to lists, which follow the skin, what is not finite spreads with the forces.
 void Simulation::stop_at_bad_particle() const {
   physics_.findings().stop(comm_);
   const auto d = static_cast<std::size_t>(particles_.dim());
   Findings found;
-  for (const Field f : {Field::velocity, Field::sound_speed, Field::pressure, Field::density}) {
+  for (const Field f : {Field::density, Field::pressure, Field::sound_speed, Field::velocity}) {
     if (!particles_.has(f)) continue;
     const double* values = particles_.table().as<double>(particles_.column(f));
     const std::size_t components = f == Field::velocity ? d : 1;

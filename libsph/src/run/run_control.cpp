@@ -1,9 +1,11 @@
 #include "run/run_control.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
 
 #include "sph/run.hpp"
@@ -63,7 +65,7 @@ bool RunControl::stop_file_found() {
   if (seconds_since(last_look_) < seconds_between_looks) return false;
   last_look_ = Clock::now();
   std::error_code none;
-  return std::filesystem::exists(stop_file_, none);
+  return std::filesystem::is_regular_file(stop_file_, none);
 }
 
 Wish RunControl::wish(bool failed) {
@@ -93,8 +95,10 @@ void RunControl::granted(Wish wish) {
       last_status_ = Clock::now();
       return;
     case Wish::stop: {
-      std::error_code none;
-      if (rank_ == 0) std::filesystem::remove(stop_file_, none);  // else it would stop the resumed run
+      // Else it would stop the resumed run.
+      if (std::error_code error; rank_ == 0 && !std::filesystem::remove(stop_file_, error) && error)
+        fmt::print(stderr, "peperite: warning: {} cannot be removed and will stop the resumed run: {}\n",
+                   stop_file_.string(), error.message());
       [[fallthrough]];
     }
     case Wish::checkpoint:

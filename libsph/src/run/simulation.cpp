@@ -281,7 +281,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) &&
                       std::isfinite(maxima_.sound) && !physics_.findings().any();
   const Findings left = find_leavers();
-  std::array<double, 8> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
+  std::array<double, 9> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
                             static_cast<double>(request)};
   all[6] = left.any() ? 1 : 0;
   std::vector<std::int64_t> sums;
@@ -292,7 +292,8 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
     all[5] = grains_->swept().deep.any() ? 1.0 : 0.0;
     sums = grains_->wall_force();
   } else if (scene_.terms.shifting) {
-    sums.assign(maxima_.motion.begin(), maxima_.motion.end());
+    all[8] = maxima_.motion.largest;
+    sums.assign(maxima_.motion.sums.begin(), maxima_.motion.sums.end());
     sums.push_back(maxima_.volume);
   }
   {
@@ -312,7 +313,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   } else {
     growth_ = all[7];
     moved_ += physics_.longest_shift(global_);
-    if (scene_.terms.shifting) take_motion(sums);
+    if (scene_.terms.shifting) take_motion(sums, all[8]);
   }
   ++global_.step;
   global_.time += global_.dt;
@@ -328,9 +329,9 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   return static_cast<std::int64_t>(all[3]);
 }
 
-void Simulation::take_motion(std::span<const std::int64_t> sums) {
-  MotionSums motion;
-  std::copy_n(sums.begin(), motion.size(), motion.begin());
+void Simulation::take_motion(std::span<const std::int64_t> sums, double largest) {
+  MotionSums motion{{}, largest};
+  std::copy_n(sums.begin(), motion.sums.size(), motion.sums.begin());
   global_.motion = physics_.common_motion(motion, global_);
   if (!scene_.open) global_.fluid_volume.now = sums.back();
 }

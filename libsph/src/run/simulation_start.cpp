@@ -38,11 +38,15 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   global_.max_speed = largest[0];
   global_.dt = physics_.time_step({largest[0], 0, 0, largest[1], largest[2]});
   global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(physics_.fluid_volume(particles_));
-  // The mean first, then what differs from it.
-  for (int k = 0; k < 2 && scene_.terms.shifting; ++k) {
-    MotionSums sums = physics_.motion_sums(particles_, global_);
-    comm_.sum(std::span<std::int64_t>(sums));
-    global_.motion = physics_.common_motion(sums, global_);
+  // The mean first, then the largest difference from it, then all.
+  if (scene_.terms.shifting) global_.motion.largest = global_.max_speed;
+  for (int k = 0; k < 3 && scene_.terms.shifting; ++k) {
+    MotionSums motion = physics_.motion_sums(particles_, global_);
+    comm_.sum(std::span<std::int64_t>(motion.sums));
+    std::array<double, 1> most{motion.largest};
+    comm_.max(most);
+    motion.largest = most[0];
+    global_.motion = physics_.common_motion(motion, global_);
   }
   try {
     guard_motion(physics_.longest_advance(global_));

@@ -7,19 +7,40 @@
 
 namespace sph {
 
+namespace {
+
+// Beyond it is no matter of the group's, and products of such values leave the range of the numbers.
+constexpr double most = 1e6;
+
+bool is_near(double value, double usual) { return value <= most * usual && value * most >= usual; }
+
+std::string advice(const Group& g, double density) {
+  if (density > 0) return fmt::format("it must be within 1e-6 to 1e6 of the group's {:.6g}", g.density);
+  if (g.eos == EosKind::bubbly)
+    return "without pressure bubbly magma is all gas: raise domain.surface_pressure";
+  return "raise the group's bulk_modulus or sound_speed, or the least pressure of the start";
+}
+
+}  // namespace
+
 void check_start_densities(const decomp::Comm& comm, const Scene& scene, const Particles& particles) {
   const double* density = particles.data<Field::density>();
+  const double* mass = particles.data<Field::mass>();
+  double volume = 1;
+  for (int a = 0; a < scene.dim; ++a) volume *= scene.spacing;
   Findings found;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     const Group& g = scene.groups[particles.data<Field::group>()[i]];
     const std::uint64_t id = particles.data<Field::id>()[i];
-    if (density[i] > 0 || g.eos == EosKind::ideal_gas) continue;  // that of a gas is summed later
+    const double usual = g.density * volume;
+    const bool summed = g.eos == EosKind::ideal_gas;  // the density of a gas: later
+    if ((summed || is_near(density[i], g.density)) && is_near(mass[i], usual)) continue;
     found.add(id, [&] {
-      return fmt::format(
-          "start: particle {} of group {} would have a density of {:.6g} kg/m^3; {}", id, g.name, density[i],
-          g.eos == EosKind::bubbly
-              ? "without pressure bubbly magma is all gas: raise domain.surface_pressure"
-              : "raise the group's bulk_modulus or sound_speed, or the least pressure of the start");
+      const std::string who = fmt::format("start: particle {} of group {} would have a ", id, g.name);
+      if (!summed && !is_near(density[i], g.density))
+        return fmt::format("{}density of {:.6g} kg/m^3; {}", who, density[i], advice(g, density[i]));
+      return fmt::format("{}mass of {:.6g} kg; it must be within 1e-6 to 1e6 of the group's {:.6g}", who,
+                         mass[i], usual);
     });
   }
   if (const std::string text = found.agree(comm); !text.empty()) throw InputError(scene.file + ": " + text);

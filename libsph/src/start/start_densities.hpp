@@ -1,4 +1,5 @@
-// A start whose suction is beyond the bulk modulus of a material leaves it no density.
+// Densities and masses of a start that cannot be: suction beyond the bulk modulus of a material leaves it
+// none, and rows may say anything.
 #pragma once
 
 #include "decomp/comm.hpp"

@@ -133,6 +133,7 @@ std::uint32_t group_of(const Scene& scene, std::string_view cell, std::int64_t l
 void read_row(const Scene& scene, const Columns& c, std::string_view text, std::int64_t line,
               StartRows& rows) {
   const std::vector<std::string_view> cells = cells_of(text);
+  if (text.find('\0') != std::string_view::npos) fail(line, "holds a byte of value 0; it must be plain text");
   if (cells.size() != c.count) fail(line, fmt::format("has {} values, the header {}", cells.size(), c.count));
   const auto cell = [&](int column) { return cells[static_cast<std::size_t>(column)]; };
   const auto real = [&](int column, std::string_view name) {
@@ -183,6 +184,10 @@ StartRows read_csv_rows(const Scene& scene, const std::string& file, int rank, i
   std::string line;
   std::int64_t header_line = 1;
   while (std::getline(in, line) && is_comment(line)) ++header_line;
+  constexpr std::string_view mark = "\xef\xbb\xbf";  // of UTF-8, by some editors
+  if (line.starts_with(mark)) line.erase(0, mark.size());
+  if (line.find('\0') != std::string::npos)
+    throw RowProblem(0, "is no plain text but binary, or UTF-16; save it as ASCII or UTF-8");
   // What is not the end of its line: those of a file with CR alone are one line to everyone else.
   if (line.find('\r') < line.size() - 1)
     throw RowProblem(0, "ends its lines with CR alone; save it with LF, or CR and LF, as line ends");
