@@ -188,6 +188,15 @@ until = 1
         out = self.check("start.region=", "start.file=fast.csv")
         assert "start.file: 50 m/s is Mach 1.25" in out, out
 
+    def test_thin_tension(self):
+        bubble = self.cases.parents[1] / "benchmarks" / "accuracy" / "rising_bubble.toml"
+        thin = ["--set", "group.liquid.viscosity=0.1", "--set", "group.bubble.viscosity=0.1"]
+        warning = "tension as a stress moves the interface"
+        assert warning not in self.run.run(1, "peperite", "check", bubble).out
+        assert warning in self.run.run(1, "peperite", "check", bubble, *thin).out
+        jump = ["--set", "terms.surface_tension.form=jump"]
+        assert warning not in self.run.run(1, "peperite", "check", bubble, *thin, *jump).out
+
     def test_suction(self):
         flow = self.cases.parents[1] / "benchmarks" / "accuracy" / "taylor_green.toml"
         for command in (["check"], ["run", "--out", "no"]):

@@ -155,6 +155,24 @@ std::string gas_text(const Scene& scene) {
       scene.least_growth * scene.smoothing_length, scene.largest_growth * scene.smoothing_length, thinner);
 }
 
+/// By the number of Ohnesorge of what a kernel sees: 0.37 and 1.3 in Hysing's bubbles, where the stress is
+/// right, 0.005 where it is not (benchmarks/accuracy/drop_at_rest.py).
+std::string tension_text(const Scene& scene) {
+  constexpr double thick = 0.05;
+  const InterfaceTension& tension = scene.terms.surface_tension;
+  if (!(tension.coefficient > 0) || tension.form != TensionForm::stress) return {};
+  double most = 0;
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::fluid)
+      most =
+          std::max(most, g.viscosity / std::sqrt(g.density * tension.coefficient * scene.smoothing_length));
+  if (most >= thick) return {};
+  return fmt::format(
+      "warning: tension as a stress moves the interface of fluids as thin as these (viscosity /\n"
+      "  sqrt(density tension h) = {:.2g}): set terms.surface_tension.form = \"jump\"\n",
+      most);
+}
+
 std::string passes_text(const Scene& scene, const Physics& physics) {
   std::string out;
   const std::vector<FieldSet> sent = refreshes_of(physics);
@@ -229,9 +247,9 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
     const bool grains = scene.of_grains();
     const double dt = grains ? Grains(scene, scale).time_step() : physics.time_step({});
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
                  unlooked_text(scene, placed), memory_text(scene, physics, need, machine), gas_text(scene),
-                 passes_text(scene, physics),
+                 tension_text(scene), passes_text(scene, physics),
                  grains ? contact_step_text(scene, dt) : courant_text(scene, dt, physics.courant_number(dt)),
                  speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
                  ranks_text(scene, grid, start.count.all));
