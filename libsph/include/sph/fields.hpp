@@ -73,6 +73,9 @@ enum class Shape : std::uint8_t {
   deformation
 };
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
+/// What a pass multiplies a sum of its pairs by, once, to undo the scaled units of pair_rows.hpp: nothing,
+/// the factor of sums of V_j grad W, of V_i V_j grad W, or of the density diffusion. none: no term sums it.
+enum class SumScale : std::uint8_t { none, one, gradient, force, diffusion };
 
 /// state: its bits at the start of a step determine the next step, so it is migrated, checkpointed and
 /// fingerprinted. derived: recomputed from state wherever it is needed; migrated never. `snapshot`: written
@@ -86,6 +89,7 @@ struct FieldInfo {
   bool state;
   bool snapshot;
   std::string_view meaning;
+  SumScale sum = SumScale::none;
 };
 
 // Symmetric tensors are stored xx, yy, xy in 2D and xx, yy, zz, xy, xz, yz in 3D; matrices row by row,
@@ -115,29 +119,35 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "local speed of sound where it varies (bubbly magma, ideal gas)"},
     {Field::void_fraction, "void_fraction", "1", Type::f64, Shape::scalar, false, true,
      "psi: volume fraction of gas, Ida eq. (14)"},
-    {Field::force, "force", "N", Type::f64, Shape::vector, false, false, "sum of the pair forces"},
+    {Field::force, "force", "N", Type::f64, Shape::vector, false, false, "sum of the pair forces",
+     SumScale::force},
     {Field::heating, "heating", "W", Type::f64, Shape::spread, false, false,
-     "of an ideal gas: heat of viscous forces and what is conducted; the viscous force [N]"},
+     "of an ideal gas: heat of viscous forces and what is conducted; the viscous force [N]", SumScale::force},
     {Field::number_density, "number_density", "1", Type::f64, Shape::two, false, false,
-     "kernel sums near a particle of an ideal gas: over movers, and over the volumes of walls"},
+     "kernel sums near a particle of an ideal gas: over movers, and over the volumes of walls",
+     SumScale::one},
     {Field::gas_moments, "gas_moments", "1", Type::f64, Shape::deformation, false, false,
-     "near a particle of an ideal gas: the sums of number_density with q dW/dq, then of W x x and W v x"},
+     "near a particle of an ideal gas: the sums of number_density with q dW/dq, then of W x x and W v x",
+     SumScale::one},
     {Field::kernel_correction, "kernel_correction", "1", Type::f64, Shape::scalar, false, false,
      "1 / Omega of an ideal gas: what a kernel that follows the volume adds to the pressure force"},
-    {Field::divergence, "divergence", "1/s", Type::f64, Shape::scalar, false, false, "div v"},
+    {Field::divergence, "divergence", "1/s", Type::f64, Shape::scalar, false, false, "div v",
+     SumScale::gradient},
     {Field::diffusion, "diffusion", "kg/m^3/s", Type::f64, Shape::scalar, false, false,
-     "density diffusion: its part of d rho/dt"},
+     "density diffusion: its part of d rho/dt", SumScale::diffusion},
     {Field::velocity_gradient, "velocity_gradient", "1/s", Type::f64, Shape::matrix, false, false,
-     "d v_i/d x_j"},
+     "d v_i/d x_j", SumScale::gradient},
     {Field::spread, "spread", "1/m", Type::f64, Shape::shifting, false, false,
      "gradient of the particle concentration, against which particles are shifted, it itself over h, and so "
-     "is the sum of squares of how fast movers part [m/s^2]"},
+     "is the sum of squares of how fast movers part [m/s^2]",
+     SumScale::gradient},
     {Field::colour_gradient, "colour_gradient", "1/m", Type::f64, Shape::vector, false, false,
-     "near an interface with tension: gradient of the other fluid's share of the volume"},
+     "near an interface with tension: gradient of the other fluid's share of the volume", SumScale::gradient},
     {Field::wall_sums, "wall_sums", "1", Type::f64, Shape::wall, false, false,
-     "kernel sums over the fluid near a wall particle: weight, pressure, velocity, distance / h"},
+     "kernel sums over the fluid near a wall particle: weight, pressure, velocity, distance / h",
+     SumScale::one},
     {Field::wall_sums_by_density, "wall_sums_by_density", "1", Type::f64, Shape::four, false, false,
-     "the first two of wall_sums over lighter fluids, then over heavier ones"},
+     "the first two of wall_sums over lighter fluids, then over heavier ones", SumScale::one},
     {Field::wall_pressures, "wall_pressures", "Pa", Type::f64, Shape::two, false, false,
      "of a wall particle for lighter and for heavier fluids"},
     {Field::wall_mirror, "wall_mirror", "1", Type::f64, Shape::scalar, true, false,
@@ -152,23 +162,25 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::bonds, "bonds", "1", Type::u32, Shape::scalar, true, false,
      "of total-Lagrangian solids: neighbours of the same body in the reference state"},
     {Field::deformation, "deformation", "1", Type::f64, Shape::deformation, false, false,
-     "sums over bonds: their number, squared displacements, X X and u X (terms/bonds.hpp)"},
+     "sums over bonds: their number, squared displacements, X X and u X (terms/bonds.hpp)", SumScale::one},
     {Field::bond_stress, "bond_stress", "Pa", Type::f64, Shape::matrix, false, false,
      "P L less the hourglass stress: what a particle brings into its bonds"},
     {Field::strain_energy, "strain_energy", "J", Type::f64, Shape::scalar, false, true,
      "of total-Lagrangian solids: elastic energy of the particle, hourglass energy included"},
     {Field::contact_energy, "contact_energy", "J", Type::f64, Shape::scalar, false, false,
-     "half the energy of the particle's contacts with other bodies"},
+     "half the energy of the particle's contacts with other bodies", SumScale::one},
     {Field::direction, "direction", "m/s", Type::f64, Shape::vector, false, false,
      "implicit viscosity: what the viscous operator is applied to"},
     {Field::viscous_sums, "viscous_sums", "N", Type::f64, Shape::spread, false, false,
-     "viscous force on a particle if `direction` were the velocities, and the drag on it alone [kg/s]"},
+     "viscous force on a particle if `direction` were the velocities, and the drag on it alone [kg/s]",
+     SumScale::force},
     {Field::wall_share, "wall_share", "1/m", Type::f64, Shape::spread, false, false,
-     "gradient of the walls' share of the kernel's volume, and it itself over h"},
+     "gradient of the walls' share of the kernel's volume, and it itself over h", SumScale::gradient},
     {Field::wall_slope, "wall_slope", "1", Type::f64, Shape::vector, false, false,
      "normal of the wall nearby times h over the distance from it"},
     {Field::curvature_sums, "curvature_sums", "1", Type::f64, Shape::two, false, false,
-     "near an interface with tension: how its normals turn and over how far, or curvatures and their weight"},
+     "near an interface with tension: how its normals turn and over how far, or curvatures and their weight",
+     SumScale::one},
     {Field::curvature, "curvature", "1/m", Type::f64, Shape::scalar, false, false,
      "of the interface with tension nearby, positive where its first fluid is inside; 0 far from it"},
 }};

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sph/fields.hpp"
@@ -286,10 +287,13 @@ struct PairPass {
     return c;
   }
 
-  static constexpr bool has_own_scale(Field f) {
-    return f == Field::number_density || f == Field::gas_moments || f == Field::wall_sums ||
-           f == Field::wall_sums_by_density || f == Field::deformation || f == Field::contact_energy ||
-           f == Field::curvature_sums;
+  template <SumScale S>
+  static double factor(const PassContext& c) {
+    static_assert(S != SumScale::none, "a term writes a field whose sum has no scale in the table of fields");
+    if constexpr (S == SumScale::force) return c.force_factor;
+    if constexpr (S == SumScale::gradient) return c.gradient_factor;
+    if constexpr (S == SumScale::diffusion) return c.diffusion_factor;
+    return 1.0;
   }
 
   template <Field F>
@@ -297,36 +301,20 @@ struct PairPass {
                           const Sums<T, D, writes>& sums) {
     if constexpr (writes.has(F)) {
       constexpr int n = components(info(F).shape, D);
-      const double factor = F == Field::force || F == Field::heating || F == Field::viscous_sums
-                                ? c.force_factor
-                            : F == Field::diffusion ? c.diffusion_factor
-                            : has_own_scale(F)      ? 1.0
-                                                    : c.gradient_factor;
+      const double scale = factor<info(F).sum>(c);
       double* out = c.particles->template data<F>() + first * n;
       for (std::size_t l = 0; l < count; ++l)
         for (int k = 0; k < n; ++k)
-          out[l * n + k] = static_cast<double>(sums.v[sums.offset(F) + k][static_cast<int>(l)]) * factor;
+          out[l * n + k] = static_cast<double>(sums.v[sums.offset(F) + k][static_cast<int>(l)]) * scale;
     }
   }
 
   static void store(const PassContext& c, std::size_t first, std::size_t count,
                     const Sums<T, D, writes>& sums) {
-    store_field<Field::force>(c, first, count, sums);
-    store_field<Field::heating>(c, first, count, sums);
-    store_field<Field::number_density>(c, first, count, sums);
-    store_field<Field::gas_moments>(c, first, count, sums);
-    store_field<Field::divergence>(c, first, count, sums);
-    store_field<Field::diffusion>(c, first, count, sums);
-    store_field<Field::velocity_gradient>(c, first, count, sums);
-    store_field<Field::spread>(c, first, count, sums);
-    store_field<Field::colour_gradient>(c, first, count, sums);
-    store_field<Field::wall_sums>(c, first, count, sums);
-    store_field<Field::wall_sums_by_density>(c, first, count, sums);
-    store_field<Field::deformation>(c, first, count, sums);
-    store_field<Field::contact_energy>(c, first, count, sums);
-    store_field<Field::viscous_sums>(c, first, count, sums);
-    store_field<Field::wall_share>(c, first, count, sums);
-    store_field<Field::curvature_sums>(c, first, count, sums);
+    [&]<std::size_t... F>(std::index_sequence<F...>) {
+      (store_field<static_cast<Field>(F)>(c, first, count, sums), ...);
+    }
+    (std::make_index_sequence<field_count>());
   }
 };
 
