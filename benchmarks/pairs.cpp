@@ -102,11 +102,13 @@ double pass_seconds(sph::Simulation& s, sph::Particles& particles, const sph::Ne
                     const sph::RowRanges& ranges) {
   static decomp::LargeVector<std::byte> rows;
   const double start = cpu_seconds();
-  for (const sph::Pass& pass : s.physics().passes()) {
-    const sph::PassContext context = s.physics().context(particles, lists, rows, s.global().dt);
-    pass.fusion->pack(context, 0, particles.rows());
-    for (const sph::RowRange& r : ranges) pass.fusion->run(context, r);
-  }
+  for (const sph::Entry* entry : sph::entries_of(s.plan()))
+    for (const sph::Stage& stage : entry->stages) {
+      if (stage.fusion == nullptr) continue;
+      const sph::PassContext context = s.physics().context(particles, lists, rows, s.global().dt);
+      stage.fusion->pack(context, 0, particles.rows());
+      for (const sph::RowRange& r : ranges) stage.fusion->run(context, r);
+    }
   return cpu_seconds() - start;
 }
 

@@ -35,10 +35,9 @@ class Bodies {
     overrides.push_back("start.file=" + file.string());
     overrides.push_back("start.spacing=" + number);
     const bool is_text = scene.find('\n') != std::string::npos;
-    sph::Simulation s(comm, is_text ? sph::parse_scene(scene, "solid.toml", overrides)
-                                    : sph::read_scene(PEPERITE_ACCURACY_DIR "/" + scene, overrides));
-    std::filesystem::remove(file);
-    return s;
+    const measure::Removed removed{file};
+    return sph::Simulation(comm, is_text ? sph::parse_scene(scene, "solid.toml", overrides)
+                                         : sph::read_scene(PEPERITE_ACCURACY_DIR "/" + scene, overrides));
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -14,6 +15,15 @@
 #include "sph/simulation.hpp"
 
 namespace measure {
+
+/// A file of which nothing is left.
+struct Removed {
+  std::filesystem::path file;
+  ~Removed() {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  }
+};
 
 struct Sample {
   double x[3], v[3], rho, p, mass;

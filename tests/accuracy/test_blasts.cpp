@@ -35,9 +35,8 @@ sph::Simulation gas(const decomp::Comm& comm, const std::string& scene, int dim,
   }
   csv.close();
   settings.push_back("start.file=" + file.string());
-  sph::Simulation s(comm, sph::read_scene(std::string(PEPERITE_ACCURACY_DIR) + "/" + scene, settings));
-  std::filesystem::remove(file);
-  return s;
+  const measure::Removed removed{file};
+  return sph::Simulation(comm, sph::read_scene(std::string(PEPERITE_ACCURACY_DIR) + "/" + scene, settings));
 }
 
 /// As blast.py makes it: n particles a side, energy 1 in a Gaussian in the middle of a cold gas.

@@ -30,11 +30,10 @@ sph::Simulation start(const decomp::Comm& comm, const char* scene, int n, Fluid 
           csv << ++id << ',' << x << ',' << y << ',' << vx << ',' << vy << ",0," << rho << ",0\n";
       }
   }
-  sph::Simulation s(
+  const measure::Removed removed{file};
+  return sph::Simulation(
       comm, sph::read_scene(std::string(PEPERITE_ACCURACY_DIR "/") + scene,
                             {"start.file=" + file.string(), "start.spacing=" + std::to_string(1.0 / n)}));
-  std::filesystem::remove(file);
-  return s;
 }
 
 /// Half axis b and area at 7.6 ms over the exact ones, with n particles along the radius.

@@ -57,12 +57,11 @@ sph::Simulation sod_tube(const decomp::Comm& comm, int n) {
           << ',' << mass << ',' << p / (0.4 * rho) << '\n';
   }
   csv.close();
-  sph::Simulation s(comm,
-                    sph::read_scene(PEPERITE_ACCURACY_DIR "/sod.toml",
-                                    {"start.file=" + file.string(), "start.spacing=" + std::to_string(dx),
-                                     "domain.upper=[0.8, " + std::to_string(rows * dx) + "]"}));
-  std::filesystem::remove(file);
-  return s;
+  const measure::Removed removed{file};
+  return sph::Simulation(
+      comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/sod.toml",
+                            {"start.file=" + file.string(), "start.spacing=" + std::to_string(dx),
+                             "domain.upper=[0.8, " + std::to_string(rows * dx) + "]"}));
 }
 
 TEST(Gas, SodsTube) {

@@ -20,9 +20,8 @@ sph::Simulation from_rows(const decomp::Comm& comm, const char* scene, const std
       std::filesystem::temp_directory_path() / ("peperite_shifting_" + std::to_string(getpid()) + ".csv");
   std::ofstream(file) << "id,x,y,vx,vy,group,rho,m\n" << rows;
   overrides.push_back("start.file=" + file.string());
-  sph::Simulation s(comm, sph::read_scene(std::string(PEPERITE_ACCURACY_DIR "/") + scene, overrides));
-  std::filesystem::remove(file);
-  return s;
+  const measure::Removed removed{file};
+  return sph::Simulation(comm, sph::read_scene(std::string(PEPERITE_ACCURACY_DIR "/") + scene, overrides));
 }
 
 std::string row(int id, double x, double y, double vx, double vy, double rho) {

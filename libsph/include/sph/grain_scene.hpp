@@ -68,11 +68,11 @@ struct WallChange {
   std::optional<double> force;
   friend bool operator==(const WallChange&, const WallChange&) = default;
 };
-struct Stage {
+struct WallStage {
   std::string name;
   double begin = 0;  ///< [s], ascending
   std::vector<WallChange> walls;
-  friend bool operator==(const Stage&, const Stage&) = default;
+  friend bool operator==(const WallStage&, const WallStage&) = default;
 };
 
 /// A settled packing that is repeated side by side.

@@ -11,6 +11,7 @@
 #include "sph/contact_lists.hpp"
 #include "sph/contact_pass.hpp"
 #include "sph/findings.hpp"
+#include "sph/models/model.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
 
@@ -45,10 +46,22 @@ struct GrainTimeSteps {
 void check_wall_speeds(const Scene& scene);
 void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles);
 
-class Grains {
+class Grains final : public Model {
  public:
   Grains(const Scene& scene, const PositionScale& scale);
 
+  void reserve(Reduction& reduction) override;
+  [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
+  void guard(const decomp::Comm& comm, const StepState& state, const Reduction& reduction) const override;
+  /// Walls drift with the velocity they had, servos answer to the force of this step.
+  void act(const Reduction& reduction, GlobalState& global) override;
+  [[nodiscard]] double path(const GlobalState& global, double speed) const override;
+  /// Of this rank's grains, or of a wall.
+  [[nodiscard]] std::optional<double> longest_way(const Particles& particles,
+                                                  const GlobalState& global) const override;
+
+  /// Its stages; it must stay where it is.
+  [[nodiscard]] Plan plan();
   /// Fields of the halo a sweep reads that change with every step.
   [[nodiscard]] FieldSet reads() const;
   /// Those that change only when rows move.
@@ -61,7 +74,7 @@ class Grains {
 
   /// Walls as the scene describes them, before the first step.
   [[nodiscard]] std::vector<WallState> first_walls() const;
-  /// Takes the changes of the stages that begin at or before the present time; call before each step.
+  /// Takes the changes of the scene's stages that begin at or before the present time.
   void set_stage(GlobalState& global) const;
 
   /// Gives back what the next rebuild makes anew: while contacts travel, memory is at its peak.
@@ -77,18 +90,6 @@ class Grains {
   void begin_step(const Particles& particles, const GlobalState& global);
   void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
   [[nodiscard]] ContactContext context(Particles& particles, double dt);  ///< of a sweep
-  [[nodiscard]] const ContactSweep& swept() const { return sweep_; }
-  /// Of this rank [quanta], as ContactContext has them.
-  [[nodiscard]] std::vector<std::int64_t>& wall_force() { return wall_force_; }
-
-  /// After the reduction: walls drift with the velocity they had, servos answer to the force of this step.
-  void move_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const;
-
-  /// Largest way of this rank's grains, or of a wall, since the last rebuild [m].
-  [[nodiscard]] double longest_way(const Particles& particles, const GlobalState& global) const;
-  [[nodiscard]] double fastest_wall(const GlobalState& global) const;
-  [[nodiscard]] double longest_move() const { return longest_move_; }
-  [[nodiscard]] std::string move_text(double way) const;
   /// Contacts in rebuild() that the lists do not hold though their pairs cannot have parted so far.
   void find_lost(const Particles& particles, const GlobalState& global, double skin, Findings& lost) const;
   [[nodiscard]] double time_step() const { return dt_; }
@@ -119,6 +120,12 @@ class Grains {
     std::optional<double> force;
   };
   [[nodiscard]] WallNow wall_now(std::size_t wall, const GlobalState& global) const;
+  void move_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const;
+  /// From their two halves, summed over all ranks.
+  [[nodiscard]] std::vector<std::int64_t> wall_forces(std::span<const std::int64_t> halves,
+                                                      const GlobalState& global) const;
+  [[nodiscard]] std::string text_of(const ContactFault& fault) const;
+  void find_too_fast(const StepState& state, Findings& found) const;
   void find_constants();
   void find_quanta();
 
@@ -135,6 +142,8 @@ class Grains {
   std::vector<std::int64_t> reference_;  ///< positions at the last rebuild [quanta]
   std::vector<std::array<std::int64_t, 3>> wall_reference_;
   ContactSweep sweep_;
+  Reduction::Maximum strong_, deep_;  ///< a contact on any rank is
+  Reduction::Sums halves_;            ///< of the forces on walls
   Counters counters_;
 };
 

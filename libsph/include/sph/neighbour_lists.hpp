@@ -26,6 +26,9 @@ struct RowRange {
 
 enum class RowClass : std::uint8_t { interior_movers, interior_walls, boundary_movers, boundary_walls };
 using RowRanges = std::array<RowRange, 4>;
+[[nodiscard]] inline const RowRange& range_of(const RowRanges& ranges, RowClass c) {
+  return ranges[static_cast<std::size_t>(c)];
+}
 
 /// Free order (lists as they were found) exists to measure what the canonical order costs; benchmarks only.
 enum class PartnerOrder { by_id, as_found };

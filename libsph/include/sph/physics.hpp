@@ -1,5 +1,5 @@
-// What a scene computes: the fields it needs and its ordered list of passes and local updates. Which halo
-// refresh goes before which pass is derived from what the passes read; nothing here knows about ranks.
+// What a scene of fluids and solids computes: the fields it needs and the stages of its plan. Nothing here
+// knows about ranks.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,7 @@
 #include "sph/eos.hpp"
 #include "sph/findings.hpp"
 #include "sph/fusions.hpp"
+#include "sph/models/model.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
 #include "sph/surface_gradient.hpp"
@@ -20,16 +21,6 @@
 
 namespace sph {
 
-/// Maxima that travel in the step's one reduction; part of the state where the next step depends on them.
-struct StepMaxima {
-  double speed = 0;         ///< [m/s]
-  double acceleration = 0;  ///< [m/s^2]
-  std::int64_t volume = 0;  ///< of this rank's fluid, see FluidVolume; a sum
-  double sound = 0;         ///< of ideal gases; 0: not looked at yet [m/s]
-  double viscosity = 0;     ///< eta / rho of ideal gases [m^2/s]
-  MotionSums motion{};      ///< of this rank's particles that move
-};
-
 /// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
 [[nodiscard]] inline double courant_limit(const Scene& scene) {
   return scene.total_lagrangian() ? 1.0 : 1.2;  // contacts and the stiffest allowed hourglass control
@@ -37,25 +28,21 @@ struct StepMaxima {
 /// What is recommended, and the default of time.cfl.
 inline constexpr double courant_recommended = 0.8;
 
-class ViscositySolver;
-
-struct Pass {
-  std::string name;
-  const Fusion* fusion;
-  bool movers, walls;  ///< rows it runs over
-  FieldSet reads;      ///< of neighbours, so needed in the halo
-  std::function<void(Particles&, const RowRanges&, const GlobalState&)>
-      update;                               ///< local update after it; may be empty
-  FieldSet changes;                         ///< fields the update, or the solver, changes
-  std::shared_ptr<ViscositySolver> solver;  ///< has the pass repeated until it has converged; may be empty
-};
-
-class Physics {
+class Physics final : public Model {
  public:
   Physics(const Scene& scene, const PositionScale& scale);
 
+  void reserve(Reduction& reduction) override;
+  [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
+  void guard(const decomp::Comm& comm, const StepState& state, const Reduction& reduction) const override;
+  void act(const Reduction& reduction, GlobalState& global) override;
+  void set_step(const Reduction& reduction, GlobalState& global) const override;
+  [[nodiscard]] double longest_look_back(const GlobalState& global) const override;
+  [[nodiscard]] double growth(const Reduction& reduction) const override { return reduction[growth_]; }
+  [[nodiscard]] double speed_limit() const override;
+
   [[nodiscard]] FieldSet fields() const { return fields_; }
-  [[nodiscard]] const std::vector<Pass>& passes() const { return passes_; }
+  [[nodiscard]] const Plan& plan() const { return plan_; }
   [[nodiscard]] PassContext context(Particles& particles, const NeighbourLists& lists,
                                     decomp::LargeVector<std::byte>& rows, double dt) const;
 
@@ -74,12 +61,7 @@ class Physics {
 
   /// How far the partners of each row may be before the next rebuild, in metres, the ways of the particles
   /// left aside; empty where that is the same for all.
-  [[nodiscard]] std::vector<double> reaches(const Particles& particles) const;
-  /// Largest growth of the owned particles' reach since they were `listed`, at the end of the step to come.
-  [[nodiscard]] double growth(const Particles& particles, std::span<const double> listed) const;
-
-  /// Fields integrate() changes.
-  [[nodiscard]] FieldSet integrated() const;
+  [[nodiscard]] const std::vector<double>& find_reaches(const Particles& particles);
 
   /// Largest step the integrator takes [s], from the maxima of the step before.
   [[nodiscard]] double time_step(const StepMaxima& maxima) const;
@@ -87,10 +69,6 @@ class Physics {
   /// at the start of the step [m].
   [[nodiscard]] double longest_advance(const GlobalState& global) const;
   [[nodiscard]] double longest_shift(const GlobalState& global) const;
-  /// ... and on how far from its place a pass takes a particle to be: where it was half a step ago [m].
-  [[nodiscard]] double longest_look_back(const GlobalState& global) const;
-  /// Faster than that nothing flies that the scene could mean [m/s].
-  [[nodiscard]] double speed_limit() const;
   /// Speed, sound and viscosity of this rank's particles at the start.
   [[nodiscard]] StepMaxima maxima_at_start(const Particles& particles) const;
   /// Of this rank's particles that move, where the scene shifts them; see FluidVolume.
@@ -142,14 +120,23 @@ class Physics {
   void heat(Particles&, const RowRanges&, const GlobalState&, StepMaxima&) const;
   void look_at_gas(const Particles&, std::size_t first, std::size_t last, StepMaxima&) const;
   void change_group(Particles&, std::size_t row) const;
+  /// Largest growth of the owned particles' reach since they were listed, at the end of the step to come.
+  [[nodiscard]] double growth_since_listed(const Particles&) const;
   void average(Particles&, const GlobalState&) const;
-  void add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls);
+  /// Rows that a stage runs over.
+  enum class Rows : std::uint8_t { movers, walls, all };
+  using Update = std::function<void(Particles&, const RowRanges&, const GlobalState&)>;
+  [[nodiscard]] Stage sums_over_pairs(std::string name, const std::vector<Term>& terms, Rows rows);
+  void add_sums(std::string name, const std::vector<Term>& terms, Rows rows = Rows::movers);
+  void add_update(std::string name, FieldSet writes, Update update);
+  void add_drift();
+  void add_kick();
 
   const Scene* scene_;
   PositionScale scale_;
   bool gas_;  ///< there is an ideal gas
   FieldSet fields_;
-  std::vector<Pass> passes_;
+  Plan plan_;
   GroupTable groups_;
   std::vector<BubblyEos> bubbly_;  ///< by group; used where the group's eos says so
   bool bulk_viscous_ = false;
@@ -160,8 +147,11 @@ class Physics {
   std::optional<WallDistance> wall_distance_;  ///< beside implicit viscosity
   TermConstants<double> constants_;
   double gradient_factor_, force_factor_, diffusion_factor_;
-  double own_concentration_;  ///< V W(0) of a particle of volume spacing^D
-  double kernel_at_zero_;     ///< W(0) without its factor
+  double own_concentration_;    ///< V W(0) of a particle of volume spacing^D
+  double kernel_at_zero_;       ///< W(0) without its factor
+  std::vector<double> listed_;  ///< reaches of the rows when they were listed, where each has its own [m]
+  Reduction::Maximum faults_, sound_, viscosity_, growth_, unlike_;
+  Reduction::Sums motion_, volume_;  ///< none where particles are not shifted
   mutable Findings findings_;
 };
 

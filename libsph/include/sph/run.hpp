@@ -21,6 +21,7 @@ struct RunOptions {
   std::optional<std::int64_t> steps;   ///< end after so many steps, counted from 0 ...
   std::optional<std::string> until;    ///< ... or at this time: both instead of what the scene says
   std::optional<double> max_seconds;   ///< of wall time: then checkpoint and stop
+  bool plan = false;                   ///< check: print the stages of a step
 };
 
 /// Collective. Returns exit_done, or exit_resume if it was stopped with a checkpoint. Throws InputError,

@@ -200,7 +200,7 @@ struct Scene {
   std::vector<Group> groups;
   ContactControl contact;  ///< grains only, as are walls and stages
   std::vector<Wall> walls;
-  std::vector<Stage> stages;
+  std::vector<WallStage> stages;
   Start start;
   bool free_surface = false;  ///< there is one, as far as the start shows
   bool open = false;          ///< there is, and particles are shifted

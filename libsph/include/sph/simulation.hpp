@@ -14,6 +14,7 @@
 #include "sph/fingerprint.hpp"
 #include "sph/grains.hpp"
 #include "sph/physics.hpp"
+#include "sph/plan/halo_exchange.hpp"
 #include "sph/scene.hpp"
 
 namespace sph {
@@ -24,6 +25,9 @@ class Simulation {
   Simulation(const decomp::Comm& comm, const Scene& scene);
   /// From a checkpoint, on any number of ranks.
   Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint);
+
+  Simulation(const Simulation&) = delete;  // its models stay where they are
+  Simulation& operator=(const Simulation&) = delete;
 
   /// One time step. `request` (any integer, the caller's) travels with the step's reduction: the largest over
   /// all ranks is returned, one step late by construction.
@@ -57,42 +61,41 @@ class Simulation {
   [[nodiscard]] std::string fingerprint() const;
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
 
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+
   struct Counters {
-    std::int64_t rebuilds = 0, refreshes = 0;
+    std::int64_t rebuilds = 0;
     std::int64_t iterations = 0, solved = 0;  ///< of solvers, and how often they were asked
+    std::int64_t repeats = 0;                 ///< of loops
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
+  [[nodiscard]] std::int64_t refreshes() const { return exchange_.refreshes(); }  ///< of the halo
 
  private:
+  void add_models();
   void begin();  ///< common end of both constructors
   void kick_half_a_step();
-  void step_in_passes();
-  void step_in_a_sweep();
   void rebuild();
   void build_lists();
   void widen_kernels();
   void rebuild_contacts(const decomp::Payload& contacts, std::span<const std::uint32_t> order,
                         const ContactCensus& sent);
   [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows() const;
-  void dawdle();
-  enum class Side { interior, boundary };
-  void compute(const Pass& pass);
-  [[nodiscard]] bool improve(const Pass& pass);
-  using Pack = decltype(Fusion::pack);
-  void run(const Pass& pass, const PassContext& context, Side side, Pack pack);
-  void refresh_begin(FieldSet wanted);
-  void refresh_end();
+  void add_dawdling();
+  void run(const std::vector<Entry>& entries);
+  void run(const Stage& stage, StepState& state);
+  [[nodiscard]] bool improve(const Entry& loop, StepState& state);
+  [[nodiscard]] StepState state_of_step();
+  void reduce(std::int64_t request, bool left);
+  void take_maxima();
   std::int64_t finish_step(std::int64_t request);
   [[nodiscard]] Findings find_leavers() const;
-  void take_motion(std::span<const std::int64_t> sums, double largest);
   void find_stale(double next);
   void guard_motion(double next) const;
-  void guard_sweep(const std::array<double, 9>& all) const;
+  [[nodiscard]] double look_back() const;
   [[noreturn]] void stop_at_bad_particle() const;
   [[noreturn]] void stop_at_fastest(const std::string& what) const;
   [[nodiscard]] std::vector<double> metres_of(std::size_t row) const;
-  /// From their two halves, summed over all ranks.
-  [[nodiscard]] std::vector<std::int64_t> wall_forces(std::span<const std::int64_t> halves) const;
 
   const decomp::Comm& comm_;
   Scene scene_;
@@ -107,17 +110,17 @@ class Simulation {
   Counters counters_;
   std::vector<bool> is_wall_group_;
   decomp::LargeVector<std::byte> rows_;
-  void changed(FieldSet fields);
+  void changed(FieldSet fields) { exchange_.changed(particles_, fields); }
 
+  std::vector<Model*> models_;
+  Plan plan_;
+  Reduction reduction_;
+  HaloExchange exchange_;
   StepMaxima maxima_;        ///< of this rank and step
   decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
-  bool refreshing_ = false;
-  FieldSet fresh_;  ///< fields whose halo copies are up to date
   bool stale_ = true;
-  double moved_ = 0;             ///< bound on any particle's path since the last rebuild [m]
-  std::vector<double> reaches_;  ///< of the rows when they were listed, where each has its own [m]
-  double growth_ = 0;      ///< of them until the end of the next step, as a share of what the lists bear
-  double slow_until_ = 0;  ///< dawdle(): cost of this rank when it last stopped [s]
+  double moved_ = 0;   ///< bound on any particle's path since the last rebuild [m]
+  double growth_ = 0;  ///< of reaches until the end of the next step, as a share of what lists bear
   std::int64_t count_ = 0;
   decomp::Census census_;
 };

@@ -51,6 +51,23 @@ void Grains::find_quanta() {
   torque_quantum_ = std::ldexp(next_power_of_two(8 * force * radius * friction), -50);
 }
 
+// Contacts and walls of a block of rows, then at once the kick and drift of its grains: one stage.
+Plan Grains::plan() {
+  Plan plan;
+  append(plan.drift,
+         {"walls", decomp::Region::update, {}, {}, [this](StepState& s, Side) { set_stage(s.global); }});
+  append(plan.sums, {"contacts to forget", decomp::Region::contacts, {}, {}, [this](StepState& s, Side) {
+                       begin_step(s.particles, s.global);
+                     }});
+  append(plan.kick, {"contacts, kick, drift", decomp::Region::contacts, reads(), reads(),
+                     [this](StepState& s, Side side) {
+                       sweep(s.particles, side == Side::interior ? lists_.interior() : lists_.boundary(),
+                             s.ranges, s.global.dt);
+                       s.maxima = {std::sqrt(sweep_.speed2), std::sqrt(sweep_.acceleration2)};
+                     }});
+  return plan;
+}
+
 FieldSet Grains::reads() const {
   FieldSet fields{Field::position, Field::velocity};
   if (fusion_.spins) fields |= FieldSet{Field::spin};
@@ -66,7 +83,7 @@ std::vector<WallState> Grains::first_walls() const {
 Grains::WallNow Grains::wall_now(std::size_t wall, const GlobalState& global) const {
   const Wall& w = scene_->walls[wall];
   WallNow now{true, w.velocity, w.force};
-  for (const Stage& s : scene_->stages) {
+  for (const WallStage& s : scene_->stages) {
     if (s.begin > global.time) break;
     for (const WallChange& c : s.walls) {
       if (c.wall != static_cast<int>(wall)) continue;
@@ -174,7 +191,7 @@ void Grains::move_walls(GlobalState& global, std::span<const std::int64_t> wall_
   }
 }
 
-double Grains::longest_way(const Particles& particles, const GlobalState& global) const {
+std::optional<double> Grains::longest_way(const Particles& particles, const GlobalState& global) const {
   const std::int64_t* x = particles.data<Field::position>();
   double way2 = 0;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
@@ -202,12 +219,12 @@ std::int64_t Grains::touching_pairs() const {
   return n;
 }
 
-double Grains::fastest_wall(const GlobalState& global) const {
+double Grains::path(const GlobalState& global, double speed) const {
   double speed2 = 0;
   for (const WallState& w : global.walls)
     speed2 = std::max(speed2, w.velocity[0] * w.velocity[0] + w.velocity[1] * w.velocity[1] +
                                   w.velocity[2] * w.velocity[2]);
-  return std::sqrt(speed2);
+  return 1.0001 * std::max(speed, std::sqrt(speed2)) * global.dt;
 }
 
 }  // namespace sph

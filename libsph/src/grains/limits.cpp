@@ -56,7 +56,7 @@ void check_wall_speeds(const Scene& scene) {
     check(wall, "wall.velocity", speed_along(wall.velocity, wall.normal));
     check(wall, "wall.largest_speed", wall.largest_speed);
   }
-  for (const Stage& stage : scene.stages)
+  for (const WallStage& stage : scene.stages)
     for (const WallChange& change : stage.walls) {
       const Wall& wall = scene.walls[static_cast<std::size_t>(change.wall)];
       if (change.velocity)
@@ -83,8 +83,6 @@ void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Part
   }
   if (const std::string text = found.agree(comm); !text.empty()) throw InputError(scene.file + ": " + text);
 }
-
-std::string Grains::move_text(double way) const { return grain_move_text(*scene_, way); }
 
 void Grains::find_lost(const Particles& p, const GlobalState& global, double skin, Findings& lost) const {
   const double* v = p.data<Field::velocity>();

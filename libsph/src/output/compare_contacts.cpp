@@ -27,20 +27,21 @@ std::size_t entry_width(const StateFile& file) {
   }
 }
 
-struct Entry {
+struct ContactEntry {
   std::uint64_t key;
   std::span<const std::byte> history;
 };
 
 /// In the order of their keys: lists hold them in whatever order they were built.
-std::vector<Entry> entries_of(std::span<const std::byte> bytes, std::size_t width) {
-  std::vector<Entry> out;
+std::vector<ContactEntry> entries_of(std::span<const std::byte> bytes, std::size_t width) {
+  std::vector<ContactEntry> out;
   for (std::size_t at = 0; at + width <= bytes.size(); at += width) {
-    Entry entry{0, bytes.subspan(at + 8, width - 8)};
+    ContactEntry entry{0, bytes.subspan(at + 8, width - 8)};
     std::memcpy(&entry.key, bytes.data() + at, sizeof entry.key);
     out.push_back(entry);
   }
-  std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.key < b.key; });
+  std::sort(out.begin(), out.end(),
+            [](const ContactEntry& a, const ContactEntry& b) { return a.key < b.key; });
   return out;
 }
 
@@ -49,7 +50,7 @@ std::string name_of_contact(std::uint64_t id, std::uint64_t key) {
   return fmt::format("contact {}-{}", std::min(id, key), std::max(id, key));
 }
 
-std::string difference_of(const Entry& a, const Entry& b) {
+std::string difference_of(const ContactEntry& a, const ContactEntry& b) {
   for (std::size_t c = 0; c + 8 <= a.history.size(); c += 8) {
     if (std::memcmp(a.history.data() + c, b.history.data() + c, 8) == 0) continue;
     double x, y;
@@ -90,7 +91,7 @@ std::string ContactComparison::difference(std::uint64_t id, std::uint64_t row_a,
   if (width_ == 0)
     return fmt::format("particle {}: contact history: {} bytes, {} bytes, different", id, mine.size(),
                        other.size());
-  const std::vector<Entry> in_a = entries_of(mine, width_), in_b = entries_of(other, width_);
+  const std::vector<ContactEntry> in_a = entries_of(mine, width_), in_b = entries_of(other, width_);
   for (std::size_t k = 0; k < in_a.size() || k < in_b.size(); ++k) {
     const bool only_a = k == in_b.size() || (k < in_a.size() && in_a[k].key < in_b[k].key);
     const bool only_b = k == in_a.size() || (k < in_b.size() && in_b[k].key < in_a[k].key);

@@ -19,16 +19,14 @@ void Physics::add_curvature() {
   // At a free surface nothing would hold against it.
   if (!scene_->free_surface)
     constants_.background_pressure = 2 * background * groups_.surface_tension / scene_->smoothing_length;
-  add_pass("curvature", {Term::curvature}, true, false);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState&) {
-    find_curvature(p, ranges);
-  };
-  passes_.back().changes = {Field::curvature};
-  add_pass("mean curvature", {Term::curvature_mean}, true, false);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState&) {
-    average_curvature(p, ranges);
-  };
-  passes_.back().changes = {Field::curvature};
+  add_sums("normals", {Term::curvature});
+  add_update(
+      "curvature", {Field::curvature},
+      [this](Particles& p, const RowRanges& ranges, const GlobalState&) { find_curvature(p, ranges); });
+  add_sums("curvatures", {Term::curvature_mean});
+  add_update(
+      "mean curvature", {Field::curvature},
+      [this](Particles& p, const RowRanges& ranges, const GlobalState&) { average_curvature(p, ranges); });
   fields_ |= FieldSet{Field::curvature};
 }
 

@@ -23,17 +23,17 @@ std::size_t width_of_moments(std::size_t d) { return 2 + d * (d + 1) / 2 + d * d
 // heat, kick and heat. The forces derive from the energy of compression, so that the step is symplectic but
 // for its viscosity.
 void Physics::build_gas() {
-  add_pass("density", {Term::number_density, Term::gas_moments}, true, false);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    update_gas(p, ranges, global);
-  };
-  passes_.back().changes = {Field::density,          Field::specific_energy,  Field::pressure,
-                            Field::sound_speed,      Field::smoothing_length, Field::kernel_correction,
-                            Field::velocity_gradient};
+  add_sums("density", {Term::number_density, Term::gas_moments});
+  add_update("compression",
+             {Field::density, Field::specific_energy, Field::pressure, Field::sound_speed,
+              Field::smoothing_length, Field::kernel_correction, Field::velocity_gradient},
+             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+               update_gas(p, ranges, global);
+             });
+  plan_.start = plan_.sums;
   fields_ |= FieldSet{Field::smoothing_length, Field::kernel_correction, Field::velocity_gradient};
   if (scene_->has_kind(GroupKind::wall)) add_walls(false);
-  add_pass("forces", {Term::gas_pressure, Term::viscosity, Term::shock_viscosity, Term::shock_heating}, true,
-           false);
+  add_sums("forces", {Term::gas_pressure, Term::viscosity, Term::shock_viscosity, Term::shock_heating});
 }
 
 // N = V^-1 spacing^D is wanted at a width s (h of the particle over that of the scene) with N s^D = 1. One
@@ -77,22 +77,22 @@ void Physics::update_gas(Particles& p, const RowRanges& ranges, const GlobalStat
 // What lists bear before kernels have grown out of them.
 constexpr double room_to_grow = 1.2;
 
-std::vector<double> Physics::reaches(const Particles& p) const {
-  if (!gas_) return {};
-  std::vector<double> reach(p.rows());
+const std::vector<double>& Physics::find_reaches(const Particles& p) {
+  if (!gas_) return listed_;
+  listed_.resize(p.rows());
   const double* h = p.data<Field::smoothing_length>();
   const double radius = scene_->support() / scene_->smoothing_length;
-  for (std::size_t i = 0; i < reach.size(); ++i)
-    reach[i] = std::fmin(radius * room_to_grow * h[i], scene_->list_range());
-  return reach;
+  for (std::size_t i = 0; i < listed_.size(); ++i)
+    listed_[i] = std::fmin(radius * room_to_grow * h[i], scene_->list_range());
+  return listed_;
 }
 
-double Physics::growth(const Particles& p, std::span<const double> listed) const {
+double Physics::growth_since_listed(const Particles& p) const {
   double most = 0;
   const double* h = p.data<Field::smoothing_length>();
   const double radius = scene_->support() / scene_->smoothing_length;
-  for (std::size_t i = 0; i < (listed.empty() ? 0 : p.owned()); ++i)
-    most = std::fmax(most, std::fmin(radius * fastest_growth * h[i], scene_->list_range()) / listed[i]);
+  for (std::size_t i = 0; i < (listed_.empty() ? 0 : p.owned()); ++i)
+    most = std::fmax(most, std::fmin(radius * fastest_growth * h[i], scene_->list_range()) / listed_[i]);
   return most;
 }
 

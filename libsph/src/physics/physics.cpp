@@ -3,89 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
-#include "physics/viscosity_solver.hpp"
+#include "pairs/poison_rows.hpp"
 #include "sph/grains.hpp"
-#include "sph/kernels.hpp"
 
 namespace sph {
-namespace {
-
-double power(double x, int n) {
-  double p = 1;
-  for (int k = 0; k < n; ++k) p *= x;
-  return p;
-}
-
-struct KernelNumbers {
-  double radius;          ///< support / h
-  double normalisation;   ///< alpha_D
-  double w_spacing;       ///< unnormalised w(spacing / h)
-  double w_zero;          ///< unnormalised w(0)
-  double second, fourth;  ///< -1/D sum V W' r and -1/D sum V W' r (r/h)^2 over the lattice
-};
-
-template <class Kernel>
-KernelNumbers numbers(int dim, double q) {
-  const auto in = [q]<int D>(std::integral_constant<int, D>) {
-    KernelNumbers k{Kernel::radius,
-                    Kernel::template normalisation<D>,
-                    Kernel::template value<D>(q),
-                    Kernel::template value<D>(0.0),
-                    0,
-                    0};
-    const int reach = static_cast<int>(Kernel::radius / q) + 1, across = D == 3 ? reach : 0;
-    for (int a = -reach; a <= reach; ++a)
-      for (int b = -reach; b <= reach; ++b)
-        for (int c = -across; c <= across; ++c) {
-          const double square = (a * a + b * b + c * c) * (q * q), r = std::sqrt(square);
-          const double term = -(power(q, D) * k.normalisation / D) * Kernel::template slope<D>(r) * r;
-          k.second += term;
-          k.fourth += term * square;
-        }
-    return k;
-  };
-  return dim == 2 ? in(std::integral_constant<int, 2>{}) : in(std::integral_constant<int, 3>{});
-}
-
-KernelNumbers numbers(const Scene& scene) {
-  const double q = scene.spacing / scene.smoothing_length;
-  switch (scene.kernel) {
-    case KernelShape::wendland_c2:
-      return numbers<WendlandC2>(scene.dim, q);
-    case KernelShape::wendland_c4:
-      return numbers<WendlandC4>(scene.dim, q);
-    case KernelShape::quintic:
-      break;
-  }
-  return numbers<Quintic>(scene.dim, q);
-}
-
-/// Of the interface with tension; fragments stay on the side of what they broke from.
-double side_of(const Scene& scene, int group) {
-  const auto on = [&](int of) {
-    return group == of || (of >= 0 && group == scene.groups[static_cast<std::size_t>(of)].fragments_to);
-  };
-  const std::array<int, 2>& between = scene.terms.surface_tension.between;
-  return on(between[0]) ? 1 : on(between[1]) ? -1 : 0;
-}
-
-/// The density that parts lighter fluids from heavier ones: the lower end of the largest gap.
-double density_divide(const Scene& scene) {
-  std::vector<double> densities;
-  for (const Group& g : scene.groups)
-    if (g.kind == GroupKind::fluid) densities.push_back(g.density);
-  std::sort(densities.begin(), densities.end());
-  std::size_t at = 0;
-  for (std::size_t k = 0; k + 1 < densities.size(); ++k)
-    if (densities[k + 1] * densities[at] > densities[k] * densities[at + 1]) at = k;
-  return densities.empty() ? 0.0 : densities[at];
-}
-/// Of two layers in contact over that of the material: softer, or they would ask for a shorter time step.
-constexpr double contact_stiffness = 0.5;
-
-}  // namespace
 
 PositionScale position_scale(const Scene& scene) {
   double extent = 0;
@@ -130,86 +52,65 @@ Physics::Physics(const Scene& scene, const PositionScale& scale)
     build_total_lagrangian();
   else
     build_conservative();
+  add_drift();
+  add_kick();
 }
 
-void Physics::set_sph_constants() {
-  const Scene& scene = *scene_;
-  const KernelNumbers kernel = numbers(scene);
-  const double h = scene.smoothing_length;
-  const double volume = power(scene.spacing, scene.dim);
-  const double slope = kernel.normalisation / power(h, scene.dim + 1);
-  gradient_factor_ = volume * slope;
-  force_factor_ = volume * volume * slope;
-  kernel_at_zero_ = kernel.w_zero;
-  own_concentration_ = kernel.w_zero * gradient_factor_ * h;
-  diffusion_factor_ = 2 * scene.terms.density_diffusion * h * (volume * slope / h);
-
-  row_scale_.position_shift = row_position_shift(scene, scale_);
-  const double unit = scene.precision == Precision::mixed
-                          ? std::ldexp(scale_.quantum, row_scale_.position_shift)
-                          : scale_.quantum;
-  row_scale_.position_unit = unit / h;
-  row_scale_.inverse_volume = 1 / volume;
-  row_scale_.inverse_h = 1 / h;
-  row_scale_.quantum = scale_.quantum;
-  row_scale_.pull = scene.central_pull;
-  for (std::size_t a = 0; a < 3; ++a) row_scale_.pull_centre[a] = scene.pull_centre[a];
-
-  const double divide = density_divide(scene);
-  for (const Group& g : scene.groups) {
-    groups_.viscosity.push_back(g.viscosity);
-    // p-waves are the fastest in a solid
-    const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
-    groups_.sound_speed.push_back(std::sqrt(modulus / g.density));
-    groups_.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
-    groups_.side.push_back(side_of(scene, static_cast<int>(&g - scene.groups.data())));
-    groups_.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
-    groups_.shears.push_back(g.kind == GroupKind::fluid ? 0.0 : 1.0);
-    groups_.density.push_back(g.density);
-    const std::size_t body = g.clamps < 0 ? groups_.body.size() : static_cast<std::size_t>(g.clamps);
-    groups_.body.push_back(static_cast<double>(body));
-    groups_.modulus.push_back(scene.groups[body].bulk_modulus + 4.0 / 3.0 * scene.groups[body].shear_modulus);
-    bulk_viscous_ = bulk_viscous_ || g.bulk_viscosity > 0;
-    if (g.fragments_to >= 0) transitions_.push_back(static_cast<int>(&g - scene.groups.data()));
-    bubbly_.push_back(bubbly_eos(g, g.gas_content));
-  }
-  const auto fluid = std::find_if(scene.groups.begin(), scene.groups.end(),
-                                  [](const Group& g) { return g.kind != GroupKind::wall; });
-  groups_.surface_tension = scene.terms.surface_tension.coefficient;
-  constants_ = {};
-  // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
-  for (std::size_t a = 0; a < 3; ++a) constants_.gravity[a] = scene.periodic[a] ? 0.0 : scene.gravity[a] * h;
-  constants_.laplacian = 1 / kernel.second;
-  constants_.symmetric = (scene.dim + 2) / kernel.fourth;
-  constants_.viscosity = fluid->viscosity / h * constants_.laplacian;
-  constants_.density = fluid->density;
-  constants_.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
-  constants_.artificial_viscosity = scene.terms.artificial_viscosity;
-  constants_.quadratic_viscosity = scene.terms.quadratic_viscosity;
-  constants_.conduction = scene.terms.conduction;
-  constants_.inverse_w_spacing = 1 / kernel.w_spacing;
-  constants_.bond_range = scene.list_range() / h;
-  constants_.hourglass = scene.terms.hourglass;
-  constants_.contact_range = scene.spacing / h;
-  // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor_ later.
-  const double contact = contact_stiffness * power(scene.spacing, scene.dim) / (h * h);
-  constants_.contact_force = contact * h / force_factor_;
-  constants_.contact_energy = 0.25 * contact * h * h;
-
-  fields_ = {Field::id,   Field::position, Field::velocity, Field::density,
-             Field::mass, Field::group,    Field::pressure, Field::force};
-  if (scene.has_eos(EosKind::bubbly))
-    fields_ |= FieldSet{Field::sound_speed, Field::void_fraction, Field::gas_content};
-  if (gas_) fields_ |= FieldSet{Field::sound_speed, Field::specific_energy};
-  if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
-    fields_ |= FieldSet{Field::stress};
-  if (scene.output.average_time > 0) fields_ |= output_averages;
-}
-
-void Physics::add_pass(std::string name, const std::vector<Term>& terms, bool movers, bool walls) {
+Stage Physics::sums_over_pairs(std::string name, const std::vector<Term>& terms, Rows rows) {
   const Fusion& fusion = find_fusion(scene_->dim, scene_->precision, scene_->kernel, terms);
   fields_ |= fusion.writes;
-  passes_.push_back({std::move(name), &fusion, movers, walls, fields_behind(fusion.values), {}, {}, {}});
+  const auto work = [this, &fusion, rows](StepState& s, Side side) {
+    const PassContext context = this->context(s.particles, s.lists, s.rows, s.global.dt);
+    const std::size_t owned = s.particles.owned();
+    // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.
+    const bool interior = side == Side::interior;
+    const auto pack = s.iteration == 0 ? fusion.pack : fusion.repack;
+    pack(context, interior ? 0 : owned, interior ? owned : s.particles.rows());
+    if (interior && s.iteration == 0) poison_rows(context, fusion.row_bytes, owned, s.particles.rows());
+    if (rows != Rows::walls)
+      fusion.run(context,
+                 range_of(s.ranges, interior ? RowClass::interior_movers : RowClass::boundary_movers));
+    if (rows != Rows::movers)
+      fusion.run(context, range_of(s.ranges, interior ? RowClass::interior_walls : RowClass::boundary_walls));
+  };
+  return {std::move(name), decomp::Region::pairs, fields_behind(fusion.values), fusion.writes, work, {},
+          &fusion};
+}
+
+void Physics::add_sums(std::string name, const std::vector<Term>& terms, Rows rows) {
+  append(plan_.sums, sums_over_pairs(std::move(name), terms, rows));
+}
+
+void Physics::add_update(std::string name, FieldSet writes, Update update) {
+  append(plan_.sums, {std::move(name),
+                      decomp::Region::update,
+                      {},
+                      writes,
+                      [update](StepState& s, Side) { update(s.particles, s.ranges, s.global); },
+                      {}});
+}
+
+void Physics::add_drift() {
+  append(plan_.drift, {"drift",
+                       decomp::Region::update,
+                       {},
+                       FieldSet{Field::position, Field::displacement},
+                       [this](StepState& s, Side) { advance(s.particles, s.ranges, s.global.dt); },
+                       [this](const GlobalState& global) { return longest_advance(global); }});
+}
+
+void Physics::add_kick() {
+  FieldSet changed{Field::velocity};
+  if (scene_->terms.shifting) changed |= FieldSet{Field::position};
+  if (bulk_viscous_) changed |= FieldSet{Field::pressure};
+  if (gas_) changed |= FieldSet{Field::specific_energy, Field::pressure, Field::sound_speed};
+  if (!transitions_.empty()) changed |= FieldSet{Field::group};
+  append(plan_.kick, {"kick",
+                      decomp::Region::update,
+                      {},
+                      changed,
+                      [this](StepState& s, Side) { s.maxima = integrate(s.particles, s.ranges, s.global); },
+                      [this](const GlobalState& global) { return longest_shift(global); }});
 }
 
 // One step, positions advanced: kinematics (density and stress from the velocities), walls (extrapolation
@@ -237,14 +138,14 @@ void Physics::build_conservative() {
   if (s.terms.shifting) kinematics.push_back(Term::shifting);
   const bool tension = s.terms.surface_tension.coefficient > 0;
   if (tension) kinematics.push_back(Term::colour_gradient);
-  add_pass("kinematics", kinematics, true, false);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
-      const RowRange& r = ranges[static_cast<std::size_t>(c)];
-      update_movers(p, r.first, r.last, global);
-    }
-  };
-  passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
+  add_sums("kinematics", kinematics);
+  add_update("densities", {Field::density, Field::stress, Field::pressure, Field::sound_speed},
+             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+               for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+                 const RowRange& r = range_of(ranges, c);
+                 update_movers(p, r.first, r.last, global);
+               }
+             });
 
   if (weighted) fields_ |= FieldSet{Field::wall_pressures};
   if (walls) add_walls(weighted);
@@ -266,7 +167,7 @@ void Physics::build_conservative() {
                      : weighted ? Term::weighted_tension_jump
                                 : Term::tension_jump);
   if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
-  add_pass("forces", forces, true, false);
+  add_sums("forces", forces);
   if (walls && s.has_kind(GroupKind::fluid) && (s.terms.implicit_viscosity || s.free_surface))
     find_walls_nearby();
   if (s.terms.implicit_viscosity) build_implicit_viscosity(walls);
@@ -280,44 +181,36 @@ void Physics::add_walls(bool weighted) {
   }
   std::vector<Term> terms{Term::wall_extrapolation};
   if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
-  add_pass("walls", terms, false, true);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    update_walls(p, ranges, global);
-  };
-  passes_.back().changes = {Field::pressure, Field::velocity, Field::wall_pressures, Field::wall_mirror};
+  add_sums("walls", terms, Rows::walls);
+  add_update("wall pressures", {Field::pressure, Field::velocity, Field::wall_pressures, Field::wall_mirror},
+             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+               update_walls(p, ranges, global);
+             });
+  plan_.output.assign(plan_.sums.end() - 2, plan_.sums.end());
 }
 
 // Only where fluid flies can it come into walls.
 void Physics::find_walls_nearby() {
   wall_distance_.emplace(scene_->kernel, scene_->dim, scene_->spacing / scene_->smoothing_length);
-  add_pass("wall distance", {Term::wall_share}, true, false);
+  add_sums("wall distance", {Term::wall_share});
   if (!scene_->free_surface) return;
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    hold_off(p, ranges, global.dt);
-  };
-  passes_.back().changes = {Field::force};
+  add_update("walls hold", {Field::force},
+             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+               hold_off(p, ranges, global.dt);
+             });
 }
 
 // The paper's cycle: velocity gradient (10), density (8), pressure, stress (9) or (11) of every particle,
 // walls included; then the force (6) on those that move.
 void Physics::build_ida() {
-  add_pass("gradient", {Term::ida_gradient}, true, true);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    for (const RowRange& r : ranges) update_ida(p, r.first, r.last, global.dt);
-  };
-  passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::sound_speed};
+  add_sums("gradient", {Term::ida_gradient}, Rows::all);
+  add_update("densities and stresses", {Field::density, Field::stress, Field::pressure, Field::sound_speed},
+             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+               for (const RowRange& r : ranges) update_ida(p, r.first, r.last, global.dt);
+             });
   std::vector<Term> forces{Term::ida_stress};
   if (scene_->terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
-  add_pass("forces", forces, true, false);
-}
-
-FieldSet Physics::integrated() const {
-  FieldSet changed{Field::velocity};
-  if (scene_->terms.shifting) changed |= FieldSet{Field::position};
-  if (bulk_viscous_) changed |= FieldSet{Field::pressure};
-  if (gas_) changed |= FieldSet{Field::specific_energy, Field::pressure, Field::sound_speed};
-  if (!transitions_.empty()) changed |= FieldSet{Field::group};
-  return changed;
+  add_sums("forces", forces);
 }
 
 PassContext Physics::context(Particles& particles, const NeighbourLists& lists,

@@ -67,14 +67,15 @@ void Physics::build_total_lagrangian() {
   }
   if (viscous) forces.push_back(Term::bond_viscosity);
   fields_ |= FieldSet{Field::displacement, Field::bonds, Field::bond_stress, Field::strain_energy};
-  add_pass("deformation", deformation, true, true);
-  passes_.back().update = [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    for (const RowRange& r : ranges)
-      p.dim() == 2 ? update_bonds<2>(p, r.first, r.last, global)
-                   : update_bonds<3>(p, r.first, r.last, global);
-  };
-  passes_.back().changes = {Field::density, Field::stress, Field::pressure, Field::bond_stress};
-  add_pass("forces", forces, true, false);
+  add_sums("deformation", deformation, Rows::all);
+  add_update("stress", {Field::density, Field::stress, Field::pressure, Field::bond_stress},
+             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
+               for (const RowRange& r : ranges)
+                 p.dim() == 2 ? update_bonds<2>(p, r.first, r.last, global)
+                              : update_bonds<3>(p, r.first, r.last, global);
+             });
+  plan_.start = plan_.sums;  // what bonds there are is known only from the start, and output wants the stress
+  add_sums("forces", forces);
 }
 
 template <int D>

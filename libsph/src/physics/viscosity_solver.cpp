@@ -25,15 +25,16 @@ void ViscositySolver::begin(Particles& p, const RowRanges& ranges) {
   iteration_ = 0;
 }
 
-std::span<decomp::ExactSum> ViscositySolver::products(const Particles& p, const RowRanges& ranges,
-                                                      double dt) {
+std::span<decomp::ExactSum> ViscositySolver::products(const StepState& s) {
   if (iteration_ == 0) return {};
+  const Particles& p = s.particles;
+  const double dt = s.global.dt;
   const auto d = static_cast<std::size_t>(p.dim());
   const double* direction = p.data<Field::direction>();
   const double* viscous = p.data<Field::viscous_sums>();
   const double* mass = p.data<Field::mass>();
   sums_[0] = sums_[1] = {};
-  for_movers(ranges, [&](std::size_t i) {
+  for_movers(s.ranges, [&](std::size_t i) {
     double product = 0, curvature = 0;
     for (std::size_t a = 0; a < d; ++a) {
       const std::size_t k = i * d + a;
@@ -47,7 +48,10 @@ std::span<decomp::ExactSum> ViscositySolver::products(const Particles& p, const 
   return std::span(sums_).first(iteration_ == 1 ? 4 : 2);
 }
 
-bool ViscositySolver::improve(Particles& p, const RowRanges& ranges, const GlobalState& global) {
+bool ViscositySolver::improve(StepState& s) {
+  Particles& p = s.particles;
+  const RowRanges& ranges = s.ranges;
+  const GlobalState& global = s.global;
   const auto d = static_cast<std::size_t>(p.dim());
   if (iteration_++ == 0) {
     set_out(p, ranges, global.dt);
@@ -125,17 +129,15 @@ void ViscositySolver::finish(Particles& p, const RowRanges& ranges, double dt) c
 void Physics::build_implicit_viscosity(bool walls) {
   if (walls) fields_ |= FieldSet{Field::wall_slope};
   const auto solver = std::make_shared<ViscositySolver>(*this, scene_->terms.viscosity_tolerance);
-  passes_.back().update = [this, walls, solver, before = passes_.back().update](
-                              Particles& p, const RowRanges& ranges, const GlobalState& global) {
-    if (before) before(p, ranges, global);
-    if (walls) find_walls(p, ranges);
-    solver->begin(p, ranges);
-  };
-  passes_.back().changes |= {Field::wall_slope, Field::direction};
+  add_update("first direction", {Field::wall_slope, Field::direction},
+             [this, walls, solver](Particles& p, const RowRanges& ranges, const GlobalState&) {
+               if (walls) find_walls(p, ranges);
+               solver->begin(p, ranges);
+             });
   const bool symmetric = scene_->terms.viscosity == ViscosityForm::symmetric;
-  add_pass("viscosity", {symmetric ? Term::symmetric_viscous_operator : Term::viscous_operator}, true, false);
-  passes_.back().solver = solver;
-  passes_.back().changes = {Field::direction, Field::force};
+  const Term drag = symmetric ? Term::symmetric_viscous_operator : Term::viscous_operator;
+  plan_.sums.push_back(
+      {{sums_over_pairs("viscosity", {drag}, Rows::movers)}, solver, {Field::direction, Field::force}});
   fields_ |= FieldSet{Field::direction};
 }
 

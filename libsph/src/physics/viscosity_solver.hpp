@@ -19,7 +19,7 @@
 
 namespace sph {
 
-class ViscositySolver {
+class ViscositySolver final : public Solver {
  public:
   ViscositySolver(const Physics& physics, double tolerance) : physics_(&physics), tolerance_(tolerance) {}
 
@@ -28,12 +28,11 @@ class ViscositySolver {
 
   /// This rank's part of the dot products after the operator was applied; to be summed over all ranks. None
   /// the first time.
-  [[nodiscard]] std::span<decomp::ExactSum> products(const Particles& particles, const RowRanges& ranges,
-                                                     double dt);
+  [[nodiscard]] std::span<decomp::ExactSum> products(const StepState& state) override;
 
   /// Sets the next direction and says true; or says that it is enough, and Field::force then holds the
   /// force with which the kick ends at v(t + dt). Throws GuardError when that takes too many iterations.
-  [[nodiscard]] bool improve(Particles& particles, const RowRanges& ranges, const GlobalState& global);
+  [[nodiscard]] bool improve(StepState& state) override;
 
  private:
   void set_out(Particles&, const RowRanges&, double dt);

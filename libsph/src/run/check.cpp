@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <optional>
 
 #include "physics/damping_limit.hpp"
 #include "physics/stability.hpp"
 #include "run/cost.hpp"
 #include "run/memory_need.hpp"
+#include "run/plan_text.hpp"
 #include "run/run_start.hpp"
 #include "run/speed_warnings.hpp"
 #include "sph/grains.hpp"
@@ -29,18 +31,6 @@ std::string listed(FieldSet fields, int dim) {
   std::string out;
   for (Field f : fields.list())
     out += fmt::format("{}{} {}", out.empty() ? "" : ", ", info(f).name, width(f, dim));
-  return out;
-}
-
-std::string names_of(FieldSet fields) {
-  std::string out;
-  for (Field f : fields.list()) out += (out.empty() ? "" : ", ") + std::string(info(f).name);
-  return out.empty() ? "nothing" : out;
-}
-
-std::string terms_of(const Pass& pass) {
-  std::string out;
-  for (Term term : pass.fusion->terms) out += (out.empty() ? "" : " + ") + name_of(term);
   return out;
 }
 
@@ -124,15 +114,15 @@ std::string unlooked_text(const Scene& scene, Placed placed) {
   return out;
 }
 
-std::string memory_text(const Scene& scene, const Physics& physics, const MemoryNeed& need,
+std::string memory_text(const Scene& scene, const Plan& plan, FieldSet fields, const MemoryNeed& need,
                         const MachineMemory& machine) {
   const int dim = scene.dim;
+  const FieldSet halo = halo_fields(plan, fields);
   std::string out = fmt::format(
       "bytes per particle: {} ({} state): {}\nbytes per halo particle: {}: {}\n"
       "memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
-      bytes_of(physics.fields(), dim), bytes_of(state_of(physics.fields()), dim),
-      listed(physics.fields(), dim), bytes_of(halo_fields(physics), dim), listed(halo_fields(physics), dim),
-      bytes_text(need.bytes), scene.of_grains() ? "contacts" : "lists", need.listed,
+      bytes_of(fields, dim), bytes_of(state_of(fields), dim), listed(fields, dim), bytes_of(halo, dim),
+      listed(halo, dim), bytes_text(need.bytes), scene.of_grains() ? "contacts" : "lists", need.listed,
       scene.of_grains() ? "a grain" : "neighbours", need.cells);
   if (const std::string problem = memory_problem(need, machine); !problem.empty())
     out += "warning: " + problem + ": it would not run here\n";
@@ -171,18 +161,6 @@ std::string tension_text(const Scene& scene) {
       "warning: tension as a stress moves the interface of fluids as thin as these (viscosity /\n"
       "  sqrt(density tension h) = {:.2g}): set terms.surface_tension.form = \"jump\"\n",
       most);
-}
-
-std::string passes_text(const Scene& scene, const Physics& physics) {
-  std::string out;
-  const std::vector<FieldSet> sent = refreshes_of(physics);
-  for (std::size_t k = 0; k < sent.size(); ++k) {
-    const Pass& pass = physics.passes()[k];
-    out +=
-        fmt::format("pass {}: {}\n  reads {}\n  sends before it {} ({} bytes)\n", pass.name, terms_of(pass),
-                    names_of(pass.reads & physics.fields()), names_of(sent[k]), bytes_of(sent[k], scene.dim));
-  }
-  return out;
 }
 
 std::string courant_text(const Scene& scene, double dt, double courant) {
@@ -244,12 +222,15 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       need = memory_need(scene, physics, grid, start.count.all);
     }
     if (start.count.all == 0) throw InputError("start: no particle lies in any region");
-    const bool grains = scene.of_grains();
-    const double dt = grains ? Grains(scene, scale).time_step() : physics.time_step({});
+    std::optional<Grains> grains;
+    if (scene.of_grains()) grains.emplace(scene, scale);
+    const Plan plan = grains ? grains->plan() : physics.plan();
+    const double dt = grains ? grains->time_step() : physics.time_step({});
     if (comm.rank() == 0)
       fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
-                 unlooked_text(scene, placed), memory_text(scene, physics, need, machine), gas_text(scene),
-                 tension_text(scene), passes_text(scene, physics),
+                 unlooked_text(scene, placed), memory_text(scene, plan, physics.fields(), need, machine),
+                 gas_text(scene), tension_text(scene),
+                 options.plan ? plan_text(scene, plan, physics.fields()) : "",
                  grains ? contact_step_text(scene, dt) : courant_text(scene, dt, physics.courant_number(dt)),
                  speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
                  ranks_text(scene, grid, start.count.all));

@@ -195,6 +195,8 @@ int tool_main(int argc, char** argv) {
     arguments.add_max_time(run);
     CLI::App& check = *app.add_subcommand("check", "validate a scene and say what running it costs");
     arguments.add_scene(check, true);
+    check.add_flag("--plan", arguments.run.plan,
+                   "print the stages of a step: what they read, send and write");
     CLI::App& resume = *app.add_subcommand("resume", "go on from the last checkpoint of a run");
     resume.add_option("dir", arguments.run.resume, "the directory of the run")->required()->type_name("DIR");
     arguments.add_end(resume);

@@ -63,40 +63,25 @@ std::size_t bytes_of(FieldSet fields, int dim) {
   return bytes;
 }
 
-FieldSet halo_fields(const Physics& physics) {
-  if (physics.fields().has(Field::radius)) return physics.fields();  // grains: a partner's everything
-  FieldSet fields{Field::id, Field::position};
-  for (const Pass& pass : physics.passes()) fields |= pass.reads;
-  return fields & physics.fields();
-}
-
-std::vector<FieldSet> refreshes_of(const Physics& physics) {
-  std::vector<FieldSet> sent(physics.passes().size());
-  FieldSet fresh{Field::id};
-  for (int round = 0; round < 2; ++round) {  // the second is a step in the middle of a run
-    fresh = fresh.without({Field::position, Field::displacement});
-    for (std::size_t k = 0; k < sent.size(); ++k) {
-      const Pass& pass = physics.passes()[k];
-      sent[k] = (pass.reads & physics.fields()).without(fresh);
-      fresh |= sent[k];
-      fresh = fresh.without(pass.fusion->writes);
-      fresh = fresh.without(pass.changes);
-    }
-    fresh = fresh.without(physics.integrated());
-  }
-  return sent;
+FieldSet halo_fields(const Plan& plan, FieldSet fields) {
+  FieldSet read{Field::id, Field::position};
+  if (fields.has(Field::radius)) read |= Grains::constants();
+  for (const Entry* e : entries_of(plan))
+    for (const Stage& s : e->stages) read |= s.refresh;
+  return read & fields;
 }
 
 Performance performance_of(Simulation& s) {
   const decomp::Comm& comm = s.comm();
   const decomp::HaloPlan& halo = s.distribution().halo();
   const int dim = s.scene().dim;
+  const FieldSet fields = s.particles().fields();
   std::size_t sent = 0;
-  for (FieldSet fields : refreshes_of(s.physics())) sent += bytes_of(fields, dim);
-  // A solver sends its direction once for each iteration, and twice more.
-  if (const Simulation::Counters& c = s.counters(); c.solved > 0)
-    sent += (c.iterations / c.solved + 1) * width(Field::direction, dim);
-  if (s.grains() != nullptr) sent = bytes_of(s.grains()->reads(), dim);
+  for (const Scheduled& stage : schedule_of(s.plan(), fields)) {
+    sent += bytes_of(stage.sends, dim);
+    if (const Simulation::Counters& c = s.counters(); c.solved > 0)
+      sent += static_cast<std::size_t>(c.repeats / c.solved) * bytes_of(stage.again, dim);
+  }
 
   const auto listed =
       static_cast<std::int64_t>(s.grains() != nullptr ? s.grains()->lists().listed() : s.lists().pairs());
@@ -117,11 +102,11 @@ Performance performance_of(Simulation& s) {
   p.refresh_bytes = static_cast<double>(sent);
   p.halo_bytes_per_step = static_cast<double>(sums[3]) * static_cast<double>(sent);
   p.migrated = sums[4];
-  p.state_bytes_per_particle = static_cast<double>(bytes_of(state_of(s.physics().fields()), dim));
-  p.bytes_per_particle = static_cast<double>(bytes_of(s.physics().fields(), dim));
-  p.bytes_per_halo_particle = static_cast<double>(bytes_of(halo_fields(s.physics()), dim));
+  p.state_bytes_per_particle = static_cast<double>(bytes_of(state_of(fields), dim));
+  p.bytes_per_particle = static_cast<double>(bytes_of(fields, dim));
+  p.bytes_per_halo_particle = static_cast<double>(bytes_of(halo_fields(s.plan(), fields), dim));
   p.rebuilds = s.counters().rebuilds;
-  p.refreshes = s.counters().refreshes;
+  p.refreshes = s.refreshes();
   p.iterations = s.counters().iterations;
   p.balance = s.distribution().balance();
   p.regions = s.timers().summary(comm);

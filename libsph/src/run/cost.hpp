@@ -1,9 +1,7 @@
 // What a scene costs in memory and messages, from the field table, and what a run has cost.
 #pragma once
 
-#include <vector>
-
-#include "sph/physics.hpp"
+#include "sph/plan/plan.hpp"
 #include "sph/report.hpp"
 #include "sph/simulation.hpp"
 
@@ -11,12 +9,8 @@ namespace sph {
 
 [[nodiscard]] std::size_t bytes_of(FieldSet fields, int dim);
 
-/// Fields that a halo particle needs at all: what passes read of neighbours.
-[[nodiscard]] FieldSet halo_fields(const Physics& physics);
-
-/// Fields sent before each pass in a step without a rebuild: what it reads and has changed since it was last
-/// sent.
-[[nodiscard]] std::vector<FieldSet> refreshes_of(const Physics& physics);
+/// Fields that a halo particle needs at all: what stages read of neighbours. `fields`: those the scene has.
+[[nodiscard]] FieldSet halo_fields(const Plan& plan, FieldSet fields);
 
 /// All but wall time, steps, names and imbalance. Collective.
 [[nodiscard]] Performance performance_of(Simulation& simulation);

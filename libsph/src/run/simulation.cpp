@@ -7,121 +7,100 @@
 #include <string>
 #include <utility>
 
-#include "decomp/poison.hpp"
-#include "pairs/poison_rows.hpp"
-#include "physics/viscosity_solver.hpp"
-
 namespace sph {
 
 std::int64_t Simulation::step(std::int64_t request) {
-  if (grains_)
-    step_in_a_sweep();
-  else
-    step_in_passes();
-  if (scene_.decomposition.slowness > 1 && scene_.decomposition.slow_rank == comm_.rank()) dawdle();
+  if (global_.step == 0 && scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
+  run(plan_.drift);
+  if (stale_) rebuild();
+  run(plan_.sums);
+  run(plan_.kick);
   return finish_step(request);
 }
 
-// For tests of the balance: this rank's cores are slower by scene.decomposition.slowness.
-void Simulation::dawdle() {
-  const auto timing = timers_.time(decomp::Region::update);
-  const double until = slow_until_ + scene_.decomposition.slowness * (timers_.cost() - slow_until_);
-  while (timers_.cost() < until) {
-  }
-  slow_until_ = timers_.cost();
+StepState Simulation::state_of_step() {
+  return {particles_, distribution_.ranges(), lists_, rows_, global_, maxima_};
 }
 
-// SPH: positions advance, passes with their updates, kick.
-void Simulation::step_in_passes() {
-  if (global_.step == 0 && scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
-  {
-    const auto timing = timers_.time(decomp::Region::update);
-    physics_.advance(particles_, distribution_.ranges(), global_.dt);
-    moved_ += physics_.longest_advance(global_);
-    changed({Field::position, Field::displacement});
+void Simulation::run(const std::vector<Entry>& entries) {
+  StepState state = state_of_step();
+  for (const Entry& entry : entries) {
+    state.iteration = 0;
+    do {
+      for (const Stage& stage : entry.stages) run(stage, state);
+      ++state.iteration;
+    } while (entry.solver && improve(entry, state));
   }
-  if (stale_) rebuild();
-
-  for (const Pass& pass : physics_.passes()) compute(pass);
-
-  const auto timing = timers_.time(decomp::Region::update);
-  maxima_ = physics_.integrate(particles_, distribution_.ranges(), global_);
-  changed(physics_.integrated());
 }
 
-// Velocities are those of half a step later. A gas may start with a jump of its pressure, and accelerations
-// are never larger than then: the error of a first step that takes them as they are would stay in its energy.
-void Simulation::kick_half_a_step() {
-  for (const Pass& pass : physics_.passes()) compute(pass);
-  GlobalState part = global_;
-  const auto kick = [&](double share) {
-    part.dt = share * global_.dt;
-    maxima_ = physics_.integrate(particles_, distribution_.ranges(), part);
-    std::array<double, 5> all{maxima_.speed, maxima_.acceleration, maxima_.sound, maxima_.viscosity,
-                              physics_.growth(particles_, reaches_)};
-    comm_.max(all);
-    growth_ = all[4];
-    global_.max_speed = all[0];
-    global_.max_acceleration = all[1];
-    return physics_.time_step({all[0], all[1], 0, all[2], all[3]});
+void Simulation::run(const Stage& stage, StepState& state) {
+  const auto work = [&](Side side) {
+    const auto timing = timers_.time(stage.region);
+    stage.work(state, side);
   };
-  global_.dt = kick(0);  // how large a step may be follows from the accelerations
-  (void)kick(0.5);
-  physics_.findings().stop(comm_);
-  changed(physics_.integrated());
-  find_stale(physics_.longest_advance(global_));
+  if (stage.refresh.empty()) {
+    work(Side::all);
+  } else {
+    exchange_.begin(distribution_.halo(), particles_, stage.refresh, timers_);
+    work(Side::interior);
+    exchange_.end(distribution_.halo(), timers_);
+    work(Side::boundary);
+  }
+  if (stage.moves) moved_ += stage.moves(global_);
+  changed(stage.writes);
 }
 
-void Simulation::compute(const Pass& pass) {
-  const PassContext context = physics_.context(particles_, lists_, rows_, global_.dt);
-  auto pack = pass.fusion->pack;
-  do {
-    refresh_begin(pass.reads);
-    run(pass, context, Side::interior, pack);
-    refresh_end();
-    run(pass, context, Side::boundary, pack);
-    changed(pass.fusion->writes);
-    pack = pass.fusion->repack;
-  } while (pass.solver && improve(pass));
-  if (!pass.update) return;
-  const auto timing = timers_.time(decomp::Region::update);
-  pass.update(particles_, distribution_.ranges(), global_);
-  changed(pass.changes);
-}
-
-// An iteration of a solver: is the pass to be run once more?
-bool Simulation::improve(const Pass& pass) {
+// Are the stages of the loop to be run once more?
+bool Simulation::improve(const Entry& loop, StepState& state) {
   const auto products = [&] {
     const auto timing = timers_.time(decomp::Region::update);
-    return pass.solver->products(particles_, distribution_.ranges(), global_.dt);
+    return loop.solver->products(state);
   }();
   {
     const auto timing = timers_.time(decomp::Region::reduce);
     decomp::ExactSum::all_reduce(comm_, products);
   }
   const auto timing = timers_.time(decomp::Region::update);
-  const bool again = pass.solver->improve(particles_, distribution_.ranges(), global_);
-  changed(pass.changes);
+  const bool again = loop.solver->improve(state);
+  changed(loop.improves);
+  if (again) ++counters_.repeats;
   if (again && !products.empty()) ++counters_.iterations;
   if (!again) ++counters_.solved;
   return again;
 }
 
-// Grains: contacts and walls of a block of rows, then at once the kick and drift of its grains.
-void Simulation::step_in_a_sweep() {
-  grains_->set_stage(global_);
-  if (stale_) rebuild();
-  grains_->begin_step(particles_, global_);
-  const auto sweep = [&](std::span<const ContactBlock> blocks) {
-    const auto timing = timers_.time(decomp::Region::contacts);
-    grains_->sweep(particles_, blocks, distribution_.ranges(), global_.dt);
+// For tests of the balance: this rank's cores are slower by scene.decomposition.slowness.
+void Simulation::add_dawdling() {
+  const double slowness = scene_.decomposition.slowness;
+  if (slowness <= 1 || scene_.decomposition.slow_rank != comm_.rank()) return;
+  append(plan_.kick,
+         {"dawdle", decomp::Region::update, {}, {}, [this, slowness, before = 0.0](StepState&, Side) mutable {
+            const double until = before + slowness * (timers_.cost() - before);
+            while (timers_.cost() < until) {
+            }
+            before = until;
+          }});
+}
+
+// Velocities are those of half a step later. A gas may start with a jump of its pressure, and accelerations
+// are never larger than then: the error of a first step that takes them as they are would stay in its energy.
+void Simulation::kick_half_a_step() {
+  run(plan_.sums);
+  GlobalState part = global_;
+  const auto kick = [&](double share) {
+    part.dt = share * global_.dt;
+    maxima_ = physics_.integrate(particles_, distribution_.ranges(), part);
+    reduce(0, false);
+    take_maxima();
+    physics_.set_step(reduction_, part);
+    return part.dt;
   };
-  refresh_begin(grains_->reads());
-  sweep(grains_->lists().interior());
-  refresh_end();
-  sweep(grains_->lists().boundary());
-  changed(grains_->reads());
-  maxima_ = {std::sqrt(grains_->swept().speed2), std::sqrt(grains_->swept().acceleration2)};
+  global_.dt = kick(0);  // how large a step may be follows from the accelerations
+  (void)kick(0.5);
+  physics_.findings().stop(comm_);
+  for (const Entry& entry : plan_.kick)
+    for (const Stage& stage : entry.stages) changed(stage.writes);
+  find_stale(longest_move(plan_, global_));
 }
 
 // Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plan -> neighbour lists.
@@ -140,7 +119,7 @@ void Simulation::rebuild() {
     try {
       order = distribution_.rebuild(
           particles_, timers_.take_cost(), [&] { return pairs_of_rows(); }, is_wall_group_, moved_,
-          grains_ ? 0.0 : 2 * std::max(physics_.longest_look_back(global_), physics_.longest_shift(global_)),
+          grains_ ? 0.0 : 2 * std::max(look_back(), physics_.longest_shift(global_)),
           grains_ ? &contacts : nullptr);
     } catch (const GuardError& error) {
       throw GuardError(step_text(global_.step) + error.what());
@@ -149,10 +128,9 @@ void Simulation::rebuild() {
       throw GuardError("step " + std::to_string(global_.step) +
                        ": a particle was lost or duplicated in migration; reduce time.dt");
   }
-  fresh_ = {};
-  refresh_begin(grains_ ? Grains::constants()
-                        : FieldSet{Field::id, Field::position, Field::smoothing_length, Field::group});
-  refresh_end();
+  exchange_.forget();
+  refresh_halo(grains_ ? Grains::constants()
+                       : FieldSet{Field::id, Field::position, Field::smoothing_length, Field::group});
   if (grains_)
     rebuild_contacts(contacts, order, sent);
   else
@@ -162,16 +140,16 @@ void Simulation::rebuild() {
 }
 
 void Simulation::build_lists() {
-  reaches_ = physics_.reaches(particles_);
-  if (reaches_.empty()) {
+  const std::vector<double>& reaches = physics_.find_reaches(particles_);
+  if (reaches.empty()) {
     lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
                  distribution_.ranges(), timers_);
     if (particles_.fields().has(Field::wall_share)) lists_.mark_walls(particles_, is_wall_group_);
     return;
   }
-  std::vector<double> quanta(reaches_.size());
+  std::vector<double> quanta(reaches.size());
   for (std::size_t i = 0; i < quanta.size(); ++i)
-    quanta[i] = (reaches_[i] + distribution_.skin()) / scale_.quantum + 1;
+    quanta[i] = (reaches[i] + distribution_.skin()) / scale_.quantum + 1;
   lists_.build(particles_, quanta, distribution_.ranges(), timers_);
 }
 
@@ -216,58 +194,9 @@ void Simulation::rebuild_contacts(const decomp::Payload& contacts, std::span<con
                      " were found again after the lists were rebuilt; reduce time.dt");
 }
 
-void Simulation::run(const Pass& pass, const PassContext& context, Side side, Pack pack) {
-  const auto timing = timers_.time(decomp::Region::pairs);
-  const bool interior = side == Side::interior;
-  // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.
-  pack(context, interior ? 0 : particles_.owned(), interior ? particles_.owned() : particles_.rows());
-  if (interior && pack == pass.fusion->pack)
-    poison_rows(context, pass.fusion->row_bytes, particles_.owned(), particles_.rows());
-  const auto range = [&](RowClass c) -> const RowRange& {
-    return distribution_.ranges()[static_cast<std::size_t>(c)];
-  };
-  if (pass.movers)
-    pass.fusion->run(context, range(interior ? RowClass::interior_movers : RowClass::boundary_movers));
-  if (pass.walls)
-    pass.fusion->run(context, range(interior ? RowClass::interior_walls : RowClass::boundary_walls));
-}
-
-// Halo copies of these fields are out of date.
-void Simulation::changed(FieldSet fields) {
-  fresh_ = fresh_.without(fields);
-  if (!decomp::poisons()) return;
-  std::vector<int> columns;
-  for (Field f : (fields & particles_.fields()).list()) columns.push_back(particles_.column(f));
-  decomp::poison_halo(particles_.table(), columns);
-}
-
-void Simulation::refresh_begin(FieldSet wanted) {
-  const auto timing = timers_.time(decomp::Region::pack);
-  const FieldSet send = (wanted & particles_.fields()).without(fresh_);
-  std::vector<int> columns;
-  for (Field f : send.list()) columns.push_back(particles_.column(f));
-  refreshing_ = !columns.empty();
-  if (!refreshing_) return;
-  distribution_.halo().begin(particles_.table(), columns);
-  fresh_ |= send;
-  ++counters_.refreshes;
-  if (!scene_.decomposition.overlap) refresh_end();
-}
-
-void Simulation::refresh_end() {
-  if (!refreshing_) return;
-  refreshing_ = false;
-  {
-    const auto timing = timers_.time(decomp::Region::halo_wait);
-    distribution_.halo().wait();
-  }
-  const auto timing = timers_.time(decomp::Region::pack);
-  distribution_.halo().end();
-}
-
 void Simulation::refresh_halo(FieldSet fields) {
-  refresh_begin(fields);
-  refresh_end();
+  exchange_.begin(distribution_.halo(), particles_, fields, timers_);
+  exchange_.end(distribution_.halo(), timers_);
 }
 
 void Simulation::refresh_contacts() {
@@ -276,71 +205,60 @@ void Simulation::refresh_contacts() {
   refresh_halo(grains_->reads());
 }
 
-// The one reduction of a step. What it brings acts in the next step.
-std::int64_t Simulation::finish_step(std::int64_t request) {
-  const bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) &&
-                      std::isfinite(maxima_.sound) && !physics_.findings().any();
-  const Findings left = find_leavers();
-  std::array<double, 9> all{finite ? maxima_.speed : 0, finite ? maxima_.acceleration : 0, finite ? 0.0 : 1.0,
-                            static_cast<double>(request)};
-  all[6] = left.any() ? 1 : 0;
-  std::vector<std::int64_t> sums;
-  if (!grains_ && finite) all[4] = maxima_.sound, all[5] = maxima_.viscosity;
-  if (!grains_) all[7] = physics_.growth(particles_, reaches_);
-  if (grains_) {
-    all[4] = grains_->swept().strong.any() ? 1.0 : 0.0;
-    all[5] = grains_->swept().deep.any() ? 1.0 : 0.0;
-    sums = grains_->wall_force();
-  } else if (scene_.terms.shifting) {
-    all[8] = maxima_.motion.largest;
-    sums.assign(maxima_.motion.sums.begin(), maxima_.motion.sums.end());
-    sums.push_back(maxima_.volume);
-  }
+// What all ranks must know of this step. What it brings acts in the next one.
+void Simulation::reduce(std::int64_t request, bool left) {
+  const StepState state = state_of_step();
+  reduction_.clear();
+  bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
+  for (Model* m : models_) finite = m->report(state, reduction_) && finite;
+  reduction_[Reduction::speed] = finite ? maxima_.speed : 0;
+  reduction_[Reduction::acceleration] = finite ? maxima_.acceleration : 0;
+  reduction_[Reduction::bad] = finite ? 0 : 1;
+  reduction_[Reduction::left] = left ? 1 : 0;
+  reduction_[Reduction::request] = static_cast<double>(request);
   {
     const auto timing = timers_.time(decomp::Region::reduce);
-    if (sums.empty())
-      comm_.max(all);
-    else
-      comm_.max_and_sum(all, sums);
+    reduction_.combine(comm_);
   }
-  if (grains_) guard_sweep(all);
-  if (all[2] > 0) stop_at_bad_particle();
-  if (all[6] > 0) left.stop(comm_, step_text(global_.step));
-  if (grains_) {
-    // Walls drift before servos change their speeds.
-    moved_ += 1.0001 * std::max(all[0], grains_->fastest_wall(global_)) * global_.dt;
-    grains_->move_walls(global_, wall_forces(sums));
-  } else {
-    growth_ = all[7];
-    moved_ += physics_.longest_shift(global_);
-    if (scene_.terms.shifting) take_motion(sums, all[8]);
+}
+
+void Simulation::take_maxima() {
+  global_.max_speed = reduction_[Reduction::speed];
+  global_.max_acceleration = reduction_[Reduction::acceleration];
+  growth_ = 0;
+  for (const Model* m : models_) growth_ = std::max(growth_, m->growth(reduction_));
+}
+
+std::int64_t Simulation::finish_step(std::int64_t request) {
+  const Findings left = find_leavers();
+  reduce(request, left.any());
+  for (const Model* m : models_) m->guard(comm_, state_of_step(), reduction_);
+  if (reduction_[Reduction::bad] > 0) stop_at_bad_particle();
+  if (reduction_[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
+  for (Model* m : models_) {
+    moved_ += m->path(global_, reduction_[Reduction::speed]);
+    m->act(reduction_, global_);
   }
   ++global_.step;
   global_.time += global_.dt;
-  global_.max_speed = all[0];
-  global_.max_acceleration = all[1];
-  if (!grains_) global_.dt = physics_.time_step({all[0], all[1], 0, all[4], all[5]});
-  if (!grains_ && scene_.time.dt &&
-      all[4] * *scene_.time.dt > courant_limit(scene_) * scene_.smoothing_length)
-    throw GuardError("step " + std::to_string(global_.step) + ": (c + u) dt/h is beyond the limit of " +
-                     std::to_string(courant_limit(scene_)) + ", or the kernels of a gas that expands grow " +
-                     "too fast for it; reduce time.dt");
-  find_stale(grains_ ? 0.0 : physics_.longest_advance(global_) + physics_.longest_shift(global_));
-  return static_cast<std::int64_t>(all[3]);
+  take_maxima();
+  for (const Model* m : models_) m->set_step(reduction_, global_);
+  find_stale(longest_move(plan_, global_));
+  return static_cast<std::int64_t>(reduction_[Reduction::request]);
 }
 
-void Simulation::take_motion(std::span<const std::int64_t> sums, double largest) {
-  MotionSums motion{{}, largest};
-  std::copy_n(sums.begin(), motion.sums.size(), motion.sums.begin());
-  global_.motion = physics_.common_motion(motion, global_);
-  if (!scene_.open) global_.fluid_volume.now = sums.back();
+double Simulation::look_back() const {
+  double way = 0;
+  for (const Model* m : models_) way = std::max(way, m->longest_look_back(global_));
+  return way;
 }
 
 // A particle that leaves the domain does so in this step, wherever a rebuild would next look at it. Few ranks
 // have to look: how far particles were from the faces is known from the last rebuild, and so is a bound on
 // their way since.
 Findings Simulation::find_leavers() const {
-  const double step = grains_ ? 1.0001 * maxima_.speed * global_.dt : physics_.longest_shift(global_);
+  double step = 0;
+  for (const Model* m : models_) step += m->path(global_, maxima_.speed);
   return moved_ + step < distribution_.to_face() ? Findings() : distribution_.outside(particles_);
 }
 
@@ -353,11 +271,16 @@ Findings Simulation::find_leavers() const {
 void Simulation::find_stale(double next) {
   guard_motion(next);
   const int every = scene_.decomposition.rebuild_every;
-  const double furthest = grains_ ? moved_ : std::max(moved_ + next, physics_.longest_look_back(global_));
-  stale_ = furthest > 0.5 * distribution_.skin() || growth_ > 1 || (every > 0 && global_.step % every == 0);
-  if (!grains_ || !stale_ || (every > 0 && global_.step % every == 0)) return;
+  const bool wanted = growth_ > 1 || (every > 0 && global_.step % every == 0);
+  stale_ = wanted || std::max(moved_ + next, look_back()) > 0.5 * distribution_.skin();
+  if (!stale_ || wanted) return;
+  std::array<double, 1> way{0};
+  for (const Model* m : models_) {
+    const std::optional<double> looked = m->longest_way(particles_, global_);
+    if (!looked) return;
+    way[0] = std::max(way[0], *looked);
+  }
   const auto timing = timers_.time(decomp::Region::reduce);
-  std::array<double, 1> way{grains_->longest_way(particles_, global_)};
   comm_.max(way);
   moved_ = way[0];
   // Another step of the fastest grain must fit, or this look was for nothing.

@@ -20,10 +20,11 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
       physics_(scene_, scale_),
       distribution_(comm_, scene_, scale_),
       particles_(scene_.dim, physics_.fields()),
-      lists_(lanes_of(scene_.precision)) {
+      lists_(lanes_of(scene_.precision)),
+      exchange_(scene_.decomposition.overlap) {
   place_particles(scene_, scale_, distribution_, particles_);
-  if (scene_.of_grains()) {
-    grains_.emplace(scene_, scale_);
+  add_models();
+  if (grains_) {
     global_.dt = grains_->time_step();
     global_.walls = grains_->first_walls();
     check_start_speeds(comm_, scene_, particles_);
@@ -64,11 +65,20 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
       physics_(scene_, scale_),
       distribution_(comm_, scene_, scale_),
       particles_(scene_.dim, physics_.fields()),
-      lists_(lanes_of(scene_.precision)) {
-  if (scene_.of_grains()) grains_.emplace(scene_, scale_);
+      lists_(lanes_of(scene_.precision)),
+      exchange_(scene_.decomposition.overlap) {
+  add_models();
   read_checkpoint(comm_, checkpoint, particles_, has_history() ? &arrived_ : nullptr);
   global_ = checkpoint.record.global;
   begin();
+}
+
+void Simulation::add_models() {
+  if (scene_.of_grains()) grains_.emplace(scene_, scale_);
+  models_ = {grains_ ? static_cast<Model*>(&*grains_) : &physics_};
+  plan_ = grains_ ? grains_->plan() : physics_.plan();
+  for (Model* m : models_) m->reserve(reduction_);
+  add_dawdling();
 }
 
 void Simulation::begin() {
@@ -89,28 +99,26 @@ void Simulation::begin() {
   rebuild();
   if (const std::string text = distribution_.outside(particles_).agree(comm_); !text.empty())
     throw InputError(scene_.file + ": start: " + text);
-  // What bonds there are is known only from the start, and output wants the stress.
-  if (scene_.total_lagrangian()) compute(physics_.passes().front());
+  if (scene_.total_lagrangian()) run(plan_.start);
   physics_.findings().stop(comm_);
   stale_ = !grains_;  // the first advance may leave the skin
 }
 
 void Simulation::derive_for_output() {
-  for (const Pass& pass : physics_.passes()) {
-    if (pass.name != "walls") continue;
-    const auto copy = [&](const double* values, std::size_t components) {
-      return values == nullptr ? std::vector<double>()
-                               : std::vector<double>(values, values + components * particles_.owned());
-    };
-    double* velocity = particles_.data<Field::velocity>();
-    double* mirror = particles_.data<Field::wall_mirror>();
-    const std::vector<double> velocities = copy(velocity, static_cast<std::size_t>(scene_.dim)),
-                              mirrors = copy(mirror, 1);
-    compute(pass);
-    std::copy(velocities.begin(), velocities.end(), velocity);
-    std::copy(mirrors.begin(), mirrors.end(), mirror);
-    changed(pass.changes);
-  }
+  if (plan_.output.empty()) return;
+  const auto copy = [&](const double* values, std::size_t components) {
+    return values == nullptr ? std::vector<double>()
+                             : std::vector<double>(values, values + components * particles_.owned());
+  };
+  double* velocity = particles_.data<Field::velocity>();
+  double* mirror = particles_.data<Field::wall_mirror>();
+  const std::vector<double> velocities = copy(velocity, static_cast<std::size_t>(scene_.dim)),
+                            mirrors = copy(mirror, 1);
+  run(plan_.output);
+  std::copy(velocities.begin(), velocities.end(), velocity);
+  std::copy(mirrors.begin(), mirrors.end(), mirror);
+  for (const Entry& entry : plan_.output)
+    for (const Stage& stage : entry.stages) changed(stage.writes);
 }
 
 // At the start neither density nor kernels of a gas are known: steps towards them until none changes any more
@@ -126,7 +134,7 @@ void Simulation::widen_kernels() {
       if (!physics_.is_wall(group[i])) density[i] = 0;  // not summed yet: no work is done
     changed({Field::density});
     const std::vector<double> before(h, h + particles_.owned());
-    compute(physics_.passes().front());
+    run(plan_.start);
     std::array<double, 1> change{0};
     for (std::size_t i = 0; i < before.size(); ++i)
       change[0] = std::max(change[0], std::abs(h[i] / before[i] - 1));

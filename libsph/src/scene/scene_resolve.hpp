@@ -53,7 +53,7 @@ void refuse_foreign_keys(const SharedTables& tables, bool grains);
 
 /// [[wall]] and [[stage]], once domain and groups are known; stages name walls of `scene`.
 [[nodiscard]] std::vector<Wall> read_walls(const TableReader& top, const Scene& scene);
-[[nodiscard]] std::vector<Stage> read_stages(const TableReader& top, const Scene& scene);
+[[nodiscard]] std::vector<WallStage> read_stages(const TableReader& top, const Scene& scene);
 
 /// The index of the wall that `key` names.
 [[nodiscard]] int read_wall_name(const TableReader& table, std::string_view key,

@@ -38,8 +38,8 @@ WallChange read_change(const TableReader& table, const std::vector<Wall>& walls,
   return change;
 }
 
-Stage read_stage(const TableReader& table, const Scene& scene, Course& course) {
-  Stage stage;
+WallStage read_stage(const TableReader& table, const Scene& scene, Course& course) {
+  WallStage stage;
   stage.begin = table.required_number("begin", dimension::time, Bound::not_negative);
   for (const TableReader& t : table.tables("wall", scene_keys::stage_wall)) {
     const WallChange change = read_change(t, scene.walls, course);
@@ -65,13 +65,13 @@ void check_servos(const TableReader& top, const Scene& scene, const Course& cour
 
 }  // namespace
 
-std::vector<Stage> read_stages(const TableReader& top, const Scene& scene) {
-  std::vector<Stage> stages;
+std::vector<WallStage> read_stages(const TableReader& top, const Scene& scene) {
+  std::vector<WallStage> stages;
   std::vector<std::string> names;
   Course course{std::vector<bool>(scene.walls.size()), std::vector<bool>(scene.walls.size())};
   for (const TableReader& table : top.tables("stage", scene_keys::stage)) {
     names.push_back(read_name(table, "stage", names));
-    Stage stage = read_stage(table, scene, course);
+    WallStage stage = read_stage(table, scene, course);
     stage.name = names.back();
     if (!stages.empty() && !(stages.back().begin < stage.begin))
       table.fail("begin", fmt::format("is {}, not after the stage before it", stage.begin),

@@ -77,7 +77,7 @@ void write_wall(SceneWriter& out, const Scene& scene, const Wall& wall) {
   }
 }
 
-void write_stage(SceneWriter& out, const Scene& scene, const Stage& stage) {
+void write_stage(SceneWriter& out, const Scene& scene, const WallStage& stage) {
   out.header("[[stage]]");
   out.text("name", stage.name);
   out.number("begin", stage.begin);
@@ -96,7 +96,7 @@ void write_grains(SceneWriter& out, const Scene& scene) {
   write_contact(out, scene);
   for (const Group& g : scene.groups) write_material(out, g, scene.contact);
   for (const Wall& wall : scene.walls) write_wall(out, scene, wall);
-  for (const Stage& stage : scene.stages) write_stage(out, scene, stage);
+  for (const WallStage& stage : scene.stages) write_stage(out, scene, stage);
 }
 
 }  // namespace sph

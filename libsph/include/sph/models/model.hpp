@@ -1,0 +1,48 @@
+// What a scene is made of. A model adds stages to the plan of a step and takes part in the end of a step,
+// where all ranks learn what one of them has found. Models know nothing of ranks and nothing of each other.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "decomp/comm.hpp"
+#include "sph/particles.hpp"
+#include "sph/plan/plan.hpp"
+#include "sph/plan/reduction.hpp"
+
+namespace sph {
+
+class Model {
+ public:
+  virtual ~Model() = default;
+
+  /// Takes its places in the reduction.
+  virtual void reserve(Reduction&) {}
+
+  // At the end of a step, in this order.
+  /// This rank's part of the reduction; false if something of it is not finite.
+  [[nodiscard]] virtual bool report(const StepState&, Reduction&) = 0;
+  /// Throws GuardError, on all ranks alike. Collective where the reduction says so.
+  virtual void guard(const decomp::Comm&, const StepState&, const Reduction&) const {}
+  /// What the reduction changes in the state, with the clock as it was in the step.
+  virtual void act(const Reduction&, GlobalState&) {}
+  /// The time step to come; throws GuardError where that cannot be stable.
+  virtual void set_step(const Reduction&, GlobalState&) const {}
+
+  /// Bound on any particle's path in the step at hand beyond what its stages declare, where none was faster
+  /// than `speed` [m].
+  [[nodiscard]] virtual double path(const GlobalState&, double /*speed*/) const { return 0; }
+  /// How far from where a particle is a stage of the next step takes it to be [m].
+  [[nodiscard]] virtual double longest_look_back(const GlobalState&) const { return 0; }
+  /// How much of what lists bear particles' reach will have grown at the end of the next step; above 1 they
+  /// must be made anew.
+  [[nodiscard]] virtual double growth(const Reduction&) const { return 0; }
+  /// Largest way since the last rebuild [m], of models that would rather look than rely on the bound.
+  [[nodiscard]] virtual std::optional<double> longest_way(const Particles&, const GlobalState&) const {
+    return std::nullopt;
+  }
+  /// Faster than that nothing moves that the scene could mean [m/s].
+  [[nodiscard]] virtual double speed_limit() const { return std::numeric_limits<double>::infinity(); }
+};
+
+}  // namespace sph

@@ -1,0 +1,51 @@
+// What a scene's step does: positions drift, lists are made anew if they must be, sums are taken where
+// particles then are, velocities are kicked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sph/plan/stage.hpp"
+
+namespace sph {
+
+struct Plan {
+  std::vector<Entry> drift;   ///< before lists are looked at
+  std::vector<Entry> sums;    ///< over pairs, each with what follows from it for a particle alone
+  std::vector<Entry> kick;    ///< what moves particles last
+  std::vector<Entry> start;   ///< of `sums`: what the first step wants done
+  std::vector<Entry> output;  ///< of `sums`: what only output reads of a state
+};
+
+/// Appends a stage that is no loop.
+inline void append(std::vector<Entry>& entries, Stage stage) {
+  entries.push_back({{std::move(stage)}, {}, {}});
+}
+
+/// All entries of a step in their order.
+[[nodiscard]] std::vector<const Entry*> entries_of(const Plan& plan);
+/// Bound on any particle's path in the next step [m].
+[[nodiscard]] double longest_move(const Plan& plan, const GlobalState& global);
+
+/// Which halo copies are up to date.
+class Freshness {
+ public:
+  [[nodiscard]] FieldSet missing(FieldSet wanted) const { return wanted.without(fresh_); }
+  void sent(FieldSet fields) { fresh_ |= fields; }
+  void changed(FieldSet fields) { fresh_ = fresh_.without(fields); }
+
+ private:
+  FieldSet fresh_;
+};
+
+/// A stage in a step in the middle of a run, without a rebuild of lists.
+struct Scheduled {
+  const Entry* entry;
+  const Stage* stage;
+  FieldSet sends;  ///< to the halo before it
+  FieldSet again;  ///< ... in each further iteration of its loop
+};
+/// `fields`: those the scene has.
+[[nodiscard]] std::vector<Scheduled> schedule_of(const Plan& plan, FieldSet fields);
+
+}  // namespace sph

@@ -1,0 +1,77 @@
+// The step as data: stages in their order, some of them in loops. A stage says which fields of neighbours it
+// reads and which fields it writes; from that alone follows which halo copies are brought up to date before
+// it (plan.hpp), so a declaration that is missing shows as other bits on other ranks, never as a habit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "decomp/exact_sum.hpp"
+#include "decomp/memory.hpp"
+#include "decomp/timer.hpp"
+#include "sph/fields.hpp"
+#include "sph/neighbour_lists.hpp"
+#include "sph/particles.hpp"
+
+namespace sph {
+
+struct Fusion;
+
+/// Maxima that travel in the step's one reduction; part of the state where the next step depends on them.
+struct StepMaxima {
+  double speed = 0;         ///< [m/s]
+  double acceleration = 0;  ///< [m/s^2]
+  std::int64_t volume = 0;  ///< of this rank's fluid, see FluidVolume; a sum
+  double sound = 0;         ///< of ideal gases; 0: not looked at yet [m/s]
+  double viscosity = 0;     ///< eta / rho of ideal gases [m^2/s]
+  MotionSums motion{};      ///< of this rank's particles that move
+};
+
+/// What the stages of a step work on: one rank's part of a scene.
+struct StepState {
+  Particles& particles;
+  const RowRanges& ranges;
+  const NeighbourLists& lists;
+  decomp::LargeVector<std::byte>& rows;  ///< scratch of sums over pairs
+  GlobalState& global;
+  StepMaxima& maxima;  ///< of this step, set by what moves particles last
+  int iteration = 0;   ///< of the loop that the stage is in
+};
+
+/// Rows of the interior have no partner in the halo: they are computed while messages travel.
+enum class Side : std::uint8_t { all, interior, boundary };
+
+/// A stage that reads no neighbours is asked once, for all rows; others first for the interior.
+struct Stage {
+  std::string name;
+  decomp::Region region = decomp::Region::update;
+  FieldSet refresh;  ///< read of neighbours: up to date in the halo before the boundary is computed
+  FieldSet writes;   ///< halo copies of these are out of date after it
+  std::function<void(StepState&, Side)> work;
+  std::function<double(const GlobalState&)> moves{};  ///< bound on any particle's path in it [m]; empty: 0
+  const Fusion* fusion = nullptr;                     ///< of a stage that sums over pairs
+};
+
+/// Decides how often the stages of a loop are run.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// This rank's part of the dot products of an iteration, to be summed over all ranks; none: nothing to sum.
+  [[nodiscard]] virtual std::span<decomp::ExactSum> products(const StepState& state) = 0;
+  /// Sets what the next iteration reads and says true, or finishes and says that it was the last.
+  [[nodiscard]] virtual bool improve(StepState& state) = 0;
+};
+
+/// Stages that are repeated until their solver is content. One stage stands for a loop that runs once.
+struct Entry {
+  std::vector<Stage> stages;
+  std::shared_ptr<Solver> solver;  ///< of a loop; else empty
+  FieldSet improves;               ///< fields the solver changes
+};
+
+}  // namespace sph

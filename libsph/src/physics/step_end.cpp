@@ -1,0 +1,55 @@
+// What a scene of fluids and solids has to say at the end of a step.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sph/physics.hpp"
+
+namespace sph {
+
+void Physics::reserve(Reduction& r) {
+  for (Reduction::Maximum* slot : {&faults_, &sound_, &viscosity_, &growth_, &unlike_})
+    *slot = r.add_maximum();
+  if (!scene_->terms.shifting) return;
+  motion_ = r.add_sums(MotionSums{}.sums.size());
+  volume_ = r.add_sums(1);
+}
+
+bool Physics::report(const StepState& s, Reduction& r) {
+  const StepMaxima& maxima = s.maxima;
+  r[faults_] = findings_.any() ? 1 : 0;
+  r[growth_] = growth_since_listed(s.particles);
+  if (!std::isfinite(maxima.sound) || findings_.any()) return false;
+  r[sound_] = maxima.sound;
+  r[viscosity_] = maxima.viscosity;
+  if (!scene_->terms.shifting) return true;
+  r[unlike_] = maxima.motion.largest;
+  std::ranges::copy(maxima.motion.sums, r[motion_].begin());
+  r[volume_][0] = maxima.volume;
+  return true;
+}
+
+void Physics::guard(const decomp::Comm& comm, const StepState&, const Reduction& r) const {
+  if (r[faults_] > 0) findings_.stop(comm);
+}
+
+void Physics::act(const Reduction& r, GlobalState& global) {
+  if (!scene_->terms.shifting) return;
+  MotionSums motion{{}, r[unlike_]};
+  std::ranges::copy(r[motion_], motion.sums.begin());
+  global.motion = common_motion(motion, global);
+  if (!scene_->open) global.fluid_volume.now = r[volume_][0];
+}
+
+void Physics::set_step(const Reduction& r, GlobalState& global) const {
+  global.dt = time_step({r[Reduction::speed], r[Reduction::acceleration], 0, r[sound_], r[viscosity_]});
+  if (scene_->time.dt && r[sound_] * *scene_->time.dt > courant_limit(*scene_) * scene_->smoothing_length)
+    throw GuardError(
+        fmt::format("step {}: (c + u) dt/h is beyond the limit of {:f}, or the kernels of a gas that expands "
+                    "grow too fast "
+                    "for it; reduce time.dt",
+                    global.step, courant_limit(*scene_)));
+}
+
+}  // namespace sph
