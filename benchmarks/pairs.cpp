@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "sph/fusions.hpp"
 #include "sph/simd.hpp"
 #include "sph/simulation.hpp"
 #include "timing.hpp"
@@ -105,7 +106,7 @@ double pass_seconds(sph::Simulation& s, sph::Particles& particles, const sph::Ne
   for (const sph::Entry* entry : sph::entries_of(s.plan()))
     for (const sph::Stage& stage : entry->stages) {
       if (stage.fusion == nullptr) continue;
-      const sph::PassContext context = s.physics().context(particles, lists, rows, s.global().dt);
+      const sph::PassContext context = s.physics().constants().context(particles, lists, rows, s.global().dt);
       stage.fusion->pack(context, 0, particles.rows());
       for (const sph::RowRange& r : ranges) stage.fusion->run(context, r);
     }

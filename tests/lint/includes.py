@@ -27,7 +27,7 @@ HIDDEN = {
 LAYERS = [
     (r"libsph/include/sph/terms/", r"sph/(pair_rows|kernels)\.hpp|sph/(materials|terms)/\w+\.hpp"),
     (r"libsph/include/", r"(decomp|sph)/.*"),
-    (r"libsph/src/", r"(decomp|sph|scene|start|pairs|physics|plan|grains|output|checkpoint|run)/.*"),
+    (r"libsph/src/", r"(decomp|sph|scene|start|pairs|physics|plan|models|grains|output|checkpoint|run)/.*"),
     (r"libdecomp/", r"decomp/.*"),
     (r"apps/", r"(decomp|sph)/.*"),
     (r"benchmarks/", r"(decomp|sph)/.*"),

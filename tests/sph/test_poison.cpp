@@ -7,6 +7,7 @@
 
 #include "decomp/poison.hpp"
 #include "pairs/poison_rows.hpp"
+#include "sph/fusions.hpp"
 #include "sph/simulation.hpp"
 
 namespace sph {
@@ -46,7 +47,7 @@ std::int64_t bad_sums(const Simulation& s, bool packed) {
   auto& particles = const_cast<Particles&>(s.particles());  // the sums alone are written
   decomp::LargeVector<std::byte> rows;
   const Fusion& fusion = *s.plan().sums.front().stages.front().fusion;
-  const PassContext context = s.physics().context(particles, s.lists(), rows, s.global().dt);
+  const PassContext context = s.physics().constants().context(particles, s.lists(), rows, s.global().dt);
   fusion.pack(context, 0, particles.rows());
   if (!packed) poison_rows(context, fusion.row_bytes, particles.owned(), particles.rows());
   std::int64_t bad = 0;

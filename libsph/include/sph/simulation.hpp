@@ -73,6 +73,7 @@ class Simulation {
 
  private:
   void add_models();
+  void find_common_motion(const Shifting& shifting);
   void begin();  ///< common end of both constructors
   void kick_half_a_step();
   void rebuild();
@@ -83,6 +84,7 @@ class Simulation {
   [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows() const;
   void add_dawdling();
   void run(const std::vector<Entry>& entries);
+  void run(const std::vector<Entry>& entries, StepState& state);
   void run(const Stage& stage, StepState& state);
   [[nodiscard]] bool improve(const Entry& loop, StepState& state);
   [[nodiscard]] StepState state_of_step();
@@ -116,6 +118,7 @@ class Simulation {
   Plan plan_;
   Reduction reduction_;
   HaloExchange exchange_;
+  Findings findings_;        ///< of this rank
   StepMaxima maxima_;        ///< of this rank and step
   decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
   bool stale_ = true;

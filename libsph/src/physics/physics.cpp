@@ -4,221 +4,89 @@
 #include <cmath>
 #include <numbers>
 
-#include "pairs/poison_rows.hpp"
+#include "plan/for_rows.hpp"
 #include "sph/grains.hpp"
+#include "sph/models/models.hpp"
 
 namespace sph {
 
-PositionScale position_scale(const Scene& scene) {
-  double extent = 0;
-  for (int a = 0; a < scene.dim; ++a)
-    extent = std::max({extent, std::abs(scene.lower[static_cast<std::size_t>(a)]),
-                       std::abs(scene.upper[static_cast<std::size_t>(a)])});
-  PositionScale scale;
-  // The next power of two above both bounds. A bond of a body that turns upside down is displaced by its
-  // length then and now.
-  const double longest = scene.total_lagrangian() ? scene.support() + scene.list_range() : scene.list_range();
-  scale.quantum = std::ldexp(1.0, std::max(std::ilogb(extent) + 1 - 60, std::ilogb(longest) + 1 - 50));
-  for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.lower[a]);
-  return scale;
-}
-
-// 2^29 units across the support, so that its square and the skin stay within 31 bits.
-int row_position_shift(const Scene& scene, const PositionScale& scale) {
-  const double longest = scene.total_lagrangian() ? scene.support() : scene.list_range();
-  return std::max(std::ilogb(longest / scale.quantum) + 1 - 29, 0);
-}
-
-std::int64_t PositionScale::quanta(double metres) const {
-  // |metres / quantum| < 2^62, and the division by a power of two is exact.
-  return static_cast<std::int64_t>(std::nearbyint(metres / quantum));
-}
-
 Physics::Physics(const Scene& scene, const PositionScale& scale)
     : scene_(&scene),
-      scale_(scale),
       gas_(scene.has_eos(EosKind::ideal_gas)),
-      surface_(scene.kernel, scene.dim) {
+      constants_(scene, scale),
+      materials_(constants_),
+      body_forces_(constants_),
+      builder_(constants_, materials_, body_forces_) {
   if (scene.of_grains()) {
-    fields_ = grain_fields(scene);  // no passes: Grains has the rest
+    grain_fields_ = grain_fields(scene);  // no stages: Grains has them
     return;
   }
-  set_sph_constants();
+  builder_.add_fields({Field::id, Field::position, Field::velocity, Field::density, Field::mass, Field::group,
+                       Field::pressure, Field::force});
+  if (scene.has_eos(EosKind::bubbly))
+    builder_.add_fields({Field::sound_speed, Field::void_fraction, Field::gas_content});
+  if (gas_) builder_.add_fields({Field::sound_speed, Field::specific_energy});
+  if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
+    builder_.add_fields({Field::stress});
+  if (gas_) reach_.emplace(scene);
+  if (scene.terms.shifting) shifting_.emplace(constants_, body_forces_);
+
+  add_drift(builder_);
   if (scene.formulation == Formulation::ida)
-    build_ida();
+    add_ida(builder_);
   else if (gas_)
-    build_gas();
+    add_gas(builder_);
   else if (scene.total_lagrangian())
-    build_total_lagrangian();
+    add_bonds(builder_);
   else
-    build_conservative();
-  add_drift();
-  add_kick();
+    add_liquids_and_solids();
+  add_end_of_step();
 }
 
-Stage Physics::sums_over_pairs(std::string name, const std::vector<Term>& terms, Rows rows) {
-  const Fusion& fusion = find_fusion(scene_->dim, scene_->precision, scene_->kernel, terms);
-  fields_ |= fusion.writes;
-  const auto work = [this, &fusion, rows](StepState& s, Side side) {
-    const PassContext context = this->context(s.particles, s.lists, s.rows, s.global.dt);
-    const std::size_t owned = s.particles.owned();
-    // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.
-    const bool interior = side == Side::interior;
-    const auto pack = s.iteration == 0 ? fusion.pack : fusion.repack;
-    pack(context, interior ? 0 : owned, interior ? owned : s.particles.rows());
-    if (interior && s.iteration == 0) poison_rows(context, fusion.row_bytes, owned, s.particles.rows());
-    if (rows != Rows::walls)
-      fusion.run(context,
-                 range_of(s.ranges, interior ? RowClass::interior_movers : RowClass::boundary_movers));
-    if (rows != Rows::movers)
-      fusion.run(context, range_of(s.ranges, interior ? RowClass::interior_walls : RowClass::boundary_walls));
-  };
-  return {std::move(name), decomp::Region::pairs, fields_behind(fusion.values), fusion.writes, work, {},
-          &fusion};
-}
-
-void Physics::add_sums(std::string name, const std::vector<Term>& terms, Rows rows) {
-  append(plan_.sums, sums_over_pairs(std::move(name), terms, rows));
-}
-
-void Physics::add_update(std::string name, FieldSet writes, Update update) {
-  append(plan_.sums, {std::move(name),
-                      decomp::Region::update,
-                      {},
-                      writes,
-                      [update](StepState& s, Side) { update(s.particles, s.ranges, s.global); },
-                      {}});
-}
-
-void Physics::add_drift() {
-  append(plan_.drift, {"drift",
-                       decomp::Region::update,
-                       {},
-                       FieldSet{Field::position, Field::displacement},
-                       [this](StepState& s, Side) { advance(s.particles, s.ranges, s.global.dt); },
-                       [this](const GlobalState& global) { return longest_advance(global); }});
-}
-
-void Physics::add_kick() {
-  FieldSet changed{Field::velocity};
-  if (scene_->terms.shifting) changed |= FieldSet{Field::position};
-  if (bulk_viscous_) changed |= FieldSet{Field::pressure};
-  if (gas_) changed |= FieldSet{Field::specific_energy, Field::pressure, Field::sound_speed};
-  if (!transitions_.empty()) changed |= FieldSet{Field::group};
-  append(plan_.kick, {"kick",
-                      decomp::Region::update,
-                      {},
-                      changed,
-                      [this](StepState& s, Side) { s.maxima = integrate(s.particles, s.ranges, s.global); },
-                      [this](const GlobalState& global) { return longest_shift(global); }});
-}
-
-// One step, positions advanced: kinematics (density and stress from the velocities), walls (extrapolation
-// from the new pressures), forces, kick. The density is advanced with the velocity of the half step before
-// the kick that uses it: symplectic, stable to c dt/h well above 0.8 (accuracy.md 0.3).
-void Physics::build_conservative() {
+void Physics::add_liquids_and_solids() {
   const Scene& s = *scene_;
-  std::size_t movers = 0;
-  bool uniform_viscosity = true;
-  for (const Group& g : s.groups) {
-    if (g.kind != GroupKind::wall) ++movers;
-    uniform_viscosity = uniform_viscosity && g.viscosity == s.groups[0].viscosity;
+  const bool walls = s.has_kind(GroupKind::wall), fluid = s.has_kind(GroupKind::fluid);
+  add_kinematics(builder_);
+  if (walls) add_walls(builder_, s.terms.pressure_weights == PressureWeights::density);
+  const InterfaceTension& tension = s.terms.surface_tension;
+  if (tension.coefficient > 0 && tension.form == TensionForm::jump) add_curvature(builder_);
+  add_forces(builder_);
+  // Only where fluid flies can it come into walls.
+  if (walls && fluid && (s.terms.implicit_viscosity || s.free_surface)) {
+    add_wall_share(builder_);
+    if (s.free_surface) add_walls_that_hold(builder_);
   }
-  const bool walls = s.has_kind(GroupKind::wall), solid = s.has_kind(GroupKind::solid);
-  const bool slips = solid && s.has_kind(GroupKind::fluid);
-  const bool single = movers == 1 && !walls && !s.has_eos(EosKind::bubbly);
-  const bool weighted = s.terms.pressure_weights == PressureWeights::density;
-  std::vector<Term> kinematics{slips      ? Term::slipping_gradient
-                               : solid    ? Term::velocity_gradient
-                               : weighted ? Term::weighted_divergence
-                                          : Term::divergence,
-                               s.central_pull > 0              ? Term::pulled_density_diffusion
-                               : single && !solid && !weighted ? Term::uniform_density_diffusion
-                                                               : Term::density_diffusion};
-  if (s.terms.shifting) kinematics.push_back(Term::shifting);
-  const bool tension = s.terms.surface_tension.coefficient > 0;
-  if (tension) kinematics.push_back(Term::colour_gradient);
-  add_sums("kinematics", kinematics);
-  add_update("densities", {Field::density, Field::stress, Field::pressure, Field::sound_speed},
-             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-               for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
-                 const RowRange& r = range_of(ranges, c);
-                 update_movers(p, r.first, r.last, global);
-               }
-             });
-
-  if (weighted) fields_ |= FieldSet{Field::wall_pressures};
-  if (walls) add_walls(weighted);
-  const bool jump = tension && s.terms.surface_tension.form == TensionForm::jump;
-  if (jump) add_curvature();
-
-  const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
-  const bool uniform = uniform_viscosity && !solid && !weighted && !tension && !symmetric;
-  std::vector<Term> forces{slips      ? Term::slipping_stress
-                           : solid    ? Term::stress_divergence
-                           : weighted ? Term::weighted_pressure
-                                      : Term::pressure};
-  if (!s.terms.implicit_viscosity)
-    forces.push_back(uniform     ? Term::uniform_viscosity
-                     : symmetric ? Term::symmetric_viscosity
-                                 : Term::viscosity);
-  if (tension)
-    forces.push_back(!jump      ? Term::surface_tension
-                     : weighted ? Term::weighted_tension_jump
-                                : Term::tension_jump);
-  if (s.terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
-  add_sums("forces", forces);
-  if (walls && s.has_kind(GroupKind::fluid) && (s.terms.implicit_viscosity || s.free_surface))
-    find_walls_nearby();
-  if (s.terms.implicit_viscosity) build_implicit_viscosity(walls);
+  if (s.terms.implicit_viscosity) add_implicit_viscosity(builder_, walls);
 }
 
-void Physics::add_walls(bool weighted) {
-  if (std::any_of(scene_->groups.begin(), scene_->groups.end(),
-                  [](const Group& g) { return g.kind == GroupKind::wall && !g.slip; })) {
-    mirror_.emplace(*scene_);
-    fields_ |= FieldSet{Field::wall_mirror};
+void Physics::add_end_of_step() {
+  const Scene& s = *scene_;
+  add_kick(builder_);
+  if (shifting_) shifting_->add_to(builder_);
+  if (bulk_viscous(s)) add_pressures(builder_);
+  if (std::ranges::any_of(s.groups, [](const Group& g) { return g.fragments_to >= 0; }))
+    add_fragmentation(builder_);
+  if (gas_) add_heat(builder_);
+  if (s.output.average_time > 0) add_averages(builder_);
+}
+
+const std::vector<double>& Physics::find_reaches(const Particles& p) {
+  return reach_ ? reach_->find(p) : no_reaches_;
+}
+
+StepMaxima Physics::maxima_at_start(Particles& p) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double* v = p.data<Field::velocity>();
+  double speed2 = 0;
+  StepMaxima maxima;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    double v2 = 0;
+    for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
+    speed2 = v2 > speed2 ? v2 : speed2;
   }
-  std::vector<Term> terms{Term::wall_extrapolation};
-  if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
-  add_sums("walls", terms, Rows::walls);
-  add_update("wall pressures", {Field::pressure, Field::velocity, Field::wall_pressures, Field::wall_mirror},
-             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-               update_walls(p, ranges, global);
-             });
-  plan_.output.assign(plan_.sums.end() - 2, plan_.sums.end());
-}
-
-// Only where fluid flies can it come into walls.
-void Physics::find_walls_nearby() {
-  wall_distance_.emplace(scene_->kernel, scene_->dim, scene_->spacing / scene_->smoothing_length);
-  add_sums("wall distance", {Term::wall_share});
-  if (!scene_->free_surface) return;
-  add_update("walls hold", {Field::force},
-             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-               hold_off(p, ranges, global.dt);
-             });
-}
-
-// The paper's cycle: velocity gradient (10), density (8), pressure, stress (9) or (11) of every particle,
-// walls included; then the force (6) on those that move.
-void Physics::build_ida() {
-  add_sums("gradient", {Term::ida_gradient}, Rows::all);
-  add_update("densities and stresses", {Field::density, Field::stress, Field::pressure, Field::sound_speed},
-             [this](Particles& p, const RowRanges& ranges, const GlobalState& global) {
-               for (const RowRange& r : ranges) update_ida(p, r.first, r.last, global.dt);
-             });
-  std::vector<Term> forces{Term::ida_stress};
-  if (scene_->terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
-  add_sums("forces", forces);
-}
-
-PassContext Physics::context(Particles& particles, const NeighbourLists& lists,
-                             decomp::LargeVector<std::byte>& rows, double dt) const {
-  TermConstants<double> constants = constants_;
-  constants.half_step = 0.5 * dt / scene_->smoothing_length;
-  return {&particles,       &lists,        &groups_,          row_scale_, constants,
-          gradient_factor_, force_factor_, diffusion_factor_, &rows};
+  if (gas_) look_at_gas(constants_, GasView(p), 0, p.owned(), maxima);
+  maxima.speed = std::sqrt(speed2);
+  return maxima;
 }
 
 double Physics::time_step(const StepMaxima& maxima) const {
@@ -227,9 +95,9 @@ double Physics::time_step(const StepMaxima& maxima) const {
   double fastest = maxima.sound, viscous = maxima.viscosity, bulk = 0;
   for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
     // Of a gas that of now counts.
-    if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, groups_.sound_speed[g]);
+    if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_.groups.sound_speed[g]);
     if (scene_->total_lagrangian() && is_wall(static_cast<std::uint32_t>(g))) continue;
-    viscous = std::max(viscous, groups_.viscosity[g] / scene_->groups[g].density);
+    viscous = std::max(viscous, constants_.groups.viscosity[g] / scene_->groups[g].density);
     bulk = std::max(bulk, scene_->groups[g].bulk_viscosity / scene_->groups[g].density);
   }
   const bool bonds = scene_->total_lagrangian();
@@ -252,11 +120,6 @@ double Physics::time_step(const StepMaxima& maxima) const {
   return dt;
 }
 
-// The margin covers the rounding to quanta.
-double Physics::longest_advance(const GlobalState& global) const {
-  return 1.0001 * global.max_speed * global.dt;
-}
-
 // Wall particles do not move, but their pairs are taken with the velocity of their material.
 double Physics::longest_look_back(const GlobalState& global) const {
   double wall2 = 0;
@@ -265,18 +128,19 @@ double Physics::longest_look_back(const GlobalState& global) const {
     for (double v : g.wall_velocity) v2 += v * v;
     wall2 = std::max(wall2, v2);
   }
-  return 0.5 * std::max(longest_advance(global), 1.0001 * std::sqrt(wall2) * global.dt);
+  return 0.5 * std::max(longest_drift(global), 1.0001 * std::sqrt(wall2) * global.dt);
 }
 
 // Gases and solids fly at any Mach number; of liquids it says that they are meant to be stiffer.
 double Physics::speed_limit() const {
   constexpr double light = 299'792'458, mach = 10;
   if (gas_ || !scene_->has_kind(GroupKind::fluid)) return light;
-  return mach * *std::max_element(groups_.sound_speed.begin(), groups_.sound_speed.end());
+  return mach * *std::max_element(constants_.groups.sound_speed.begin(), constants_.groups.sound_speed.end());
 }
 
 double Physics::courant_number(double dt) const {
-  const double fastest = *std::max_element(groups_.sound_speed.begin(), groups_.sound_speed.end());
+  const double fastest =
+      *std::max_element(constants_.groups.sound_speed.begin(), constants_.groups.sound_speed.end());
   return fastest * dt / scene_->smoothing_length;
 }
 

@@ -9,36 +9,30 @@
 namespace sph {
 
 void Physics::reserve(Reduction& r) {
-  for (Reduction::Maximum* slot : {&faults_, &sound_, &viscosity_, &growth_, &unlike_})
-    *slot = r.add_maximum();
-  if (!scene_->terms.shifting) return;
+  for (Reduction::Maximum* slot : {&sound_, &viscosity_, &growth_, &unlike_}) *slot = r.add_maximum();
+  if (!shifting_) return;
   motion_ = r.add_sums(MotionSums{}.sums.size());
   volume_ = r.add_sums(1);
 }
 
 bool Physics::report(const StepState& s, Reduction& r) {
   const StepMaxima& maxima = s.maxima;
-  r[faults_] = findings_.any() ? 1 : 0;
-  r[growth_] = growth_since_listed(s.particles);
-  if (!std::isfinite(maxima.sound) || findings_.any()) return false;
+  if (reach_) r[growth_] = reach_->growth(s.particles);
+  if (!std::isfinite(maxima.sound)) return false;
   r[sound_] = maxima.sound;
   r[viscosity_] = maxima.viscosity;
-  if (!scene_->terms.shifting) return true;
+  if (!shifting_) return true;
   r[unlike_] = maxima.motion.largest;
   std::ranges::copy(maxima.motion.sums, r[motion_].begin());
   r[volume_][0] = maxima.volume;
   return true;
 }
 
-void Physics::guard(const decomp::Comm& comm, const StepState&, const Reduction& r) const {
-  if (r[faults_] > 0) findings_.stop(comm);
-}
-
 void Physics::act(const Reduction& r, GlobalState& global) {
-  if (!scene_->terms.shifting) return;
+  if (!shifting_) return;
   MotionSums motion{{}, r[unlike_]};
   std::ranges::copy(r[motion_], motion.sums.begin());
-  global.motion = common_motion(motion, global);
+  global.motion = shifting_->common_motion(motion, global);
   if (!scene_->open) global.fluid_volume.now = r[volume_][0];
 }
 

@@ -11,6 +11,7 @@ namespace sph {
 
 std::int64_t Simulation::step(std::int64_t request) {
   if (global_.step == 0 && scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
+  maxima_ = {};
   run(plan_.drift);
   if (stale_) rebuild();
   run(plan_.sums);
@@ -19,11 +20,15 @@ std::int64_t Simulation::step(std::int64_t request) {
 }
 
 StepState Simulation::state_of_step() {
-  return {particles_, distribution_.ranges(), lists_, rows_, global_, maxima_};
+  return {{distribution_.ranges(), global_, maxima_, findings_}, particles_, lists_, rows_};
 }
 
 void Simulation::run(const std::vector<Entry>& entries) {
   StepState state = state_of_step();
+  run(entries, state);
+}
+
+void Simulation::run(const std::vector<Entry>& entries, StepState& state) {
   for (const Entry& entry : entries) {
     state.iteration = 0;
     do {
@@ -46,7 +51,7 @@ void Simulation::run(const Stage& stage, StepState& state) {
     exchange_.end(distribution_.halo(), timers_);
     work(Side::boundary);
   }
-  if (stage.moves) moved_ += stage.moves(global_);
+  if (stage.moves) moved_ += stage.moves(state.global);
   changed(stage.writes);
 }
 
@@ -89,7 +94,9 @@ void Simulation::kick_half_a_step() {
   GlobalState part = global_;
   const auto kick = [&](double share) {
     part.dt = share * global_.dt;
-    maxima_ = physics_.integrate(particles_, distribution_.ranges(), part);
+    maxima_ = {};
+    StepState state{{distribution_.ranges(), part, maxima_, findings_}, particles_, lists_, rows_};
+    run(plan_.kick, state);
     reduce(0, false);
     take_maxima();
     physics_.set_step(reduction_, part);
@@ -97,9 +104,7 @@ void Simulation::kick_half_a_step() {
   };
   global_.dt = kick(0);  // how large a step may be follows from the accelerations
   (void)kick(0.5);
-  physics_.findings().stop(comm_);
-  for (const Entry& entry : plan_.kick)
-    for (const Stage& stage : entry.stages) changed(stage.writes);
+  findings_.stop(comm_);
   find_stale(longest_move(plan_, global_));
 }
 
@@ -209,7 +214,7 @@ void Simulation::refresh_contacts() {
 void Simulation::reduce(std::int64_t request, bool left) {
   const StepState state = state_of_step();
   reduction_.clear();
-  bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration);
+  bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) && !findings_.any();
   for (Model* m : models_) finite = m->report(state, reduction_) && finite;
   reduction_[Reduction::speed] = finite ? maxima_.speed : 0;
   reduction_[Reduction::acceleration] = finite ? maxima_.acceleration : 0;
@@ -233,7 +238,10 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   const Findings left = find_leavers();
   reduce(request, left.any());
   for (const Model* m : models_) m->guard(comm_, state_of_step(), reduction_);
-  if (reduction_[Reduction::bad] > 0) stop_at_bad_particle();
+  if (reduction_[Reduction::bad] > 0) {
+    findings_.stop(comm_);  // what is not finite may follow from it
+    stop_at_bad_particle();
+  }
   if (reduction_[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
   for (Model* m : models_) {
     moved_ += m->path(global_, reduction_[Reduction::speed]);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sph/fusions.hpp"
+#include "sph/models/models.hpp"
 #include "sph/placement.hpp"
 #include "sph/simulation.hpp"
 #include "start/start_densities.hpp"
@@ -38,19 +40,9 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   comm_.max(largest);
   global_.max_speed = largest[0];
   global_.dt = physics_.time_step({largest[0], 0, 0, largest[1], largest[2]});
-  global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(physics_.fluid_volume(particles_));
-  // The mean first, then the largest difference from it, then all.
-  if (scene_.terms.shifting) global_.motion.largest = global_.max_speed;
-  for (int k = 0; k < 3 && scene_.terms.shifting; ++k) {
-    MotionSums motion = physics_.motion_sums(particles_, global_);
-    comm_.sum(std::span<std::int64_t>(motion.sums));
-    std::array<double, 1> most{motion.largest};
-    comm_.max(most);
-    motion.largest = most[0];
-    global_.motion = physics_.common_motion(motion, global_);
-  }
+  if (physics_.shifting()) find_common_motion(*physics_.shifting());
   try {
-    guard_motion(physics_.longest_advance(global_));
+    guard_motion(longest_drift(global_));
   } catch (const GuardError& error) {
     throw InputError(scene_.file + ": start: " + error.what());
   }
@@ -71,6 +63,21 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
   read_checkpoint(comm_, checkpoint, particles_, has_history() ? &arrived_ : nullptr);
   global_ = checkpoint.record.global;
   begin();
+}
+
+void Simulation::find_common_motion(const Shifting& shifting) {
+  const Shifting::Motion moving(particles_);
+  global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(shifting.fluid_volume(moving));
+  // The mean first, then the largest difference from it, then all.
+  global_.motion.largest = global_.max_speed;
+  for (int k = 0; k < 3; ++k) {
+    MotionSums motion = shifting.motion_sums(moving, global_);
+    comm_.sum(std::span<std::int64_t>(motion.sums));
+    std::array<double, 1> most{motion.largest};
+    comm_.max(most);
+    motion.largest = most[0];
+    global_.motion = shifting.common_motion(motion, global_);
+  }
 }
 
 void Simulation::add_models() {
@@ -100,7 +107,7 @@ void Simulation::begin() {
   if (const std::string text = distribution_.outside(particles_).agree(comm_); !text.empty())
     throw InputError(scene_.file + ": start: " + text);
   if (scene_.total_lagrangian()) run(plan_.start);
-  physics_.findings().stop(comm_);
+  findings_.stop(comm_);
   stale_ = !grains_;  // the first advance may leave the skin
 }
 

@@ -15,8 +15,10 @@
 #include "decomp/memory.hpp"
 #include "decomp/timer.hpp"
 #include "sph/fields.hpp"
+#include "sph/findings.hpp"
 #include "sph/neighbour_lists.hpp"
 #include "sph/particles.hpp"
+#include "sph/plan/view.hpp"
 
 namespace sph {
 
@@ -32,15 +34,20 @@ struct StepMaxima {
   MotionSums motion{};      ///< of this rank's particles that move
 };
 
-/// What the stages of a step work on: one rank's part of a scene.
-struct StepState {
-  Particles& particles;
+/// What a local update knows besides its fields (view.hpp).
+struct Step {
   const RowRanges& ranges;
-  const NeighbourLists& lists;
-  decomp::LargeVector<std::byte>& rows;  ///< scratch of sums over pairs
   GlobalState& global;
   StepMaxima& maxima;  ///< of this step, set by what moves particles last
-  int iteration = 0;   ///< of the loop that the stage is in
+  Findings& findings;  ///< what no particle may be: the run stops at the end of the step
+};
+
+/// What the stages of a step work on: one rank's part of a scene.
+struct StepState : Step {
+  Particles& particles;
+  const NeighbourLists& lists;
+  decomp::LargeVector<std::byte>& rows;  ///< scratch of sums over pairs
+  int iteration = 0;                     ///< of the loop that the stage is in
 };
 
 /// Rows of the interior have no partner in the halo: they are computed while messages travel.
@@ -56,6 +63,16 @@ struct Stage {
   std::function<double(const GlobalState&)> moves{};  ///< bound on any particle's path in it [m]; empty: 0
   const Fusion* fusion = nullptr;                     ///< of a stage that sums over pairs
 };
+
+/// A local update: `update(view, step)` of what it declares as `reads` and `writes`.
+template <class Update>
+[[nodiscard]] Stage local_stage(std::string name, Update update) {
+  return {std::move(name),
+          decomp::Region::update,
+          {},
+          Update::writes,
+          [update = std::move(update)](StepState& s, Side) { update(ViewOf<Update>(s.particles), s); }};
+}
 
 /// Decides how often the stages of a loop are run.
 class Solver {

@@ -1,15 +1,11 @@
-// Shifting: particles are moved against the gradient S of their concentration (terms/shifting.hpp), by
-//   delta r = -2 h U dt S, at most U dt / 2 long,
-// the form of Sun et al. (2017), where U is the largest speed of the flow. Here it is local, the same in
-// every frame, and 0 in rigid motion: U_i = min(256 w_i, 2 M, c / 10), w_i the rms speed at which a particle
-// and its neighbours part, M = (mean of |v - mean v|^8)^(1/8) over all, the largest but for what few do.
+#include "sph/models/shifting.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "physics/for_rows.hpp"
 #include "physics/random.hpp"
+#include "plan/for_rows.hpp"
 #include "sph/fixed_point.hpp"
-#include "sph/physics.hpp"
 
 namespace sph {
 namespace {
@@ -22,8 +18,8 @@ constexpr double per_parting = 256;
 constexpr double per_unlike = 2;
 constexpr double per_sound = 0.1;  // the Mach number for which c is chosen in a weakly compressible flow
 constexpr double at_rest = 0.02;
-constexpr double longest = 0.5;  // of U dt
-constexpr double drift = 2e-4;   // of U dt
+constexpr double most_of_way = 0.5;  // of U dt
+constexpr double drift = 2e-4;       // of U dt
 
 // In units of the largest difference of the step before, which are the same in every frame; what is beyond
 // four of them counts as four.
@@ -37,19 +33,47 @@ double unit_of(double speed) {
   return std::ldexp(1.0, exponent);
 }
 
+struct CommonMotionSums {
+  static constexpr FieldSet reads{Field::velocity, Field::group, Field::mass, Field::density};
+  static constexpr FieldSet writes{};
+  Shifting shifting;
+
+  void operator()(const Shifting::Motion& p, const Step& step) const {
+    step.maxima.volume = shifting.fluid_volume(p);
+    step.maxima.motion = shifting.motion_sums(p, step.global);
+  }
+};
+
 }  // namespace
 
+void Shifting::add_to(Builder& b) const {
+  b.add_kick("shifting", *this, [own = *this](const GlobalState& global) { return own.longest(global); });
+  b.add_kick("common motion", CommonMotionSums{*this});
+}
+
+std::int64_t Shifting::fluid_volume(const Motion& p) const {
+  if (constants_->scene->open) return 0;
+  const double* mass = p.get<Field::mass>();
+  const double* rho = p.get<Field::density>();
+  const auto* group = p.get<Field::group>();
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i)
+    if (!constants_->is_wall(group[i]))
+      sum += round_to_quanta(mass[i] / rho[i] * (constants_->row_scale.inverse_volume * 0x1p26));
+  return sum;
+}
+
 // One particle that flies, however fast, counts as one that moves at c / 10.
-MotionSums Physics::motion_sums(const Particles& p, const GlobalState& global) const {
+MotionSums Shifting::motion_sums(const Motion& p, const GlobalState& global) const {
   const auto d = static_cast<std::size_t>(p.dim());
-  const double* v = p.data<Field::velocity>();
-  const auto* group = p.data<Field::group>();
+  const double* v = p.get<Field::velocity>();
+  const auto* group = p.get<Field::group>();
   const double unit = unit_of(global.motion.largest), inverse = 1 / unit;
   MotionSums out;
   auto& sums = out.sums;
   double largest2 = 0;
   for (std::size_t i = 0; i < p.owned(); ++i) {
-    if (is_wall(group[i])) continue;
+    if (constants_->is_wall(group[i])) continue;
     double square = 0;
     ++sums[0];
     for (std::size_t a = 0; a < d; ++a) {
@@ -58,7 +82,7 @@ MotionSums Physics::motion_sums(const Particles& p, const GlobalState& global) c
       square += way * way;
     }
     largest2 = std::fmax(largest2, square);
-    const double fastest = per_sound * groups_.sound_speed[group[i]] * inverse;
+    const double fastest = per_sound * constants_->groups.sound_speed[group[i]] * inverse;
     square = std::fmin(square, std::fmin(fastest * fastest, most * most));
     double power = square * square * (square * square) * first_digit;
     for (std::size_t k = 4; k < sums.size(); ++k) {
@@ -73,7 +97,7 @@ MotionSums Physics::motion_sums(const Particles& p, const GlobalState& global) c
 
 // The sums are about the mean of the step before. That a frame may be accelerated must not count: the eighth
 // mean about the mean of now is larger than this one less the way between them (Minkowski).
-CommonMotion Physics::common_motion(const MotionSums& found, const GlobalState& global) const {
+CommonMotion Shifting::common_motion(const MotionSums& found, const GlobalState& global) const {
   const auto& sums = found.sums;
   const auto count = static_cast<double>(sums[0]);
   CommonMotion motion = global.motion;
@@ -95,15 +119,15 @@ CommonMotion Physics::common_motion(const MotionSums& found, const GlobalState& 
 // A fluid at rest under gravity is ordered by its own pressure, and prefers another order than S does: the
 // two would stir it for ever. At rest is what parts more slowly than 0.02 sqrt(g h); tanks at rest reach
 // 0.004, flows driven by their weight have 0.1.
-double Physics::shifting_speed(const Particles& p, std::size_t i, const GlobalState& global,
-                               double rest) const {
+double Shifting::speed_of(const View<reads, writes>& p, std::size_t i, const GlobalState& global,
+                          double rest) const {
   const auto d = static_cast<std::size_t>(p.dim());
-  const double* sums = p.data<Field::spread>() + i * (d + 2) + d;
+  const double* sums = p.get<Field::spread>() + i * (d + 2) + d;
   if (!(sums[0] > 0)) return 0;
   const double square = sums[1] / sums[0];
   if (!(square > rest)) return 0;
-  const double* sound = p.data<Field::sound_speed>();
-  double c = groups_.sound_speed[p.data<Field::group>()[i]];
+  const double* sound = p.get<Field::sound_speed>();
+  double c = constants_->groups.sound_speed[p.get<Field::group>()[i]];
   if (sound != nullptr) c = std::fmin(c, sound[i]);
   const double parting = std::sqrt(square) * (1 - rest / square);
   return std::fmin(per_parting * parting, std::fmin(per_unlike * global.motion.unlike, per_sound * c));
@@ -112,19 +136,19 @@ double Physics::shifting_speed(const Particles& p, std::size_t i, const GlobalSt
 // On a lattice, however stretched, S is 0 by symmetry: particles run along the stagnation lines of a flow in
 // rows that no shift tears apart, until rounding does, too late and violently. A drift of its own for each
 // particle, 2e-4 of U, does it in time.
-void Physics::shift(Particles& p, const RowRanges& ranges, const GlobalState& global) const {
+void Shifting::operator()(const View<reads, writes>& p, const Step& step) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
-  std::int64_t* x = p.data<Field::position>();
-  const double* spread = p.data<Field::spread>();
-  const auto* id = p.data<Field::id>();
+  std::int64_t* x = p.get<Field::position>();
+  const double* spread = p.get<Field::spread>();
+  const auto* id = p.get<Field::id>();
   double pull = 0;
-  for (double g : scene_->gravity) pull += g * g;
-  const double rest = at_rest * at_rest * scene_->smoothing_length * std::sqrt(pull);
-  for_movers(ranges, [&](std::size_t i) {
-    const double reach = shifting_speed(p, i, global, rest) * global.dt;
+  for (double g : constants_->scene->gravity) pull += g * g;
+  const double rest = at_rest * at_rest * constants_->scene->smoothing_length * std::sqrt(pull);
+  for_movers(step.ranges, [&](std::size_t i) {
+    const double reach = speed_of(p, i, step.global, rest) * step.global.dt;
     if (!(reach > 0)) return;
-    const double scale = -2 * scene_->smoothing_length * reach;
-    const double share = scene_->open ? disordered_share(p, i) : 1.0;
+    const double scale = -2 * constants_->scene->smoothing_length * reach;
+    const double share = constants_->scene->open ? body_forces_->disordered_share(p, i) : 1.0;
     Double3 way{};
     double length2 = 0;
     for (std::size_t a = 0; a < d; ++a) {
@@ -133,45 +157,17 @@ void Physics::shift(Particles& p, const RowRanges& ranges, const GlobalState& gl
       length2 += way[a] * way[a];
     }
     const double length = std::sqrt(length2);
-    const double cap = length > longest * reach ? longest * reach / length : 1.0;
-    for (std::size_t a = 0; a < d; ++a) x[i * d + a] += round_to_quanta(way[a] * cap / scale_.quantum);
+    const double cap = length > most_of_way * reach ? most_of_way * reach / length : 1.0;
+    for (std::size_t a = 0; a < d; ++a)
+      x[i * d + a] += round_to_quanta(way[a] * cap / constants_->scale.quantum);
   });
 }
 
 // The margin covers the rounding to quanta.
-double Physics::longest_shift(const GlobalState& global) const {
-  if (!scene_->terms.shifting) return 0;
-  const double fastest = *std::max_element(groups_.sound_speed.begin(), groups_.sound_speed.end());
-  return 1.0001 * longest * std::fmin(per_unlike * global.motion.unlike, per_sound * fastest) * global.dt;
-}
-
-// How much of a particle's S is not that of the surface near it: 1 - |grad C| / |S| with the gradient that
-// belongs to its C. Negative where S is too small for that: were such particles not drawn back inwards, those
-// with too large an S would take the surface outwards with them. Inside C is 1 +- 0.01 and all of S is
-// disorder, hence the margin; spray is left alone.
-double Physics::disordered_share(const Particles& p, std::size_t i) const {
-  constexpr double inside = 0.985, margin = 0.007, spray = 0.6;
-  const std::size_t d = static_cast<std::size_t>(p.dim());
-  const double h = scene_->smoothing_length;
-  const double* spread = p.data<Field::spread>() + i * (d + 2);
-  const double volume = p.data<Field::mass>()[i] / p.data<Field::density>()[i] * row_scale_.inverse_volume;
-  const double concentration = h * spread[d] + volume * own_concentration_;
-  double square = 0;
-  for (std::size_t a = 0; a < d; ++a) square += spread[a] * spread[a];
-  if (square == 0 || concentration < spray) return 0;
-  const double length = h * std::sqrt(square);
-  return concentration < inside ? std::fmax(-1.0, 1 - surface_(concentration) / length)
-                                : std::fmax(0.0, 1 - surface_(concentration + margin) / length);
-}
-
-// Under tension particles draw together and leave voids. In the form -(p_j - p_i) instead of -(p_j + p_i) the
-// force of a constant pressure on disordered particles pushes them apart (Sun et al. 2018, tensile
-// instability control): the difference to the pair force is 2 p_i V_i S_i. Not antisymmetric, so only where a
-// free surface leaves no other way.
-double Physics::tension_control(const Particles& p, std::size_t i) const {
-  const double pressure = p.data<Field::pressure>()[i];
-  if (!scene_->terms.shifting || !scene_->open || pressure >= 0) return 0;
-  return 2 * pressure / p.data<Field::density>()[i] * std::fmax(0.0, disordered_share(p, i));
+double Shifting::longest(const GlobalState& global) const {
+  const double fastest =
+      *std::max_element(constants_->groups.sound_speed.begin(), constants_->groups.sound_speed.end());
+  return 1.0001 * most_of_way * std::fmin(per_unlike * global.motion.unlike, per_sound * fastest) * global.dt;
 }
 
 }  // namespace sph

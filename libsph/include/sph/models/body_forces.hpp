@@ -1,0 +1,29 @@
+// What accelerates a particle besides its pairs: gravity, a central pull, and, beside a free surface where
+// particles are shifted, the control of tension.
+#pragma once
+
+#include "sph/models/sph_constants.hpp"
+#include "sph/surface_gradient.hpp"
+
+namespace sph {
+
+class BodyForces {
+ public:
+  static constexpr FieldSet reads{Field::position, Field::pressure, Field::density, Field::mass,
+                                  Field::spread};
+  using Particles = View<reads, FieldSet{}>;
+
+  explicit BodyForces(const SphConstants& constants);
+
+  [[nodiscard]] Double3 operator()(const Particles& particles, std::size_t row) const;  ///< [m/s^2]
+  /// How much of a particle's gradient of concentration is not that of a free surface near it.
+  [[nodiscard]] double disordered_share(const Particles& particles, std::size_t row) const;
+
+ private:
+  [[nodiscard]] double tension_control(const Particles& particles, std::size_t row) const;
+
+  const SphConstants* constants_;
+  SurfaceGradient surface_;
+};
+
+}  // namespace sph

@@ -1,0 +1,81 @@
+// What the models of a scene of fluids and solids add to it: fields, the stages of its plan.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sph/models/body_forces.hpp"
+#include "sph/models/materials.hpp"
+#include "sph/models/sph_constants.hpp"
+#include "sph/plan/plan.hpp"
+
+namespace sph {
+
+class Builder {
+ public:
+  /// Rows that a sum over pairs is taken for.
+  enum class Rows : std::uint8_t { movers, walls, all };
+
+  Builder(const SphConstants& constants, const Materials& materials, const BodyForces& body_forces)
+      : constants_(&constants), materials_(&materials), body_forces_(&body_forces) {}
+
+  // What updates may hold on to: it stays as long as the plan.
+  [[nodiscard]] const SphConstants& constants() const { return *constants_; }
+  [[nodiscard]] const Materials& materials() const { return *materials_; }
+  [[nodiscard]] const BodyForces& body_forces() const { return *body_forces_; }
+  [[nodiscard]] const Scene& scene() const { return *constants_->scene; }
+  [[nodiscard]] bool has_walls() const { return scene().has_kind(GroupKind::wall); }
+  [[nodiscard]] FieldSet fields() const { return fields_; }
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+
+  void add_fields(FieldSet fields) { fields_ |= fields; }
+  [[nodiscard]] Stage sums_over_pairs(std::string name, const std::vector<Term>& terms,
+                                      Rows rows = Rows::movers);
+  void add_sums(std::string name, const std::vector<Term>& terms, Rows rows = Rows::movers) {
+    append(plan_.sums, sums_over_pairs(std::move(name), terms, rows));
+  }
+  void add_loop(Entry loop) { plan_.sums.push_back(std::move(loop)); }
+  /// What follows from the sums before it for a particle alone.
+  template <class Update>
+  void add_update(std::string name, Update update) {
+    append(plan_.sums, local_stage(std::move(name), std::move(update)));
+  }
+  template <class Update>
+  void add_drift(std::string name, Update update, std::function<double(const GlobalState&)> moves) {
+    append(plan_.drift, local_stage(std::move(name), std::move(update)));
+    plan_.drift.back().stages.front().moves = std::move(moves);
+  }
+  template <class Update>
+  void add_kick(std::string name, Update update, std::function<double(const GlobalState&)> moves = {}) {
+    append(plan_.kick, local_stage(std::move(name), std::move(update)));
+    plan_.kick.back().stages.front().moves = std::move(moves);
+  }
+  /// The stages so far are what the first step wants done (Plan::start).
+  void begin_with_these() { plan_.start = plan_.sums; }
+  /// The last two stages are read by output alone where no step follows (Plan::output).
+  void derive_last_two_for_output() { plan_.output.assign(plan_.sums.end() - 2, plan_.sums.end()); }
+
+ private:
+  const SphConstants* constants_;
+  const Materials* materials_;
+  const BodyForces* body_forces_;
+  FieldSet fields_;
+  Plan plan_;
+};
+
+/// Text for a particle that is what none may be.
+template <class View>
+void find_fault(const SphConstants& k, const View& p, std::size_t i, const Step& step,
+                const std::string& what) {
+  const auto d = static_cast<std::size_t>(p.dim());
+  const std::uint64_t id = p.template get<Field::id>()[i];
+  step.findings.add(id, [&] {
+    std::vector<double> at;
+    for (std::size_t a = 0; a < d; ++a)
+      at.push_back(k.scale.metres(p.template get<Field::position>()[i * d + a]));
+    return step_text(step.global.step) + "particle " + std::to_string(id) + " of \"" +
+           k.scene->groups[p.template get<Field::group>()[i]].name + "\" " + place_text(at) + " " + what;
+  });
+}
+
+}  // namespace sph

@@ -1,0 +1,21 @@
+// Pressure and what else follows from the state of a particle alone, by its group's equation of state.
+#pragma once
+
+#include "sph/models/sph_constants.hpp"
+
+namespace sph {
+
+class Materials {
+ public:
+  static constexpr FieldSet reads{Field::density, Field::group, Field::gas_content, Field::specific_energy};
+  static constexpr FieldSet writes{Field::pressure, Field::sound_speed, Field::void_fraction};
+
+  explicit Materials(const SphConstants& constants) : constants_(&constants) {}
+  /// Of rows [first, last).
+  void derive(const View<reads, writes>& particles, std::size_t first, std::size_t last) const;
+
+ private:
+  const SphConstants* constants_;
+};
+
+}  // namespace sph

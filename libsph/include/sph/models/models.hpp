@@ -1,0 +1,43 @@
+// The models that scenes of fluids and solids are made of. Each adds its fields and stages; which of them a
+// scene has, and in which order, is said once, in physics.cpp.
+#pragma once
+
+#include "sph/models/builder.hpp"
+
+namespace sph {
+
+/// Some group has a second viscosity: forces then have another pressure than the state.
+[[nodiscard]] bool bulk_viscous(const Scene& scene);
+
+/// Positions advance: x += v dt, rounded to quanta, for particles that move.
+void add_drift(Builder& builder);
+/// Bound on how far that moves any particle [m].
+[[nodiscard]] double longest_drift(const GlobalState& global);
+/// Fluids and updated-Lagrangian solids: densities and stresses from the velocities ...
+void add_kinematics(Builder& builder);
+/// ... and the forces of pairs.
+void add_forces(Builder& builder);
+/// Walls take their pressure and velocity from what is beside them; `weighted`: by density.
+void add_walls(Builder& builder, bool weighted);
+/// Where torn fluid flies, walls stop it.
+void add_walls_that_hold(Builder& builder);
+/// How near walls are, for what needs it after the forces.
+void add_wall_share(Builder& builder);
+/// The interface's curvature, for a tension that is a jump of the pressure.
+void add_curvature(Builder& builder);
+/// Viscous forces of the end of the step; `walls`: some are near.
+void add_implicit_viscosity(Builder& builder, bool walls);
+/// The literal formulation of Ida's paper.
+void add_ida(Builder& builder);
+/// Total-Lagrangian solids.
+void add_bonds(Builder& builder);
+/// v += (F/m + g) dt for particles that move; walls get their own velocity back.
+void add_kick(Builder& builder);
+/// Pressures of the state alone, where forces had others.
+void add_pressures(Builder& builder);
+/// Bubbly particles with too much gas become spray.
+void add_fragmentation(Builder& builder);
+/// Running averages for output.
+void add_averages(Builder& builder);
+
+}  // namespace sph

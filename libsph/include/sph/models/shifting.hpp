@@ -1,0 +1,40 @@
+// Shifting: particles are moved against the gradient S of their concentration (terms/shifting.hpp), by
+//   delta r = -2 h U dt S, at most U dt / 2 long,
+// the form of Sun et al. (2017), where U is the largest speed of the flow. Here it is local, the same in
+// every frame, and 0 in rigid motion: U_i = min(256 w_i, 2 M, c / 10), w_i the rms speed at which a particle
+// and its neighbours part, M = (mean of |v - mean v|^8)^(1/8) over all, the largest but for what few do.
+#pragma once
+
+#include "sph/models/builder.hpp"
+
+namespace sph {
+
+class Shifting {
+ public:
+  static constexpr FieldSet reads = BodyForces::reads | FieldSet{Field::id, Field::group, Field::sound_speed};
+  static constexpr FieldSet writes{Field::position};
+  /// What the sums of all particles need.
+  using Motion = View<FieldSet{Field::velocity, Field::group, Field::mass, Field::density}, FieldSet{}>;
+
+  Shifting(const SphConstants& constants, const BodyForces& body_forces)
+      : constants_(&constants), body_forces_(&body_forces) {}
+  void add_to(Builder& builder) const;
+
+  /// Of this rank's particles that move; see FluidVolume.
+  [[nodiscard]] std::int64_t fluid_volume(const Motion& particles) const;
+  /// Of this rank's particles that move, about the mean known before; and what the sums over all ranks say.
+  [[nodiscard]] MotionSums motion_sums(const Motion& particles, const GlobalState& global) const;
+  [[nodiscard]] CommonMotion common_motion(const MotionSums& found, const GlobalState& global) const;
+  /// Bound on how far it moves any particle, from what is known at the start of the step [m].
+  [[nodiscard]] double longest(const GlobalState& global) const;
+  void operator()(const View<reads, writes>& particles, const Step& step) const;
+
+ private:
+  [[nodiscard]] double speed_of(const View<reads, writes>&, std::size_t row, const GlobalState&,
+                                double rest) const;
+
+  const SphConstants* constants_;
+  const BodyForces* body_forces_;
+};
+
+}  // namespace sph

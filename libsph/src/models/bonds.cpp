@@ -1,0 +1,153 @@
+// Total-Lagrangian solids: sums over bonds, the stress of each particle, forces. The
+// scheme is a Hamiltonian system (terms/bonds.hpp): stress is a function of the positions alone, and nothing
+// is integrated in time but position and velocity.
+#include <string>
+
+#include "sph/models/models.hpp"
+#include "sph/neo_hooke.hpp"
+
+namespace sph {
+namespace {
+
+/// Least determinant of A over that of the isotropic tensor of the same trace: below it is a thread.
+constexpr double least_shape = 1e-3;
+
+/// Inverse of a symmetric tensor stored xx yy xy or xx yy zz xy xz yz, times its determinant.
+template <int D>
+Tensor<D> adjugate(const double* a) {
+  Tensor<D> out;
+  if constexpr (D == 2) {
+    out << a[1], -a[2], -a[2], a[0];
+  } else {
+    const double xy = a[4] * a[5] - a[3] * a[2], xz = a[3] * a[5] - a[4] * a[1],
+                 yz = a[3] * a[4] - a[0] * a[5];
+    out << a[1] * a[2] - a[5] * a[5], xy, xz, xy, a[0] * a[2] - a[4] * a[4], yz, xz, yz,
+        a[0] * a[1] - a[3] * a[3];
+  }
+  return out;
+}
+
+/// The sums of terms/bonds.hpp for one particle, with their scale undone.
+template <int D>
+struct BondSums {
+  double count, square, shape;
+  Tensor<D> inverse;   ///< A^-1
+  Tensor<D> gradient;  ///< H = B A^-1
+  double residual;     ///< sum w |u - H X|^2
+  BondSums(const double* sums, double scale) : count(sums[0]) {
+    constexpr int n = D * (D + 1) / 2;
+    const double* a = sums + 2;
+    const Eigen::Map<const Tensor<D>> b(sums + 2 + n);
+    const Tensor<D> adjugate_of_a = adjugate<D>(a);
+    double determinant = 0, trace = 0;
+    for (int k = 0; k < D; ++k) {
+      determinant += a[symmetric_index(0, k, D)] * adjugate_of_a(k, 0);
+      trace += a[k];
+    }
+    const double mean = trace / D;
+    shape = determinant / (D == 2 ? mean * mean : mean * mean * mean);
+    gradient = b * adjugate_of_a / determinant;
+    inverse = adjugate_of_a / (determinant * scale);
+    residual = (sums[1] - gradient.cwiseProduct(b).sum()) * scale;
+  }
+};
+
+struct Stresses {
+  static constexpr FieldSet reads{Field::id,   Field::position,       Field::group,
+                                  Field::mass, Field::contact_energy, Field::deformation};
+  static constexpr FieldSet writes{Field::bond_stress, Field::stress,  Field::strain_energy,
+                                   Field::bonds,       Field::density, Field::pressure};
+  const SphConstants* constants;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    for (const RowRange& r : step.ranges)
+      p.dim() == 2 ? update<2>(p, r.first, r.last, step) : update<3>(p, r.first, r.last, step);
+  }
+
+  template <int D>
+  void update(const View<reads, writes>& p, std::size_t first, std::size_t last, const Step& step) const {
+    constexpr std::size_t n = D * (D + 1) / 2, sums = 2 + n + D * D;
+    const auto* group = p.get<Field::group>();
+    const double* mass = p.get<Field::mass>();
+    const double* contact = p.get<Field::contact_energy>();
+    for (std::size_t i = first; i < last; ++i) {
+      Eigen::Map<Tensor<D>> bond_stress(p.get<Field::bond_stress>() + i * D * D);
+      double* stress = p.get<Field::stress>() + i * n;
+      double& energy = p.get<Field::strain_energy>()[i];
+      energy = contact != nullptr ? contact[i] : 0.0;
+      const Group& own = constants->scene->groups[group[i]];
+      if (own.kind == GroupKind::wall && own.clamps < 0) {  // rigid
+        bond_stress.setZero();
+        continue;
+      }
+      const Group& g = constants->scene->groups[static_cast<std::size_t>(constants->groups.body[group[i]])];
+      const BondSums<D> bonds(p.get<Field::deformation>() + i * sums,
+                              constants->gradient_factor * constants->scene->smoothing_length);
+      check(p, i, bonds.count, bonds.shape, step);
+      const ElasticState<D> state = neo_hooke<D>(bonds.gradient, g.bulk_modulus, g.shear_modulus);
+      const double hourglass = constants->terms.hourglass * constants->groups.modulus[group[i]];
+      bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
+      const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
+      if (!(ratio > 0))
+        find_fault(*constants, p, i, step, "is turned inside out: the body is beyond elasticity");
+      energy += volume * (state.energy + 0.5 * hourglass * bonds.residual);
+
+      // For output: Cauchy stress P F^T / J; out of the plane mu (1/J - 1) + lambda' (J - 1).
+      const Tensor<D> cauchy = (state.first_piola + state.first_piola * bonds.gradient.transpose()) / ratio;
+      const double out_of_plane = (g.bulk_modulus + g.shear_modulus / 3) * state.volume_change -
+                                  g.shear_modulus * (state.volume_change / ratio);
+      const double pressure = -(cauchy.trace() + (D == 2 ? out_of_plane : 0.0)) / 3;
+      p.get<Field::pressure>()[i] = pressure;
+      p.get<Field::density>()[i] = own.density / ratio;
+      for (int a = 0; a < D; ++a)
+        for (int b = a; b < D; ++b)
+          stress[symmetric_index(a, b, D)] = 0.5 * (cauchy(a, b) + cauchy(b, a)) + (a == b ? pressure : 0.0);
+    }
+  }
+
+  // A bond is lost when its particles are further apart than the lists reach. The number is exact: the
+  // reference state does not change. 0 is that of a particle not looked at yet.
+  void check(const View<reads, writes>& p, std::size_t i, double count, double shape,
+             const Step& step) const {
+    std::uint32_t& bonds = p.get<Field::bonds>()[i];
+    const auto found = static_cast<std::uint32_t>(count);
+    if (bonds == 0) {
+      if (!(shape > least_shape))
+        find_fault(*constants, p, i, step,
+                   "has its " + std::to_string(found) +
+                       " neighbours in one line or plane: a total-Lagrangian body must be at least two "
+                       "particles across; refine start.spacing");
+      bonds = found;
+    }
+    if (bonds != found)
+      find_fault(
+          *constants, p, i, step,
+          "finds " + std::to_string(found) + " of its " + std::to_string(bonds) +
+              " neighbours: the body is stretched beyond terms.largest_stretch; raise it or reduce time.dt");
+  }
+};
+
+}  // namespace
+
+void add_bonds(Builder& b) {
+  const Scene& s = b.scene();
+  const SphConstants& k = b.constants();
+  std::vector<Term> deformation{Term::deformation}, forces{Term::bond_force};
+  bool contact = false, viscous = false;
+  for (std::size_t g = 0; g < s.groups.size(); ++g) {
+    contact = contact || k.groups.body[g] != k.groups.body[0];
+    viscous = viscous || (s.groups[g].kind == GroupKind::solid && k.groups.viscosity[g] > 0);
+  }
+  if (contact) {
+    deformation.push_back(Term::body_contact_energy);
+    forces.push_back(Term::body_contact);
+  }
+  if (viscous) forces.push_back(Term::bond_viscosity);
+  b.add_fields({Field::displacement, Field::bonds, Field::bond_stress, Field::strain_energy});
+  b.add_sums("deformation", deformation, Builder::Rows::all);
+  b.add_update("stress", Stresses{&k});
+  b.begin_with_these();  // what bonds there are is known only from the start, and output wants the stress
+  b.add_sums("forces", forces);
+}
+
+}  // namespace sph

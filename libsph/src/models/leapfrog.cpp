@@ -1,0 +1,155 @@
+// What moves particles: positions drift with the velocities of half a step ago, velocities are kicked by the
+// sums of the forces; what changes a particle at the end of a step.
+#include <cmath>
+
+#include "plan/for_rows.hpp"
+#include "sph/fixed_point.hpp"
+#include "sph/models/models.hpp"
+
+namespace sph {
+namespace {
+
+struct Drift {
+  static constexpr FieldSet reads{Field::velocity};
+  static constexpr FieldSet writes{Field::position, Field::displacement};
+  PositionScale scale;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const std::size_t d = static_cast<std::size_t>(p.dim());
+    std::int64_t* x = p.get<Field::position>();
+    std::int64_t* u = p.get<Field::displacement>();
+    const double* v = p.get<Field::velocity>();
+    const double quanta_per_metre = 1 / scale.quantum;
+    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+      const RowRange& r = range_of(step.ranges, c);
+      for (std::size_t k = r.first * d; k < r.last * d; ++k)
+        x[k] += round_to_quanta(v[k] * step.global.dt * quanta_per_metre);
+      if (u == nullptr) continue;
+      for (std::size_t k = r.first * d; k < r.last * d; ++k)
+        u[k] += round_to_quanta(v[k] * step.global.dt * quanta_per_metre);
+    }
+  }
+};
+
+struct Kick {
+  static constexpr FieldSet reads =
+      BodyForces::reads | FieldSet{Field::force, Field::mass, Field::smoothing_length};
+  static constexpr FieldSet writes{Field::velocity};
+  const Scene* scene;
+  const BodyForces* body_forces;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const std::size_t d = static_cast<std::size_t>(p.dim());
+    const double dt = step.global.dt;
+    double* v = p.get<Field::velocity>();
+    const double* force = p.get<Field::force>();
+    const double* mass = p.get<Field::mass>();
+    const double* h = p.get<Field::smoothing_length>();
+    double speed2 = 0, acceleration2 = 0;
+    for_movers(step.ranges, [&](std::size_t i) {
+      const double inverse_mass = 1 / mass[i];
+      const Double3 body = (*body_forces)(p, i);
+      double v2 = 0, a2 = 0;
+      for (std::size_t a = 0; a < d; ++a) {
+        const double acceleration = force[i * d + a] * inverse_mass + body[a];
+        v[i * d + a] += acceleration * dt;
+        a2 += acceleration * acceleration;
+        v2 += v[i * d + a] * v[i * d + a];
+      }
+      // How far it takes a particle is counted in its own h.
+      const double finer = h != nullptr ? scene->smoothing_length / h[i] : 1.0;
+      speed2 = larger(v2, speed2);
+      acceleration2 = larger(a2 * (finer * finer), acceleration2);
+    });
+    step.maxima.speed = std::sqrt(speed2);
+    step.maxima.acceleration = std::sqrt(acceleration2);
+  }
+};
+
+struct WallVelocities {
+  static constexpr FieldSet reads{Field::group};
+  static constexpr FieldSet writes{Field::velocity};
+  const Scene* scene;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    double* v = p.get<Field::velocity>();
+    const auto* group = p.get<Field::group>();
+    for_walls(step.ranges, [&](std::size_t i) {
+      for (std::size_t a = 0; a < d; ++a) v[i * d + a] = scene->groups[group[i]].wall_velocity[a];
+    });
+  }
+};
+
+/// Without the excess pressure of a second viscosity.
+struct Pressures {
+  static constexpr FieldSet reads = Materials::reads;
+  static constexpr FieldSet writes = Materials::writes;
+  const Materials* materials;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers})
+      materials->derive(p, range_of(step.ranges, c).first, range_of(step.ranges, c).last);
+  }
+};
+
+// Fragmentation (paper, 4.3): a bubbly particle whose gas fraction exceeds psi_f joins the spray, for good.
+// Mass, momentum and gas stay with the particle; only its constitutive constants change.
+struct Fragmentation {
+  static constexpr FieldSet reads{Field::void_fraction};
+  static constexpr FieldSet writes{Field::group};
+  const Scene* scene;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    auto* group = p.get<Field::group>();
+    const double* psi = p.get<Field::void_fraction>();
+    for_movers(step.ranges, [&](std::size_t i) {
+      const Group& g = scene->groups[group[i]];
+      if (g.fragments_to >= 0 && psi[i] > *g.fragmentation_void_fraction)
+        group[i] = static_cast<std::uint32_t>(g.fragments_to);
+    });
+  }
+};
+
+// a += dt/T (f - a), T the time since the start until that is the scene's window: from the plain mean to an
+// exponential one. Nothing reads it but output.
+struct Averages {
+  static constexpr FieldSet reads{Field::velocity, Field::pressure};
+  static constexpr FieldSet writes = output_averages;
+  const Scene* scene;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const std::size_t d = static_cast<std::size_t>(p.dim());
+    const double weight =
+        step.global.dt / std::fmin(scene->output.average_time, step.global.time + step.global.dt);
+    const double w = std::fmin(weight, 1.0);
+    const auto follow = [&](double* mean, const double* value, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) mean[k] += w * (value[k] - mean[k]);
+    };
+    follow(p.get<Field::velocity_mean>(), p.get<Field::velocity>(), p.owned() * d);
+    follow(p.get<Field::pressure_mean>(), p.get<Field::pressure>(), p.owned());
+  }
+};
+
+}  // namespace
+
+// The margin covers the rounding to quanta.
+double longest_drift(const GlobalState& global) { return 1.0001 * global.max_speed * global.dt; }
+
+void add_drift(Builder& b) { b.add_drift("drift", Drift{b.constants().scale}, longest_drift); }
+
+void add_kick(Builder& b) {
+  b.add_kick("kick", Kick{&b.scene(), &b.body_forces()});
+  if (b.has_walls()) b.add_kick("walls' own velocity", WallVelocities{&b.scene()});
+}
+
+void add_pressures(Builder& b) { b.add_kick("pressures", Pressures{&b.materials()}); }
+
+void add_fragmentation(Builder& b) { b.add_kick("fragmentation", Fragmentation{&b.scene()}); }
+
+void add_averages(Builder& b) {
+  b.add_fields(output_averages);
+  b.add_kick("averages", Averages{&b.scene()});
+}
+
+}  // namespace sph

@@ -1,0 +1,134 @@
+// Fluids and updated-Lagrangian solids. One step, positions advanced: kinematics (density and stress from the
+// velocities), walls (extrapolation from the new pressures), forces, kick. The density is advanced with the
+// velocity of the half step before the kick that uses it: symplectic, stable to c dt/h well above 0.8
+// (accuracy.md 0.3).
+#include <algorithm>
+
+#include "plan/for_rows.hpp"
+#include "sph/models/models.hpp"
+#include "sph/stress_update.hpp"
+
+namespace sph {
+namespace {
+
+double trace_of(const double* matrix, std::size_t d) {
+  double t = 0;
+  for (std::size_t a = 0; a < d; ++a) t += matrix[a * (d + 1)];
+  return t;
+}
+
+// A flow that disorders its particles seems compressed to their sums of div v, and the shifting that orders
+// them again is in no sum: the mean density of a closed box would rise, or fall, without end. But the box is
+// as large as ever, so densities are scaled to fill it.
+double filling(const GlobalState& global) {
+  const FluidVolume& v = global.fluid_volume;
+  return v.start == v.now ? 1.0 : static_cast<double>(v.now) / static_cast<double>(v.start);
+}
+
+struct Densities {
+  static constexpr FieldSet reads =
+      Materials::reads | FieldSet{Field::diffusion, Field::divergence, Field::velocity_gradient};
+  static constexpr FieldSet writes = Materials::writes | FieldSet{Field::density, Field::stress};
+  const Scene* scene;
+  const Materials* materials;
+  bool bulk_viscous;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+      const RowRange& r = range_of(step.ranges, c);
+      update(p, r.first, r.last, step.global);
+    }
+  }
+
+  void update(const View<reads, writes>& p, std::size_t first, std::size_t last,
+              const GlobalState& global) const {
+    const double dt = global.dt, fill = filling(global);
+    double* rho = p.get<Field::density>();
+    const double* diffusion = p.get<Field::diffusion>();
+    const double* divergence = p.get<Field::divergence>();
+    const double* gradient = p.get<Field::velocity_gradient>();
+    double* stress = p.get<Field::stress>();
+    const auto* group = p.get<Field::group>();
+    const std::size_t d = static_cast<std::size_t>(p.dim()), components_of_stress = d * (d + 1) / 2;
+    for (std::size_t i = first; i < last; ++i) {
+      const Group& g = scene->groups[group[i]];
+      double div = 0;
+      if (divergence != nullptr) {
+        div = divergence[i];
+      } else {
+        div = trace_of(gradient + i * d * d, d);
+        if (g.kind == GroupKind::solid) {
+          if (d == 2)
+            update_deviator<2>(stress + i * components_of_stress, gradient + i * 4, g.shear_modulus, dt);
+          else
+            update_deviator<3>(stress + i * components_of_stress, gradient + i * 9, g.shear_modulus, dt);
+        }
+      }
+      const double exchanged = g.kind == GroupKind::solid ? 0.0 : diffusion[i];
+      rho[i] = (rho[i] + dt * (exchanged - rho[i] * div)) * fill;
+    }
+    materials->derive(p, first, last);
+    if (!bulk_viscous) return;
+    // Second viscosity, Ida eq. (9): an excess pressure -zeta div v in the forces of this step only.
+    double* pressure = p.get<Field::pressure>();
+    for (std::size_t i = first; i < last; ++i)
+      pressure[i] -= scene->groups[group[i]].bulk_viscosity *
+                     (divergence != nullptr ? divergence[i] : trace_of(gradient + i * d * d, d));
+  }
+};
+
+bool slips(const Scene& s) { return s.has_kind(GroupKind::solid) && s.has_kind(GroupKind::fluid); }
+bool weighted(const Scene& s) { return s.terms.pressure_weights == PressureWeights::density; }
+bool tension(const Scene& s) { return s.terms.surface_tension.coefficient > 0; }
+
+}  // namespace
+
+bool bulk_viscous(const Scene& s) {
+  return std::ranges::any_of(s.groups, [](const Group& g) { return g.bulk_viscosity > 0; });
+}
+
+void add_kinematics(Builder& b) {
+  const Scene& s = b.scene();
+  const auto movers =
+      std::ranges::count_if(s.groups, [](const Group& g) { return g.kind != GroupKind::wall; });
+  const bool solid = s.has_kind(GroupKind::solid);
+  const bool single = movers == 1 && !b.has_walls() && !s.has_eos(EosKind::bubbly);
+  std::vector<Term> terms{slips(s)      ? Term::slipping_gradient
+                          : solid       ? Term::velocity_gradient
+                          : weighted(s) ? Term::weighted_divergence
+                                        : Term::divergence,
+                          s.central_pull > 0                 ? Term::pulled_density_diffusion
+                          : single && !solid && !weighted(s) ? Term::uniform_density_diffusion
+                                                             : Term::density_diffusion};
+  if (s.terms.shifting) terms.push_back(Term::shifting);
+  if (tension(s)) terms.push_back(Term::colour_gradient);
+  b.add_sums("kinematics", terms);
+  b.add_update("densities", Densities{&s, &b.materials(), bulk_viscous(s)});
+  if (weighted(s)) b.add_fields({Field::wall_pressures});
+}
+
+void add_forces(Builder& b) {
+  const Scene& s = b.scene();
+  const bool solid = s.has_kind(GroupKind::solid);
+  const bool uniform_viscosity =
+      std::ranges::all_of(s.groups, [&](const Group& g) { return g.viscosity == s.groups[0].viscosity; });
+  const bool jump = tension(s) && s.terms.surface_tension.form == TensionForm::jump;
+  const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
+  const bool uniform = uniform_viscosity && !solid && !weighted(s) && !tension(s) && !symmetric;
+  std::vector<Term> terms{slips(s)      ? Term::slipping_stress
+                          : solid       ? Term::stress_divergence
+                          : weighted(s) ? Term::weighted_pressure
+                                        : Term::pressure};
+  if (!s.terms.implicit_viscosity)
+    terms.push_back(uniform     ? Term::uniform_viscosity
+                    : symmetric ? Term::symmetric_viscosity
+                                : Term::viscosity);
+  if (tension(s))
+    terms.push_back(!jump         ? Term::surface_tension
+                    : weighted(s) ? Term::weighted_tension_jump
+                                  : Term::tension_jump);
+  if (s.terms.artificial_viscosity > 0) terms.push_back(Term::artificial_viscosity);
+  b.add_sums("forces", terms);
+}
+
+}  // namespace sph

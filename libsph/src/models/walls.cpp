@@ -1,0 +1,135 @@
+// Walls: rows of particles that stay where they are, with the pressure of what is beside them and a velocity
+// that lets it slip or not.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "plan/for_rows.hpp"
+#include "sph/models/models.hpp"
+#include "sph/wall_distance.hpp"
+#include "sph/wall_mirror.hpp"
+
+namespace sph {
+namespace {
+
+struct WallPressures {
+  static constexpr FieldSet reads{Field::wall_sums, Field::wall_sums_by_density, Field::group};
+  static constexpr FieldSet writes{Field::pressure, Field::velocity, Field::wall_pressures,
+                                   Field::wall_mirror};
+  const Scene* scene;
+  std::shared_ptr<const WallMirror> of_wall;  ///< where walls do not slip
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const std::size_t d = static_cast<std::size_t>(p.dim());
+    const double* sums = p.get<Field::wall_sums>();
+    const double* by_density = p.get<Field::wall_sums_by_density>();
+    double* pressures = p.get<Field::wall_pressures>();
+    double* pressure = p.get<Field::pressure>();
+    double* mirror = p.get<Field::wall_mirror>();
+    double* v = p.get<Field::velocity>();
+    const auto* group = p.get<Field::group>();
+    for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
+      const RowRange& r = range_of(step.ranges, c);
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const double* s = sums + i * (2 + 2 * d);
+        const Group& g = scene->groups[group[i]];
+        const bool wet = s[0] > 0;
+        pressure[i] = wet ? s[1] / s[0] : 0.0;
+        if (pressures != nullptr)
+          for (std::size_t k = 0; k < 2; ++k) {
+            const double* of = by_density + 4 * i + 2 * k;
+            pressures[2 * i + k] = of[0] > 0 ? of[1] / of[0] : 0.0;
+          }
+        if (mirror != nullptr && step.global.step == 0) {
+          double square = 0;
+          for (std::size_t a = 0; a < d; ++a) square += s[2 + d + a] * s[2 + d + a];
+          mirror[i] = wet ? (*of_wall)(std::sqrt(square) / s[0], s[0]) : 1.0;
+        }
+        // Between a fluid and a wall that slips the viscous force is then that of its own mean: no shear. The
+        // velocity across the wall is taken along, though its mirror image would be the exact one: it is
+        // small, because the continuity sum sees the wall at rest, and changes the normal viscous stress
+        // alone, which the pressure balances.
+        for (std::size_t a = 0; a < d; ++a) {
+          const double mean = wet ? s[2 + a] / s[0] : g.wall_velocity[a];
+          v[i * d + a] = g.slip ? mean : g.wall_velocity[a] - mirror[i] * (mean - g.wall_velocity[a]);
+        }
+      }
+    }
+  }
+};
+
+// Fluid that is torn keeps its density while its neighbours part, so that no pressure stops it before a wall,
+// and one below 0 draws it in. Here walls stop it, without spring or rebound: where the way is y to 0.4
+// spacings before a face, no particle moves towards it faster than c y / 10h, and beyond that not at all,
+// whatever the other forces. So walls take energy and never give any, at any time step; what is behind a face
+// comes out by its pressure. In corners, where the walls' gradient is less than their share tells, rest has a
+// larger share.
+struct Hold {
+  static constexpr FieldSet reads =
+      BodyForces::reads |
+      FieldSet{Field::wall_share, Field::mass, Field::velocity, Field::sound_speed, Field::group};
+  static constexpr FieldSet writes{Field::force};
+  const SphConstants* constants;
+  const BodyForces* body_forces;
+  std::shared_ptr<const WallDistance> distance;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    constexpr double approach = 0.1, flat = 0.96, inside = 0.05;
+    const Scene& scene = *constants->scene;
+    const double dt = step.global.dt;
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double h = scene.smoothing_length, before = 0.4 * scene.spacing / h;
+    const double* share = p.get<Field::wall_share>();
+    const double* mass = p.get<Field::mass>();
+    const double* v = p.get<Field::velocity>();
+    const double* sound = p.get<Field::sound_speed>();
+    const auto* group = p.get<Field::group>();
+    double* force = p.get<Field::force>();
+    for_movers(step.ranges, [&](std::size_t i) {
+      const double* s = share + i * (d + 1);
+      if (!(s[d] > 0) || scene.groups[group[i]].kind != GroupKind::fluid) return;
+      const Double3 body = (*body_forces)(p, i);
+      double square = 0, way = 0;
+      for (std::size_t a = 0; a < d; ++a) {
+        square += s[a] * s[a];
+        way += (v[i * d + a] + dt * (force[i * d + a] / mass[i] + body[a])) * s[a];
+      }
+      const double length = std::sqrt(square);
+      if (!(h * length > inside)) return;
+      const double straight = h * length / distance->gradient(h * s[d]);
+      const double face = straight > flat ? -before : distance->depth_in_corner();
+      const double c = sound != nullptr ? sound[i] : constants->groups.sound_speed[group[i]];
+      const double most = c * std::fmax(approach * (face - distance->depth(h * s[d])), 0.0);
+      const double excess = way / length - most;
+      if (!(excess > 0)) return;
+      for (std::size_t a = 0; a < d; ++a) force[i * d + a] -= mass[i] * excess / dt * (s[a] / length);
+    });
+  }
+};
+
+}  // namespace
+
+void add_walls(Builder& b, bool weighted) {
+  const Scene& s = b.scene();
+  WallPressures update{&s, nullptr};
+  if (std::ranges::any_of(s.groups, [](const Group& g) { return g.kind == GroupKind::wall && !g.slip; })) {
+    update.of_wall = std::make_shared<const WallMirror>(s);
+    b.add_fields({Field::wall_mirror});
+  }
+  std::vector<Term> terms{Term::wall_extrapolation};
+  if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
+  b.add_sums("walls", terms, Builder::Rows::walls);
+  b.add_update("wall pressures", std::move(update));
+  b.derive_last_two_for_output();
+}
+
+void add_wall_share(Builder& b) { b.add_sums("wall distance", {Term::wall_share}); }
+
+void add_walls_that_hold(Builder& b) {
+  const Scene& s = b.scene();
+  b.add_update("walls hold",
+               Hold{&b.constants(), &b.body_forces(),
+                    std::make_shared<const WallDistance>(s.kernel, s.dim, s.spacing / s.smoothing_length)});
+}
+
+}  // namespace sph
