@@ -48,8 +48,7 @@ constexpr const char* usage =
     "  --row \"scene=... ranks=...\"     one row, as printed\n"
     "  --grains | --sph                scenes of which, default: sph\n"
     "  --seed S                        of the order, the cuts and the restarts, default: 1\n"
-    "  --steps N, --long N             the last that is compared: 300; of every eighth row of an array: "
-    "2000\n"
+    "  --steps N, --long N             the last step that is compared, of every eighth row: 300, 2000\n"
     "  --every                         compare at every step\n"
     "  --limit SECONDS                 start no row after that long";
 

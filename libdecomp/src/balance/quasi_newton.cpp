@@ -1,16 +1,14 @@
 // Cuts that follow the measured time quickly and leave no ramp behind: what the literal rule lacks.
 //  - Each line of cuts (the rows, then the columns of each row) is relaxed on a model, every part's cost
-//  spread
-//    evenly over its cells, for groups of s = ..., 4, 2, 1 parts: f = mean cost right - mean cost left of the
-//    cut between two groups, dx = -beta f / J. A long ramp is seen at the coarse levels and goes at once.
+//    spread evenly over its cells, for groups of s = ..., 4, 2, 1 parts: f = mean cost right - mean cost left
+//    of the cut between two groups, dx = -beta f / J. A long ramp is seen at the coarse levels and goes at
+//    once.
 //  - J is that of the model, -(rho_left + rho_right); at s = 1 times the seed's secant (003, equation (3))
-//  over
-//    the model's J at the last move, where that lies in [0.2, 5].
+//    over the model's J at the last move, where that lies in [0.2, 5].
 //  - Cuts are real numbers until they are rounded, once, at the end: no residual is truncated away.
 //  - A cut moves by at most half of the thinner of its two parts.
 //  - Costs are filtered (Kalman, one number a part): calls with resting cuts average out the noise, and what
-//  a
-//    move should have changed is predicted by the model, with less trust the more has moved.
+//    a move should have changed is predicted by the model, with less trust the more has moved.
 //  - A line rests where the move would gain less than the noise or than it costs to migrate.
 #include <algorithm>
 #include <bit>
