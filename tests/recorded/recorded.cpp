@@ -29,14 +29,19 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string file, only;
-  bool write = false;
+  bool write = false, help = false;
 };
+
+constexpr const char* usage =
+    "recorded FILE [--write] [--only TEXT]: are the bits of the scenes in FILE those recorded there?";
 
 Options parse(int argc, char** argv) {
   Options o;
   for (int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
-    if (word == "--write")
+    if (word == "--help" || word == "-h")
+      o.help = true;
+    else if (word == "--write")
       o.write = true;
     else if (word == "--only" && k + 1 < argc)
       o.only = argv[++k];
@@ -45,7 +50,7 @@ Options parse(int argc, char** argv) {
     else
       throw std::runtime_error("unknown option " + word);
   }
-  if (o.file.empty()) throw std::runtime_error("recorded FILE [--write] [--only TEXT]");
+  if (o.file.empty() && !o.help) throw std::runtime_error("no file is given");
   return o;
 }
 
@@ -103,8 +108,12 @@ int main(int argc, char** argv) {
   try {
     options = parse(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "recorded: error: %s\n", error.what());
+    std::fprintf(stderr, "recorded: error: %s (see --help)\n", error.what());
     return 2;
+  }
+  if (options.help) {
+    std::puts(usage);
+    return 0;
   }
   MPI_Init(&argc, &argv);
   int status = 0;

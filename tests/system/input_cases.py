@@ -5,6 +5,7 @@
 """
 import argparse
 import os
+import re
 import resource
 import sys
 import time
@@ -42,6 +43,7 @@ HEADER = "id,x,y,z,vx,vy,vz,group,radius"
 class Cases:
     def __init__(self, run, source):
         self.run = run
+        self.source = Path(source)
         self.pour = Path(source) / "tests" / "scenes" / "grains_pour.toml"
         self.cases = Path(source) / "apps" / "buoyant_cylinder"
         self.sand = run.folder / "sand.toml"
@@ -230,6 +232,12 @@ until = 1
             self.run.run(2, "peperite", "run", self.pour.parents[2] / "apps" / scene, "--steps", 100, "--out", scene)
 
     # ---- programs -------------------------------------------------------------------------------------------
+
+    def test_readme(self):
+        text = (self.source / "README.md").read_text()
+        scene = self.file("first.toml", re.search(r"```toml\n(.*?)```", text, re.S)[1])
+        assert "warning" not in self.run.run(1, "peperite", "check", scene).out
+        assert self.run.run(2, "peperite", "run", scene, "--steps", 20, "--out", self.run.folder / "first").out
 
     def test_programs(self):
         for program in sorted(self.run.programs.iterdir()):

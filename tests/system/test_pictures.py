@@ -59,11 +59,13 @@ class Pictures(unittest.TestCase):
             age = git("rev-list", "--count", f"{entry['commit']}..HEAD")
             print(f"{path.relative_to(self.source)}: {entry['commit']}, {age or '?'} commits ago")
 
-    def test_readme_shows_pictures_that_are_there(self):
-        shown = re.findall(r"!\[[^]]*\]\(([^)]*)\)", (self.source / "README.md").read_text())
+    def test_pages_show_pictures_that_are_there(self):
+        shown = [(page.parent / name) for top in ("", "apps", "benchmarks", "libsph", "libdecomp", "tests")
+                 for page in (self.source / top).glob("*.md" if top == "" else "**/*.md")
+                 for name in re.findall(r"!\[[^]]*\]\(([^)]*)\)", page.read_text())]
         self.assertTrue(shown)
-        for name in shown:
-            self.assertTrue((self.source / name).is_file(), name)
+        for path in shown:
+            self.assertTrue(path.is_file(), path)
 
 
 if __name__ == "__main__":
