@@ -1,5 +1,5 @@
 // Walls hold what is thrown at them: a column of water 1 m square breaks in a tank 4 m long, strikes the far
-// wall and runs up it. Torn particles keep their density, so that no pressure stops them (Physics::hold_off).
+// wall and runs up it. Torn particles keep their density, so that no pressure stops them (models/walls.cpp).
 #include <gtest/gtest.h>
 
 #include "accuracy/measure.hpp"

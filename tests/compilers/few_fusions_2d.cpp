@@ -9,7 +9,7 @@ std::vector<Fusion> few() {
   using List = FusionList<T, 2>;
   return {
       List::template fuse<Quintic, Divergence, DensityDiffusion>(),
-      List::template fuse<Quintic, WeightedDivergence, DensityDiffusion, Shifting, ColourGradient>(),
+      List::template fuse<Quintic, WeightedDivergence, DensityDiffusion, Concentration, ColourGradient>(),
       List::template fuse<Quintic, SlippingGradient, DensityDiffusion>(),
       List::template fuse<Quintic, WallExtrapolation>(),
       List::template fuse<Quintic, WallExtrapolation, WallExtrapolationByDensity>(),
@@ -25,7 +25,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
       List::template fuse<Quintic, IdaGradient>(),
       List::template fuse<Quintic, IdaStress>(),
-      List::template fuse<WendlandC4, Divergence, UniformDensityDiffusion, Shifting>(),
+      List::template fuse<WendlandC4, Divergence, UniformDensityDiffusion, Concentration>(),
       List::template fuse<WendlandC4, Pressure, UniformViscosity>(),
   };
 }

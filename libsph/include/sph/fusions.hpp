@@ -29,8 +29,6 @@ struct Fusion {
 [[nodiscard]] const Fusion& find_fusion(int dim, Precision precision, KernelShape kernel,
                                         const std::vector<Term>& terms);
 
-[[nodiscard]] std::string name_of(Term term);  ///< of its struct
-
 /// Lanes of a SIMD block: 16 float pairs or 8 double pairs at once.
 [[nodiscard]] constexpr int lanes_of(Precision p) { return p == Precision::mixed ? 16 : 8; }
 

@@ -6,8 +6,10 @@
 
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstdint>
 #include <initializer_list>
+#include <string_view>
 #include <vector>
 
 #include "sph/particles.hpp"
@@ -15,48 +17,13 @@
 
 namespace sph {
 
-/// The pair terms; each is a struct of the same name in terms/.
-enum class Term : std::uint8_t {
-  pressure,
-  weighted_pressure,
-  viscosity,
-  symmetric_viscosity,
-  uniform_viscosity,
-  viscous_operator,
-  symmetric_viscous_operator,
-  stress_divergence,
-  slipping_stress,
-  artificial_viscosity,
-  number_density,
-  gas_moments,
-  gas_pressure,
-  shock_viscosity,
-  shock_heating,
-  divergence,
-  weighted_divergence,
-  velocity_gradient,
-  slipping_gradient,
-  density_diffusion,
-  uniform_density_diffusion,
-  pulled_density_diffusion,
-  shifting,
-  colour_gradient,
-  surface_tension,
-  curvature,
-  curvature_mean,
-  tension_jump,
-  weighted_tension_jump,
-  wall_extrapolation,
-  wall_extrapolation_by_density,
-  wall_share,
-  ida_gradient,
-  ida_stress,
-  deformation,
-  bond_force,
-  bond_viscosity,
-  body_contact,
-  body_contact_energy,
+/// A pair term, by the name of its struct (terms/).
+struct Term {
+  std::string_view name;
+  friend auto operator<=>(const Term&, const Term&) = default;
 };
+template <class T>
+inline constexpr Term term{T::name};
 
 /// What a term can read of a particle besides its position.
 enum class Value : std::uint8_t {

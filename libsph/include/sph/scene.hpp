@@ -119,7 +119,7 @@ struct Terms {
   bool shifting = false;
   ViscosityForm viscosity = ViscosityForm::laplacian;
   bool implicit_viscosity = false;    ///< viscous forces of the end of the step: they limit no time step
-  double viscosity_tolerance = 1e-4;  ///< of implicit viscosity, see physics/viscosity_solver.hpp
+  double viscosity_tolerance = 1e-4;  ///< of implicit viscosity, see models/viscosity.cpp
   PressureWeights pressure_weights = PressureWeights::volume;
   InterfaceTension surface_tension;
   double hourglass = 0.3;        ///< total-Lagrangian solids: stiffness against hourglass modes / modulus

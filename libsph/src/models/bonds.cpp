@@ -1,10 +1,13 @@
 // Total-Lagrangian solids: sums over bonds, the stress of each particle, forces. The
 // scheme is a Hamiltonian system (terms/bonds.hpp): stress is a function of the positions alone, and nothing
 // is integrated in time but position and velocity.
+#include "sph/terms/bonds.hpp"
+
 #include <string>
 
 #include "sph/models/models.hpp"
 #include "sph/neo_hooke.hpp"
+#include "sph/terms/body_contact.hpp"
 
 namespace sph {
 namespace {
@@ -132,17 +135,17 @@ struct Stresses {
 void add_bonds(Builder& b) {
   const Scene& s = b.scene();
   const SphConstants& k = b.constants();
-  std::vector<Term> deformation{Term::deformation}, forces{Term::bond_force};
+  std::vector<Term> deformation{term<Deformation>}, forces{term<BondForce>};
   bool contact = false, viscous = false;
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
     contact = contact || k.groups.body[g] != k.groups.body[0];
     viscous = viscous || (s.groups[g].kind == GroupKind::solid && k.groups.viscosity[g] > 0);
   }
   if (contact) {
-    deformation.push_back(Term::body_contact_energy);
-    forces.push_back(Term::body_contact);
+    deformation.push_back(term<BodyContactEnergy>);
+    forces.push_back(term<BodyContact>);
   }
-  if (viscous) forces.push_back(Term::bond_viscosity);
+  if (viscous) forces.push_back(term<BondViscosity>);
   b.add_fields({Field::displacement, Field::bonds, Field::bond_stress, Field::strain_energy});
   b.add_sums("deformation", deformation, Builder::Rows::all);
   b.add_update("stress", Stresses{&k});

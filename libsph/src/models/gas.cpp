@@ -9,6 +9,9 @@
 #include "physics/gas_kernel.hpp"
 #include "plan/for_rows.hpp"
 #include "sph/models/models.hpp"
+#include "sph/terms/gas.hpp"
+#include "sph/terms/shock.hpp"
+#include "sph/terms/viscosity.hpp"
 
 namespace sph {
 namespace {
@@ -146,11 +149,11 @@ void look_at_gas(const SphConstants& constants, const GasView& p, std::size_t fi
 
 void add_gas(Builder& b) {
   b.add_fields({Field::smoothing_length, Field::kernel_correction, Field::velocity_gradient});
-  b.add_sums("density", {Term::number_density, Term::gas_moments});
+  b.add_sums("density", {term<NumberDensity>, term<GasMoments>});
   b.add_update("compression", Compression{&b.constants(), &b.materials()});
   b.begin_with_these();
   if (b.has_walls()) add_walls(b, false);
-  b.add_sums("forces", {Term::gas_pressure, Term::viscosity, Term::shock_viscosity, Term::shock_heating});
+  b.add_sums("forces", {term<GasPressure>, term<Viscosity>, term<ShockViscosity>, term<ShockHeating>});
 }
 
 void add_heat(Builder& b) { b.add_kick("heat", Heat{&b.constants(), &b.materials()}); }

@@ -1,7 +1,10 @@
 // The paper's cycle: velocity gradient (10), density (8), pressure, stress (9) or (11) of every particle,
 // walls included; then the force (6) on those that move.
+#include "sph/terms/ida.hpp"
+
 #include "sph/models/models.hpp"
 #include "sph/stress_update.hpp"
+#include "sph/terms/artificial_viscosity.hpp"
 
 namespace sph {
 namespace {
@@ -55,10 +58,10 @@ struct DensitiesAndStresses {
 }  // namespace
 
 void add_ida(Builder& b) {
-  b.add_sums("gradient", {Term::ida_gradient}, Builder::Rows::all);
+  b.add_sums("gradient", {term<IdaGradient>}, Builder::Rows::all);
   b.add_update("densities and stresses", DensitiesAndStresses{&b.scene(), &b.materials()});
-  std::vector<Term> forces{Term::ida_stress};
-  if (b.scene().terms.artificial_viscosity > 0) forces.push_back(Term::artificial_viscosity);
+  std::vector<Term> forces{term<IdaStress>};
+  if (b.scene().terms.artificial_viscosity > 0) forces.push_back(term<ArtificialViscosity>);
   b.add_sums("forces", forces);
 }
 

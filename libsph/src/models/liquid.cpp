@@ -7,6 +7,15 @@
 #include "plan/for_rows.hpp"
 #include "sph/models/models.hpp"
 #include "sph/stress_update.hpp"
+#include "sph/terms/artificial_viscosity.hpp"
+#include "sph/terms/density_diffusion.hpp"
+#include "sph/terms/divergence.hpp"
+#include "sph/terms/pressure.hpp"
+#include "sph/terms/shifting.hpp"
+#include "sph/terms/stress.hpp"
+#include "sph/terms/surface_tension.hpp"
+#include "sph/terms/tension_jump.hpp"
+#include "sph/terms/viscosity.hpp"
 
 namespace sph {
 namespace {
@@ -93,15 +102,15 @@ void add_kinematics(Builder& b) {
       std::ranges::count_if(s.groups, [](const Group& g) { return g.kind != GroupKind::wall; });
   const bool solid = s.has_kind(GroupKind::solid);
   const bool single = movers == 1 && !b.has_walls() && !s.has_eos(EosKind::bubbly);
-  std::vector<Term> terms{slips(s)      ? Term::slipping_gradient
-                          : solid       ? Term::velocity_gradient
-                          : weighted(s) ? Term::weighted_divergence
-                                        : Term::divergence,
-                          s.central_pull > 0                 ? Term::pulled_density_diffusion
-                          : single && !solid && !weighted(s) ? Term::uniform_density_diffusion
-                                                             : Term::density_diffusion};
-  if (s.terms.shifting) terms.push_back(Term::shifting);
-  if (tension(s)) terms.push_back(Term::colour_gradient);
+  std::vector<Term> terms{slips(s)      ? term<SlippingGradient>
+                          : solid       ? term<VelocityGradient>
+                          : weighted(s) ? term<WeightedDivergence>
+                                        : term<Divergence>,
+                          s.central_pull > 0                 ? term<PulledDensityDiffusion>
+                          : single && !solid && !weighted(s) ? term<UniformDensityDiffusion>
+                                                             : term<DensityDiffusion>};
+  if (s.terms.shifting) terms.push_back(term<Concentration>);
+  if (tension(s)) terms.push_back(term<ColourGradient>);
   b.add_sums("kinematics", terms);
   b.add_update("densities", Densities{&s, &b.materials(), bulk_viscous(s)});
   if (weighted(s)) b.add_fields({Field::wall_pressures});
@@ -115,19 +124,19 @@ void add_forces(Builder& b) {
   const bool jump = tension(s) && s.terms.surface_tension.form == TensionForm::jump;
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
   const bool uniform = uniform_viscosity && !solid && !weighted(s) && !tension(s) && !symmetric;
-  std::vector<Term> terms{slips(s)      ? Term::slipping_stress
-                          : solid       ? Term::stress_divergence
-                          : weighted(s) ? Term::weighted_pressure
-                                        : Term::pressure};
+  std::vector<Term> terms{slips(s)      ? term<SlippingStress>
+                          : solid       ? term<StressDivergence>
+                          : weighted(s) ? term<WeightedPressure>
+                                        : term<Pressure>};
   if (!s.terms.implicit_viscosity)
-    terms.push_back(uniform     ? Term::uniform_viscosity
-                    : symmetric ? Term::symmetric_viscosity
-                                : Term::viscosity);
+    terms.push_back(uniform     ? term<UniformViscosity>
+                    : symmetric ? term<SymmetricViscosity>
+                                : term<Viscosity>);
   if (tension(s))
-    terms.push_back(!jump         ? Term::surface_tension
-                    : weighted(s) ? Term::weighted_tension_jump
-                                  : Term::tension_jump);
-  if (s.terms.artificial_viscosity > 0) terms.push_back(Term::artificial_viscosity);
+    terms.push_back(!jump         ? term<SurfaceTension>
+                    : weighted(s) ? term<WeightedTensionJump>
+                                  : term<TensionJump>);
+  if (s.terms.artificial_viscosity > 0) terms.push_back(term<ArtificialViscosity>);
   b.add_sums("forces", terms);
 }
 

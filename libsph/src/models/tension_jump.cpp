@@ -2,11 +2,12 @@
 // the forces (terms/interface_curvature.hpp, terms/tension_jump.hpp).
 #include "plan/for_rows.hpp"
 #include "sph/models/models.hpp"
+#include "sph/terms/interface_curvature.hpp"
 
 namespace sph {
 namespace {
 
-struct Curvature {
+struct FindCurvature {
   static constexpr FieldSet reads{Field::curvature_sums};
   static constexpr FieldSet writes{Field::curvature};
   const Scene* scene;
@@ -23,7 +24,7 @@ struct Curvature {
 };
 
 // The sums leave the particle itself out, as lists are padded with it.
-struct MeanCurvature {
+struct AverageCurvature {
   static constexpr FieldSet reads{Field::curvature_sums, Field::mass, Field::density, Field::colour_gradient};
   static constexpr FieldSet writes{Field::curvature};
   const SphConstants* constants;
@@ -49,10 +50,10 @@ struct MeanCurvature {
 
 void add_curvature(Builder& b) {
   b.add_fields({Field::curvature});
-  b.add_sums("normals", {Term::curvature});
-  b.add_update("curvature", Curvature{&b.scene()});
-  b.add_sums("curvatures", {Term::curvature_mean});
-  b.add_update("mean curvature", MeanCurvature{&b.constants()});
+  b.add_sums("normals", {term<Curvature>});
+  b.add_update("curvature", FindCurvature{&b.scene()});
+  b.add_sums("curvatures", {term<CurvatureMean>});
+  b.add_update("mean curvature", AverageCurvature{&b.constants()});
 }
 
 }  // namespace sph

@@ -16,6 +16,7 @@
 #include "decomp/exact_sum.hpp"
 #include "plan/for_rows.hpp"
 #include "sph/models/models.hpp"
+#include "sph/terms/viscous_operator.hpp"
 #include "sph/wall_distance.hpp"
 
 namespace sph {
@@ -218,7 +219,7 @@ void add_implicit_viscosity(Builder& b, bool walls) {
   const auto solver = std::make_shared<ViscositySolver>(s, b.body_forces());
   b.add_update("first direction", FirstDirection{solver});
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
-  const Term drag = symmetric ? Term::symmetric_viscous_operator : Term::viscous_operator;
+  const Term drag = symmetric ? term<SymmetricViscousOperator> : term<ViscousOperator>;
   b.add_loop({{b.sums_over_pairs("viscosity", {drag})}, solver, ViscositySolver::writes});
 }
 

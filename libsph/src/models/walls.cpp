@@ -6,6 +6,7 @@
 
 #include "plan/for_rows.hpp"
 #include "sph/models/models.hpp"
+#include "sph/terms/wall.hpp"
 #include "sph/wall_distance.hpp"
 #include "sph/wall_mirror.hpp"
 
@@ -116,14 +117,14 @@ void add_walls(Builder& b, bool weighted) {
     update.of_wall = std::make_shared<const WallMirror>(s);
     b.add_fields({Field::wall_mirror});
   }
-  std::vector<Term> terms{Term::wall_extrapolation};
-  if (weighted) terms.push_back(Term::wall_extrapolation_by_density);
+  std::vector<Term> terms{term<WallExtrapolation>};
+  if (weighted) terms.push_back(term<WallExtrapolationByDensity>);
   b.add_sums("walls", terms, Builder::Rows::walls);
   b.add_update("wall pressures", std::move(update));
   b.derive_last_two_for_output();
 }
 
-void add_wall_share(Builder& b) { b.add_sums("wall distance", {Term::wall_share}); }
+void add_wall_share(Builder& b) { b.add_sums("wall distance", {term<WallShare>}); }
 
 void add_walls_that_hold(Builder& b) {
   const Scene& s = b.scene();

@@ -17,7 +17,7 @@ std::string names_of(FieldSet fields) {
 std::string terms_of(const Stage& stage) {
   if (stage.fusion == nullptr) return {};
   std::string out;
-  for (Term term : stage.fusion->terms) out += (out.empty() ? ": " : " + ") + name_of(term);
+  for (Term term : stage.fusion->terms) out += (out.empty() ? ": " : " + ") + std::string(term.name);
   return out;
 }
 

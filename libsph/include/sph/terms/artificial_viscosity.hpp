@@ -7,7 +7,7 @@
 namespace sph {
 
 struct ArtificialViscosity {
-  static constexpr Term term = Term::artificial_viscosity;
+  static constexpr std::string_view name = "ArtificialViscosity";
   static constexpr ValueSet reads{Value::volume, Value::velocity, Value::density, Value::sound_speed};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>

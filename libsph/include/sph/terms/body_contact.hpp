@@ -10,7 +10,7 @@
 namespace sph {
 
 struct BodyContact {
-  static constexpr Term term = Term::body_contact;
+  static constexpr std::string_view name = "BodyContact";
   static constexpr ValueSet reads{Value::body, Value::modulus};
   static constexpr Field writes = Field::force;
   template <class P, class C>
@@ -34,7 +34,7 @@ struct BodyContact {
 
 /// Half the energy of a contact for either particle.
 struct BodyContactEnergy {
-  static constexpr Term term = Term::body_contact_energy;
+  static constexpr std::string_view name = "BodyContactEnergy";
   static constexpr ValueSet reads = BodyContact::reads;
   static constexpr Field writes = Field::contact_energy;
   template <class Kernel, class P, class C, class S>

@@ -15,7 +15,7 @@ namespace sph {
 
 /// Number of bonds, sum w u.u, A (symmetric), B (by rows), the last three less their common scale.
 struct Deformation {
-  static constexpr Term term = Term::deformation;
+  static constexpr std::string_view name = "Deformation";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
                                   Value::body};
   static constexpr Field writes = Field::deformation;
@@ -39,7 +39,7 @@ struct Deformation {
 };
 
 struct BondForce {
-  static constexpr Term term = Term::bond_force;
+  static constexpr std::string_view name = "BondForce";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
                                   Value::body,      Value::bond_stress,    Value::modulus};
   static constexpr Field writes = Field::force;
@@ -62,7 +62,7 @@ struct BondForce {
 /// Central, so that angular momentum stays: f_ij = 2 (D+2) eta V_i V_j (-W'/|X|) (v_ij.e) e / |e|^2, the form
 /// of Monaghan (2005, eq. 8.8) on bonds.
 struct BondViscosity {
-  static constexpr Term term = Term::bond_viscosity;
+  static constexpr std::string_view name = "BondViscosity";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
                                   Value::body,      Value::velocity,       Value::viscosity};
   static constexpr Field writes = Field::force;

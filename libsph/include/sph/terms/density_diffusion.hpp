@@ -25,7 +25,7 @@ void exchange_density(const P& p, typename P::V rest, S& sums) {
 }
 
 struct DensityDiffusion {
-  static constexpr Term term = Term::density_diffusion;
+  static constexpr std::string_view name = "DensityDiffusion";
   static constexpr ValueSet reads{Value::volume, Value::pressure, Value::density, Value::sound_speed,
                                   Value::phase};
   static constexpr Field writes = Field::diffusion;
@@ -38,7 +38,7 @@ struct DensityDiffusion {
 /// The same under a central pull, whose potential phi takes the part of -g.x: without it the rim of a drop at
 /// rest would gain density at the rate delta B^2 R / c, as the surface of a tank would without its g.x.
 struct PulledDensityDiffusion {
-  static constexpr Term term = Term::pulled_density_diffusion;
+  static constexpr std::string_view name = "PulledDensityDiffusion";
   static constexpr ValueSet reads = DensityDiffusion::reads | ValueSet{Value::potential};
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>
@@ -50,7 +50,7 @@ struct PulledDensityDiffusion {
 
 /// The same in a scene of one linear fluid and nothing else: c and rho_0 are constants, no group in the row.
 struct UniformDensityDiffusion {
-  static constexpr Term term = Term::uniform_density_diffusion;
+  static constexpr std::string_view name = "UniformDensityDiffusion";
   static constexpr ValueSet reads{Value::volume, Value::pressure};
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>

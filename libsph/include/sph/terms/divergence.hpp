@@ -7,7 +7,7 @@
 namespace sph {
 
 struct Divergence {
-  static constexpr Term term = Term::divergence;
+  static constexpr std::string_view name = "Divergence";
   static constexpr ValueSet reads{Value::volume, Value::velocity};
   static constexpr Field writes = Field::divergence;
   static constexpr bool half_step_back = true;
@@ -24,7 +24,7 @@ struct Divergence {
 /// The adjoint of WeightedPressure, so that pressure does the work that compression takes: each partner
 /// counts 2 rho_j / (rho_i + rho_j) times. Without it an interface of 1:1000 at rest gains energy.
 struct WeightedDivergence {
-  static constexpr Term term = Term::weighted_divergence;
+  static constexpr std::string_view name = "WeightedDivergence";
   static constexpr ValueSet reads{Value::volume, Value::velocity, Value::density, Value::mover};
   static constexpr Field writes = Field::divergence;
   static constexpr bool half_step_back = true;
@@ -42,7 +42,7 @@ struct WeightedDivergence {
 };
 
 struct VelocityGradient {
-  static constexpr Term term = Term::velocity_gradient;
+  static constexpr std::string_view name = "VelocityGradient";
   static constexpr ValueSet reads{Value::volume, Value::velocity};
   static constexpr Field writes = Field::velocity_gradient;
   static constexpr bool half_step_back = true;
@@ -61,7 +61,7 @@ struct VelocityGradient {
 /// with the isotropic part of their gradient alone, so that div v is that of all and the stress finds no
 /// shear.
 struct SlippingGradient {
-  static constexpr Term term = Term::slipping_gradient;
+  static constexpr std::string_view name = "SlippingGradient";
   static constexpr ValueSet reads{Value::volume, Value::velocity, Value::shears};
   static constexpr Field writes = Field::velocity_gradient;
   static constexpr bool half_step_back = true;

@@ -17,7 +17,7 @@ namespace sph {
 
 /// Sum of W over the gas, and of V W over walls, both without the kernel's factor and that of its width.
 struct NumberDensity {
-  static constexpr Term term = Term::number_density;
+  static constexpr std::string_view name = "NumberDensity";
   static constexpr ValueSet reads{Value::volume, Value::mover, Value::width};
   static constexpr Field writes = Field::number_density;
   template <class Kernel, class P, class C, class S>
@@ -36,7 +36,7 @@ struct NumberDensity {
 /// What the sums of NumberDensity change by when the kernel grows wider, and the moments of which the
 /// gradient of the velocity is made, exact where it is uniform.
 struct GasMoments {
-  static constexpr Term term = Term::gas_moments;
+  static constexpr std::string_view name = "GasMoments";
   static constexpr ValueSet reads{Value::volume, Value::mover, Value::width, Value::velocity};
   static constexpr Field writes = Field::gas_moments;
   template <class Kernel, class P, class C, class S>
@@ -60,7 +60,7 @@ struct GasMoments {
 };
 
 struct GasPressure {
-  static constexpr Term term = Term::gas_pressure;
+  static constexpr std::string_view name = "GasPressure";
   static constexpr ValueSet reads{Value::volume, Value::pressure, Value::mover, Value::width,
                                   Value::kernel_correction};
   static constexpr Field writes = Field::force;

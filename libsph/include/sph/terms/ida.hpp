@@ -10,7 +10,7 @@
 namespace sph {
 
 struct IdaGradient {
-  static constexpr Term term = Term::ida_gradient;
+  static constexpr std::string_view name = "IdaGradient";
   static constexpr ValueSet reads{Value::volume, Value::velocity};
   static constexpr Field writes = Field::velocity_gradient;
   template <class Kernel, class P, class C, class S>
@@ -25,7 +25,7 @@ struct IdaGradient {
 
 /// As a force: m a = V rho a.
 struct IdaStress {
-  static constexpr Term term = Term::ida_stress;
+  static constexpr std::string_view name = "IdaStress";
   static constexpr ValueSet reads{Value::volume, Value::stress};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>

@@ -12,7 +12,7 @@
 namespace sph {
 
 struct Curvature {
-  static constexpr Term term = Term::curvature;
+  static constexpr std::string_view name = "Curvature";
   static constexpr ValueSet reads{Value::interface_normal, Value::interface_weight};
   static constexpr Field writes = Field::curvature_sums;
   static constexpr Value nothing_without = Value::interface_weight;
@@ -34,7 +34,7 @@ struct Curvature {
 };
 
 struct CurvatureMean {
-  static constexpr Term term = Term::curvature_mean;
+  static constexpr std::string_view name = "CurvatureMean";
   static constexpr ValueSet reads{Value::interface_weight, Value::curvature};
   static constexpr Field writes = Field::curvature_sums;
   static constexpr Value nothing_without = Value::interface_weight;

@@ -7,7 +7,7 @@
 namespace sph {
 
 struct Pressure {
-  static constexpr Term term = Term::pressure;
+  static constexpr std::string_view name = "Pressure";
   static constexpr ValueSet reads{Value::volume, Value::pressure};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
@@ -23,7 +23,7 @@ struct Pressure {
 /// 11). With plain sums the light fluid's particles only come to rest displaced. A wall is as dense as what
 /// touches it.
 struct WeightedPressure {
-  static constexpr Term term = Term::weighted_pressure;
+  static constexpr std::string_view name = "WeightedPressure";
   static constexpr ValueSet reads{Value::volume, Value::density, Value::mover, Value::heavy,
                                   Value::pressures};
   static constexpr Field writes = Field::force;

@@ -1,5 +1,5 @@
 // Gradient of the particle concentration with the pairing safeguard of Sun et al. (2017, delta-plus-SPH):
-// S_i = sum_j V_j [1 + 0.2 (W/W(dx))^4] grad_i W. Beside it what physics/shifting.cpp makes a length of: the
+// S_i = sum_j V_j [1 + 0.2 (W/W(dx))^4] grad_i W. Beside it what models/shifting.hpp makes a length of: the
 // concentration C = sum_j V_j W without the particle's own part, and over movers sum_j V_j W (v_ij . e_ij)^2,
 // e_ij the direction of the pair: 0 for any rigid motion, so that no frame, and no rotation, is in it.
 #pragma once
@@ -8,8 +8,8 @@
 
 namespace sph {
 
-struct Shifting {
-  static constexpr Term term = Term::shifting;
+struct Concentration {
+  static constexpr std::string_view name = "Concentration";
   static constexpr ValueSet reads{Value::volume, Value::velocity, Value::mover};
   static constexpr Field writes = Field::spread;
   template <class Kernel, class P, class C, class S>

@@ -60,7 +60,7 @@ typename P::V shock_push(const P& p, const C& c) {
 }
 
 struct ShockViscosity {
-  static constexpr Term term = Term::shock_viscosity;
+  static constexpr std::string_view name = "ShockViscosity";
   static constexpr ValueSet reads{Value::volume,      Value::velocity, Value::density,
                                   Value::sound_speed, Value::width,    Value::velocity_gradient};
   static constexpr Field writes = Field::force;
@@ -72,7 +72,7 @@ struct ShockViscosity {
 };
 
 struct ShockHeating {
-  static constexpr Term term = Term::shock_heating;
+  static constexpr std::string_view name = "ShockHeating";
   static constexpr ValueSet reads =
       ShockViscosity::reads | ValueSet{Value::pressure, Value::viscosity, Value::specific_energy};
   static constexpr Field writes = Field::heating;

@@ -6,9 +6,8 @@
 
 namespace sph {
 
-template <Term Name, Value Stress>
+template <Value Stress>
 struct TensorDivergence {
-  static constexpr Term term = Name;
   static constexpr ValueSet reads{Value::volume, Stress};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
@@ -26,14 +25,16 @@ struct TensorDivergence {
   }
 };
 
-using StressDivergence = TensorDivergence<Term::stress_divergence, Value::stress>;
+struct StressDivergence : TensorDivergence<Value::stress> {
+  static constexpr std::string_view name = "StressDivergence";
+};
 
 /// Adjoint to SlippingGradient: between a solid and a fluid the mean of the normal stresses acts, which in
 /// the fluid is the pressure, and no shear. With all of the solid's stress a layer two kernel lengths thick
 /// of an inviscid fluid would stick to it. The stress of fluids and walls is isotropic: theirs are the same
 /// sums.
 struct SlippingStress {
-  static constexpr Term term = Term::slipping_stress;
+  static constexpr std::string_view name = "SlippingStress";
   static constexpr ValueSet reads{Value::volume, Value::stress, Value::shears};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>

@@ -11,7 +11,7 @@
 namespace sph {
 
 struct ColourGradient {
-  static constexpr Term term = Term::colour_gradient;
+  static constexpr std::string_view name = "ColourGradient";
   static constexpr ValueSet reads{Value::volume, Value::side};
   static constexpr Field writes = Field::colour_gradient;
   template <class Kernel, class P, class C, class S>
@@ -23,6 +23,8 @@ struct ColourGradient {
   }
 };
 
-using SurfaceTension = TensorDivergence<Term::surface_tension, Value::capillary>;
+struct SurfaceTension : TensorDivergence<Value::capillary> {
+  static constexpr std::string_view name = "SurfaceTension";
+};
 
 }  // namespace sph

@@ -15,9 +15,8 @@
 
 namespace sph {
 
-template <Term Name, bool Weighted>
+template <bool Weighted>
 struct JumpOfPressure {
-  static constexpr Term term = Name;
   static constexpr ValueSet reads{Value::volume,      Value::velocity, Value::density,
                                   Value::sound_speed, Value::side,     Value::capillary_pressure};
   static constexpr Field writes = Field::force;
@@ -44,7 +43,11 @@ struct JumpOfPressure {
   }
 };
 
-using TensionJump = JumpOfPressure<Term::tension_jump, false>;
-using WeightedTensionJump = JumpOfPressure<Term::weighted_tension_jump, true>;
+struct TensionJump : JumpOfPressure<false> {
+  static constexpr std::string_view name = "TensionJump";
+};
+struct WeightedTensionJump : JumpOfPressure<true> {
+  static constexpr std::string_view name = "WeightedTensionJump";
+};
 
 }  // namespace sph

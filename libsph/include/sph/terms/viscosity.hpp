@@ -26,7 +26,7 @@ typename P::V mean_viscosity(const P& p) {
 }
 
 struct Viscosity {
-  static constexpr Term term = Term::viscosity;
+  static constexpr std::string_view name = "Viscosity";
   static constexpr ValueSet reads{Value::volume, Value::velocity, Value::viscosity};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
@@ -41,7 +41,7 @@ struct Viscosity {
 };
 
 struct SymmetricViscosity {
-  static constexpr Term term = Term::symmetric_viscosity;
+  static constexpr std::string_view name = "SymmetricViscosity";
   static constexpr ValueSet reads{Value::volume, Value::velocity, Value::viscosity};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
@@ -58,7 +58,7 @@ struct SymmetricViscosity {
 
 /// The Laplacian where all groups share one viscosity: no division and no value in the row.
 struct UniformViscosity {
-  static constexpr Term term = Term::uniform_viscosity;
+  static constexpr std::string_view name = "UniformViscosity";
   static constexpr ValueSet reads{Value::volume, Value::velocity};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>

@@ -1,5 +1,5 @@
 // Viscous forces as a linear operator on any field u of velocities, for the implicit step
-// (physics/viscosity_solver.hpp): the pair forces of viscosity.hpp with u in place of v, and beside them the
+// (models/viscosity.cpp): the pair forces of viscosity.hpp with u in place of v, and beside them the
 // drag on the particle alone, the operator's diagonal. Symmetric and negative semidefinite, as conjugate
 // gradients need it: mirrored velocities of wall particles would not be. A wall particle is given the
 // velocity on the straight profile through this particle and the wall's face (Morris et al. 1997, eq. 24),
@@ -34,7 +34,7 @@ inline constexpr ValueSet viscous_operator_reads{Value::volume, Value::viscosity
                                                  Value::mover, Value::wall_slope};
 
 struct ViscousOperator {
-  static constexpr Term term = Term::viscous_operator;
+  static constexpr std::string_view name = "ViscousOperator";
   static constexpr ValueSet reads = viscous_operator_reads;
   static constexpr Field writes = Field::viscous_sums;
   template <class Kernel, class P, class C, class S>
@@ -49,7 +49,7 @@ struct ViscousOperator {
 };
 
 struct SymmetricViscousOperator {
-  static constexpr Term term = Term::symmetric_viscous_operator;
+  static constexpr std::string_view name = "SymmetricViscousOperator";
   static constexpr ValueSet reads = viscous_operator_reads;
   static constexpr Field writes = Field::viscous_sums;
   template <class Kernel, class P, class C, class S>

@@ -9,7 +9,7 @@
 namespace sph {
 
 struct WallExtrapolation {
-  static constexpr Term term = Term::wall_extrapolation;
+  static constexpr std::string_view name = "WallExtrapolation";
   static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::density, Value::mover};
   static constexpr Field writes = Field::wall_sums;
   template <class Kernel, class P, class C, class S>
@@ -28,7 +28,7 @@ struct WallExtrapolation {
 /// Where fluids of two densities meet at a wall there is no one pressure to extrapolate: a head of the
 /// heavier fluid would throw the lighter away. Lighter and heavier ones each have their own.
 struct WallExtrapolationByDensity {
-  static constexpr Term term = Term::wall_extrapolation_by_density;
+  static constexpr std::string_view name = "WallExtrapolationByDensity";
   static constexpr ValueSet reads{Value::pressure, Value::density, Value::mover, Value::heavy};
   static constexpr Field writes = Field::wall_sums_by_density;
   template <class Kernel, class P, class C, class S>
@@ -49,7 +49,7 @@ struct WallExtrapolationByDensity {
 /// How much of a moving particle's kernel the walls fill, and the gradient of that: distance and
 /// direction of a flat wall follow (sph/wall_distance.hpp).
 struct WallShare {
-  static constexpr Term term = Term::wall_share;
+  static constexpr std::string_view name = "WallShare";
   static constexpr bool only_beside_walls = true;
   static constexpr ValueSet reads{Value::volume, Value::mover};
   static constexpr Field writes = Field::wall_share;
