@@ -14,6 +14,7 @@
 #include "sph/models/model.hpp"
 #include "sph/particles.hpp"
 #include "sph/scene.hpp"
+#include "sph/set_pair.hpp"
 
 namespace sph {
 
@@ -46,7 +47,7 @@ struct GrainTimeSteps {
 void check_wall_speeds(const Scene& scene);
 void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles);
 
-class Grains final : public Model {
+class Grains final : public Model, public SetPair {
  public:
   Grains(const Scene& scene, const PositionScale& scale);
 
@@ -62,12 +63,18 @@ class Grains final : public Model {
 
   /// Its stages; it must stay where it is.
   [[nodiscard]] Plan plan();
-  /// Fields of the halo a sweep reads that change with every step.
-  [[nodiscard]] FieldSet reads() const;
-  /// Those that change only when rows move.
-  [[nodiscard]] static FieldSet constants() {
+  // Its pairs: half lists, whose contacts carry their history.
+  [[nodiscard]] FieldSet constants() const override {
     return {Field::id, Field::position, Field::radius, Field::mass, Field::group};
   }
+  [[nodiscard]] bool carries() const override { return true; }
+  [[nodiscard]] decomp::Payload send(const Particles& particles, decomp::Payload arrived) override;
+  void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
+               std::span<const std::uint32_t> order) override;
+  void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
+
+  /// Fields of the halo a sweep reads that change with every step.
+  [[nodiscard]] FieldSet reads() const;
 
   [[nodiscard]] ContactLists& lists() { return lists_; }
   [[nodiscard]] const ContactLists& lists() const { return lists_; }
@@ -77,21 +84,10 @@ class Grains final : public Model {
   /// Takes the changes of the scene's stages that begin at or before the present time.
   void set_stage(GlobalState& global) const;
 
-  /// Gives back what the next rebuild makes anew: while contacts travel, memory is at its peak.
-  void release() { sums_ = {}; }
-  /// New lists after rows have moved; the histories in `payload`, those of row r in its row order[r], go
-  /// back to their pairs. Returns what found its pair again.
-  [[nodiscard]] ContactCensus rebuild(const Particles& particles, const decomp::CellGrid& grid,
-                                      const decomp::Box& own_cells, std::int64_t reach, double skin,
-                                      const RowRanges& ranges, const GlobalState& global,
-                                      const decomp::Payload& payload, std::span<const std::uint32_t> order);
-
   /// Contacts of the blocks, then kick and drift of their grains. begin_step() clears what a step sums.
   void begin_step(const Particles& particles, const GlobalState& global);
   void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
   [[nodiscard]] ContactContext context(Particles& particles, double dt);  ///< of a sweep
-  /// Contacts in rebuild() that the lists do not hold though their pairs cannot have parted so far.
-  void find_lost(const Particles& particles, const GlobalState& global, double skin, Findings& lost) const;
   [[nodiscard]] double time_step() const { return dt_; }
 
   /// Walls as they are now.
@@ -126,6 +122,11 @@ class Grains final : public Model {
                                                       const GlobalState& global) const;
   [[nodiscard]] std::string text_of(const ContactFault& fault) const;
   void find_too_fast(const StepState& state, Findings& found) const;
+  /// Contacts in rebuild() that the lists do not hold though their pairs cannot have parted so far.
+  void find_lost(const Particles& particles, const GlobalState& global, double skin, Findings& lost) const;
+  [[nodiscard]] ContactCensus find_pairs(const Particles& particles, const ListSetting& setting,
+                                         const decomp::Payload& carried,
+                                         std::span<const std::uint32_t> order);
   void find_constants();
   void find_quanta();
 
@@ -137,6 +138,7 @@ class Grains final : public Model {
   std::vector<bool> fixed_;
   double force_quantum_ = 1, torque_quantum_ = 1, dt_ = 0, longest_move_ = 0;
   ContactSums sums_;
+  ContactCensus sent_;  ///< of what travels
   std::vector<PlaneNow> planes_;
   std::vector<std::int64_t> wall_force_;
   std::vector<std::int64_t> reference_;  ///< positions at the last rebuild [quanta]

@@ -16,6 +16,7 @@
 #include "sph/physics.hpp"
 #include "sph/plan/halo_exchange.hpp"
 #include "sph/scene.hpp"
+#include "sph/sph_pairs.hpp"
 
 namespace sph {
 
@@ -47,7 +48,7 @@ class Simulation {
   [[nodiscard]] Wrap wrap() const;
   [[nodiscard]] const Physics& physics() const { return physics_; }
   [[nodiscard]] const Distribution& distribution() const { return distribution_; }
-  [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
+  [[nodiscard]] const NeighbourLists& lists() const { return sph_pairs_.lists(); }
   [[nodiscard]] const Grains* grains() const { return grains_ ? &*grains_ : nullptr; }
   [[nodiscard]] bool has_history() const { return grains_ && grains_->lists().history() > 0; }
   /// Histories of this rank's contacts, one entry per contact of a row: what travels and is checkpointed.
@@ -77,10 +78,9 @@ class Simulation {
   void begin();  ///< common end of both constructors
   void kick_half_a_step();
   void rebuild();
-  void build_lists();
   void widen_kernels();
-  void rebuild_contacts(const decomp::Payload& contacts, std::span<const std::uint32_t> order,
-                        const ContactCensus& sent);
+  [[nodiscard]] ListSetting list_setting();
+  /// What the stages look at for each row.
   [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows() const;
   void add_dawdling();
   void run(const std::vector<Entry>& entries);
@@ -106,7 +106,8 @@ class Simulation {
   std::optional<Grains> grains_;
   Distribution distribution_;
   Particles particles_;
-  NeighbourLists lists_;
+  SphPairs sph_pairs_;
+  SetPair* pairs_ = nullptr;
   GlobalState global_;
   decomp::Timers timers_;
   Counters counters_;

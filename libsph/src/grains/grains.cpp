@@ -118,23 +118,6 @@ std::vector<PlaneNow> Grains::planes(const GlobalState& global) const {
   return out;
 }
 
-ContactCensus Grains::rebuild(const Particles& particles, const decomp::CellGrid& grid,
-                              const decomp::Box& own_cells, std::int64_t reach, double skin,
-                              const RowRanges& ranges, const GlobalState& global,
-                              const decomp::Payload& payload, std::span<const std::uint32_t> order) {
-  // A wall that a later stage brings near must be listed in time: walls are looked for where they are now.
-  const std::vector<PlaneNow> planes = this->planes(global);
-  lists_.build(particles, grid, own_cells, reach, skin, scale_.quantum, ranges, fixed_, planes);
-  const ContactCensus found = lists_.unpack(particles, payload, order, scale_.quantum, planes);
-  counters_.carried += lists_.carried();
-  sums_.assign(particles.rows() * (fusion_.spins ? 8 : 4), 0);
-  const std::int64_t* x = particles.data<Field::position>();
-  reference_.assign(x, x + particles.owned() * 3);
-  wall_reference_.clear();
-  for (const WallState& w : global.walls) wall_reference_.push_back(w.offset);
-  return found;
-}
-
 void Grains::begin_step(const Particles& particles, const GlobalState& global) {
   sweep_ = {};
   counters_.ended += lists_.forget_parted(particles.data<Field::id>());

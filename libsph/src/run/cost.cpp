@@ -65,7 +65,7 @@ std::size_t bytes_of(FieldSet fields, int dim) {
 
 FieldSet halo_fields(const Plan& plan, FieldSet fields) {
   FieldSet read{Field::id, Field::position};
-  if (fields.has(Field::radius)) read |= Grains::constants();
+  if (fields.has(Field::radius)) read |= fields;  // a partner's everything
   for (const Entry* e : entries_of(plan))
     for (const Stage& s : e->stages) read |= s.refresh;
   return read & fields;

@@ -20,7 +20,7 @@ std::int64_t Simulation::step(std::int64_t request) {
 }
 
 StepState Simulation::state_of_step() {
-  return {{distribution_.ranges(), global_, maxima_, findings_}, particles_, lists_, rows_};
+  return {{distribution_.ranges(), global_, maxima_, findings_}, particles_, sph_pairs_.lists(), rows_};
 }
 
 void Simulation::run(const std::vector<Entry>& entries) {
@@ -95,7 +95,8 @@ void Simulation::kick_half_a_step() {
   const auto kick = [&](double share) {
     part.dt = share * global_.dt;
     maxima_ = {};
-    StepState state{{distribution_.ranges(), part, maxima_, findings_}, particles_, lists_, rows_};
+    StepState state{
+        {distribution_.ranges(), part, maxima_, findings_}, particles_, sph_pairs_.lists(), rows_};
     run(plan_.kick, state);
     reduce(0, false);
     take_maxima();
@@ -110,22 +111,17 @@ void Simulation::kick_half_a_step() {
 
 // Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plan -> neighbour lists.
 void Simulation::rebuild() {
-  decomp::Payload contacts = std::exchange(arrived_, {});
-  ContactCensus sent;
-  if (grains_) {
+  decomp::Payload carried = [&] {
     const auto timing = timers_.time(decomp::Region::lists);
-    grains_->release();
-    if (contacts.rows() == 0) contacts = this->contacts();
-    sent = ContactLists::census(particles_, contacts, grains_->lists().history());
-  }
+    return pairs_->send(particles_, std::exchange(arrived_, {}));
+  }();
   std::vector<std::uint32_t> order;
   {
     const auto timing = timers_.time(decomp::Region::migrate);
     try {
       order = distribution_.rebuild(
           particles_, timers_.take_cost(), [&] { return pairs_of_rows(); }, is_wall_group_, moved_,
-          grains_ ? 0.0 : 2 * std::max(look_back(), physics_.longest_shift(global_)),
-          grains_ ? &contacts : nullptr);
+          pairs_->least_skin(global_), pairs_->carries() ? &carried : nullptr);
     } catch (const GuardError& error) {
       throw GuardError(step_text(global_.step) + error.what());
     }
@@ -134,69 +130,27 @@ void Simulation::rebuild() {
                        ": a particle was lost or duplicated in migration; reduce time.dt");
   }
   exchange_.forget();
-  refresh_halo(grains_ ? Grains::constants()
-                       : FieldSet{Field::id, Field::position, Field::smoothing_length, Field::group});
-  if (grains_)
-    rebuild_contacts(contacts, order, sent);
-  else
-    build_lists();
+  refresh_halo(pairs_->constants());
+  pairs_->rebuild(particles_, list_setting(), carried, order);
   moved_ = 0;
   ++counters_.rebuilds;
 }
 
-void Simulation::build_lists() {
-  const std::vector<double>& reaches = physics_.find_reaches(particles_);
-  if (reaches.empty()) {
-    lists_.build(particles_, distribution_.grid(), distribution_.own_cells(), distribution_.list_radius(),
-                 distribution_.ranges(), timers_);
-    if (particles_.fields().has(Field::wall_share)) lists_.mark_walls(particles_, is_wall_group_);
-    return;
-  }
-  std::vector<double> quanta(reaches.size());
-  for (std::size_t i = 0; i < quanta.size(); ++i)
-    quanta[i] = (reaches[i] + distribution_.skin()) / scale_.quantum + 1;
-  lists_.build(particles_, quanta, distribution_.ranges(), timers_);
+ListSetting Simulation::list_setting() {
+  return {comm_,
+          distribution_.grid(),
+          distribution_.own_cells(),
+          distribution_.list_radius(),
+          distribution_.skin(),
+          distribution_.ranges(),
+          global_,
+          timers_};
 }
 
-// What the passes look at for each row, as far as the blocks of the lists tell.
 std::vector<std::uint32_t> Simulation::pairs_of_rows() const {
   std::vector<std::uint32_t> pairs(particles_.owned(), 0);
-  const auto share = [&](std::size_t first, std::size_t last, std::size_t entries) {
-    for (std::size_t i = first; i < std::min(last, pairs.size()); ++i)
-      pairs[i] = static_cast<std::uint32_t>(entries / (last - first));
-  };
-  if (counters_.rebuilds == 0) return pairs;
-  if (grains_) {
-    const ContactLists& lists = grains_->lists();
-    for (const auto blocks : {lists.interior(), lists.boundary()})
-      for (const ContactBlock& b : blocks)
-        share(b.first, b.last, (b.pairs_end - b.pairs) * ContactGroups::lanes);
-    return pairs;
-  }
-  const auto lanes = static_cast<std::size_t>(lists_.lanes());
-  for (const RowRange& range : distribution_.ranges())
-    for (std::size_t first = range.first, b = range.first_block; first < range.last; first += lanes, ++b)
-      share(first, std::min<std::size_t>(first + lanes, range.last), lists_.block(b).size());
+  if (counters_.rebuilds > 0) pairs_->count(distribution_.ranges(), pairs);
   return pairs;
-}
-
-// No contact may be lost or doubled on its way: count and keys are those of the entries that set out.
-void Simulation::rebuild_contacts(const decomp::Payload& contacts, std::span<const std::uint32_t> order,
-                                  const ContactCensus& sent) {
-  const auto timing = timers_.time(decomp::Region::lists);
-  const ContactCensus found = grains_->rebuild(particles_, distribution_.grid(), distribution_.own_cells(),
-                                               distribution_.list_radius(), distribution_.skin(),
-                                               distribution_.ranges(), global_, contacts, order);
-  Findings lost;
-  grains_->find_lost(particles_, global_, distribution_.skin(), lost);
-  std::array<std::uint64_t, 6> all{sent.count, sent.keys,       found.count,
-                                   found.keys, found.one_sided, lost.any() ? 1U : 0U};
-  comm_.sum(std::span<std::uint64_t>(all));
-  if (all[5] != 0) lost.stop(comm_, step_text(global_.step));
-  if (all[0] != all[2] || all[1] != all[3] || all[4] != 0)
-    throw GuardError("step " + std::to_string(global_.step) + ": of " + std::to_string(all[0]) +
-                     " entries of contacts " + std::to_string(all[2]) +
-                     " were found again after the lists were rebuilt; reduce time.dt");
 }
 
 void Simulation::refresh_halo(FieldSet fields) {

@@ -22,7 +22,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
       physics_(scene_, scale_),
       distribution_(comm_, scene_, scale_),
       particles_(scene_.dim, physics_.fields()),
-      lists_(lanes_of(scene_.precision)),
+      sph_pairs_(physics_),
       exchange_(scene_.decomposition.overlap) {
   place_particles(scene_, scale_, distribution_, particles_);
   add_models();
@@ -57,7 +57,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
       physics_(scene_, scale_),
       distribution_(comm_, scene_, scale_),
       particles_(scene_.dim, physics_.fields()),
-      lists_(lanes_of(scene_.precision)),
+      sph_pairs_(physics_),
       exchange_(scene_.decomposition.overlap) {
   add_models();
   read_checkpoint(comm_, checkpoint, particles_, has_history() ? &arrived_ : nullptr);
@@ -82,6 +82,7 @@ void Simulation::find_common_motion(const Shifting& shifting) {
 
 void Simulation::add_models() {
   if (scene_.of_grains()) grains_.emplace(scene_, scale_);
+  pairs_ = grains_ ? static_cast<SetPair*>(&*grains_) : &sph_pairs_;
   models_ = {grains_ ? static_cast<Model*>(&*grains_) : &physics_};
   plan_ = grains_ ? grains_->plan() : physics_.plan();
   for (Model* m : models_) m->reserve(reduction_);
@@ -94,8 +95,9 @@ void Simulation::begin() {
   count_ = census_.count;
   if (count_ == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
   distribution_.cut_by_counts(particles_);
-  if (grains_ && arrived_.rows() == 0) arrived_.offset.assign(particles_.owned() + 1, 0);
-  distribution_.scatter(particles_, grains_ ? &arrived_ : nullptr);
+  const bool carries = pairs_->carries();
+  if (carries && arrived_.rows() == 0) arrived_.offset.assign(particles_.owned() + 1, 0);
+  distribution_.scatter(particles_, carries ? &arrived_ : nullptr);
   // Passes over movers write nothing to walls, whose partners read all the same: nothing is what they read.
   for (const Field f : particles_.fields().list())
     if (!info(f).state)
@@ -147,7 +149,7 @@ void Simulation::widen_kernels() {
       change[0] = std::max(change[0], std::abs(h[i] / before[i] - 1));
     comm_.max(change);
     refresh_halo({Field::smoothing_length});
-    build_lists();
+    sph_pairs_.rebuild(particles_, list_setting(), {}, {});
     if (change[0] < rounding) break;
   }
 }
