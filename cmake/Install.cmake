@@ -4,6 +4,9 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Peperite)
 
 install(TARGETS peperite_fp decomp sph EXPORT Peperite FILE_SET HEADERS)
+if(PEPERITE_METIS)
+  install(TARGETS metis_partition EXPORT Peperite FILE_SET HEADERS)
+endif()
 install(EXPORT Peperite NAMESPACE Peperite:: DESTINATION ${package_dir} FILE PeperiteTargets.cmake)
 configure_package_config_file(cmake/PeperiteConfig.cmake.in PeperiteConfig.cmake
   INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
