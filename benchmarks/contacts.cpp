@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "sph/contact_pass.hpp"
 #include "sph/error.hpp"
 #include "sph/simulation.hpp"
 #include "timing.hpp"

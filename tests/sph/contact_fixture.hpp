@@ -9,6 +9,7 @@
 #include "sph/contact/friction.hpp"
 #include "sph/contact/normal.hpp"
 #include "sph/contact/rolling.hpp"
+#include "sph/contact_pass.hpp"
 #include "sph/simd.hpp"
 
 namespace sph::test {

@@ -6,6 +6,7 @@
 #include "contact_fixture.hpp"
 #include "sph/contact/restitution.hpp"
 #include "sph/contact/time_step.hpp"
+#include "sph/contact_pass.hpp"
 
 namespace sph::test {
 

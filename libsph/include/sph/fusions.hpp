@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sph/pair_pass.hpp"
+#include "sph/pass_context.hpp"
 #include "sph/scene.hpp"
 
 namespace sph {

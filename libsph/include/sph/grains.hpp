@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sph/contact_lists.hpp"
-#include "sph/contact_pass.hpp"
+#include "sph/contact_context.hpp"
 #include "sph/findings.hpp"
 #include "sph/models/model.hpp"
 #include "sph/particles.hpp"

@@ -1,6 +1,7 @@
 // The explicit list of compiled contact sweeps: a law that is not here is not compiled.
 #include <algorithm>
 
+#include "sph/contact_pass.hpp"
 #include "sph/grains.hpp"
 
 namespace sph {

@@ -7,6 +7,7 @@
 #include "sph/contact/friction.hpp"
 #include "sph/contact/normal.hpp"
 #include "sph/contact/rolling.hpp"
+#include "sph/simd.hpp"
 
 namespace sph {
 namespace {

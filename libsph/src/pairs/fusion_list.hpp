@@ -3,6 +3,7 @@
 
 #include "sph/fusions.hpp"
 #include "sph/kernels.hpp"
+#include "sph/pair_pass.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
 #include "sph/terms/body_contact.hpp"
 #include "sph/terms/bonds.hpp"

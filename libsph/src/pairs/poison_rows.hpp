@@ -2,7 +2,7 @@
 #pragma once
 
 #include "decomp/poison.hpp"
-#include "sph/pair_pass.hpp"
+#include "sph/pass_context.hpp"
 
 namespace sph {
 

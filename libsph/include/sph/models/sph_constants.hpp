@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sph/eos.hpp"
-#include "sph/pair_pass.hpp"
+#include "sph/pass_context.hpp"
 #include "sph/plan/stage.hpp"
 #include "sph/scene.hpp"
 

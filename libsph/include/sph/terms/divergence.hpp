@@ -2,7 +2,7 @@
 // div v. VelocityGradient gives the whole tensor where the constitutive law needs it.
 #pragma once
 
-#include "sph/pair_rows.hpp"
+#include "sph/pair_values.hpp"
 
 namespace sph {
 

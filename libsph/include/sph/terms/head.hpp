@@ -2,7 +2,7 @@
 // [m^2/s^2].
 #pragma once
 
-#include "sph/pair_rows.hpp"
+#include "sph/pair_values.hpp"
 
 namespace sph {
 

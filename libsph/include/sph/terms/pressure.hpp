@@ -2,7 +2,7 @@
 // (Colagrossi & Landrini 2003; Grenier et al. 2009).
 #pragma once
 
-#include "sph/pair_rows.hpp"
+#include "sph/pair_values.hpp"
 
 namespace sph {
 

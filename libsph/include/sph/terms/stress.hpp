@@ -2,7 +2,7 @@
 // force is its isotropic part.
 #pragma once
 
-#include "sph/pair_rows.hpp"
+#include "sph/pair_values.hpp"
 
 namespace sph {
 

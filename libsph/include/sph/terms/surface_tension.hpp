@@ -5,7 +5,7 @@
 // integral is 1.
 #pragma once
 
-#include "sph/pair_rows.hpp"
+#include "sph/pair_values.hpp"
 #include "sph/terms/stress.hpp"
 
 namespace sph {

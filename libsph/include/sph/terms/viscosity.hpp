@@ -14,7 +14,7 @@
 // (Colagrossi et al. 2011), decays at half its rate.
 #pragma once
 
-#include "sph/pair_rows.hpp"
+#include "sph/pair_values.hpp"
 
 namespace sph {
 

@@ -3,7 +3,7 @@
 // velocity that makes the wall no-slip (wall_mirror.hpp), or the mean sum v W / sum W itself where it slips.
 #pragma once
 
-#include "sph/pair_rows.hpp"
+#include "sph/pair_values.hpp"
 #include "sph/terms/head.hpp"
 
 namespace sph {
