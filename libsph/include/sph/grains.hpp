@@ -120,6 +120,7 @@ class Grains final : public Model, public SetPair {
   [[nodiscard]] std::vector<std::int64_t> wall_forces(std::span<const std::int64_t> halves,
                                                       const GlobalState& global) const;
   [[nodiscard]] std::string text_of(const ContactFault& fault) const;
+  [[nodiscard]] std::string text_of_place(const std::int64_t* quanta) const;
   void find_too_fast(const StepState& state, Findings& found) const;
   /// Contacts in rebuild() that the lists do not hold though their pairs cannot have parted so far.
   void find_lost(const Particles& particles, const GlobalState& global, double skin, Findings& lost) const;
@@ -131,6 +132,7 @@ class Grains final : public Model, public SetPair {
 
   const Scene* scene_;
   PositionScale scale_;
+  Wrap wrap_;
   ContactFusion fusion_;
   ContactLists lists_;
   decomp::LargeVector<double> constants_;

@@ -122,7 +122,7 @@ struct Wrap {
   [[nodiscard]] std::int64_t operator()(int axis, std::int64_t x) const {
     const auto a = static_cast<std::size_t>(axis);
     if (period[a] == 0) return x;
-    const std::int64_t above = (x - origin[a]) % period[a];
+    const std::int64_t above = (x % period[a] - origin[a] % period[a]) % period[a];  // of any x
     return origin[a] + (above < 0 ? above + period[a] : above);
   }
 };

@@ -45,7 +45,7 @@ class Simulation {
   [[nodiscard]] const Particles& particles() const { return particles_; }
   [[nodiscard]] const GlobalState& global() const { return global_; }
   [[nodiscard]] const PositionScale& scale() const { return scale_; }
-  [[nodiscard]] Wrap wrap() const;
+  [[nodiscard]] const Wrap& wrap() const { return physics_.constants().wrap; }
   [[nodiscard]] const Physics& physics() const { return physics_; }
   [[nodiscard]] const Distribution& distribution() const { return distribution_; }
   [[nodiscard]] const NeighbourLists& lists() const { return sph_pairs_.lists(); }

@@ -7,6 +7,7 @@
 
 #include "grains/grain_constants.hpp"
 #include "sph/fixed_point.hpp"
+#include "sph/models/sph_constants.hpp"
 
 namespace sph {
 namespace {
@@ -16,7 +17,11 @@ double next_power_of_two(double x) { return std::ldexp(1.0, std::ilogb(x) + 1); 
 }  // namespace
 
 Grains::Grains(const Scene& scene, const PositionScale& scale)
-    : scene_(&scene), scale_(scale), fusion_(contact_fusion(scene)), lists_(fusion_.history) {
+    : scene_(&scene),
+      scale_(scale),
+      wrap_(wrap_of(scene, scale)),
+      fusion_(contact_fusion(scene)),
+      lists_(fusion_.history) {
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
   dt_ = grain_step(scene);
   longest_move_ = longest_grain_move(scene);

@@ -98,12 +98,10 @@ void Grains::find_lost(const Particles& p, const GlobalState& global, double ski
     if (1.0001 * way > skin) continue;
     const std::uint64_t id = p.data<Field::id>()[i];
     lost.add(id, [&] {
-      std::array<double, 3> at;
-      for (std::size_t a = 0; a < 3; ++a) at[a] = scale_.metres(p.data<Field::position>()[i * 3 + a]);
       return fmt::format(
           "the contact of grain {} {} with {} was lost when the lists were rebuilt; reduce "
           "time.dt or raise decomposition.skin",
-          id, place_text(at),
+          id, text_of_place(p.data<Field::position>() + i * 3),
           with_wall ? fmt::format("wall \"{}\"", scene_->walls[parted.key & ~wall_key].name)
                     : fmt::format("grain {}", parted.key));
     });

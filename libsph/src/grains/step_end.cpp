@@ -24,13 +24,18 @@ bool Grains::report(const StepState&, Reduction& r) {
   return true;
 }
 
-std::string Grains::text_of(const ContactFault& fault) const {
+// Inside the domain: rows are wrapped when lists are made anew, and a message must not tell when that was.
+std::string Grains::text_of_place(const std::int64_t* quanta) const {
   std::array<double, 3> at;
-  for (std::size_t a = 0; a < 3; ++a) at[a] = scale_.metres(fault.x[a]);
+  for (std::size_t a = 0; a < 3; ++a) at[a] = scale_.metres(wrap_(static_cast<int>(a), quanta[a]));
+  return place_text(at);
+}
+
+std::string Grains::text_of(const ContactFault& fault) const {
   const std::string partner = (fault.partner & wall_key) != 0
                                   ? fmt::format("wall \"{}\"", scene_->walls[fault.partner & ~wall_key].name)
                                   : fmt::format("grain {}", fault.partner);
-  return fmt::format("grain {} {} and {}", fault.id, place_text(at), partner);
+  return fmt::format("grain {} {} and {}", fault.id, text_of_place(fault.x.data()), partner);
 }
 
 void Grains::guard(const decomp::Comm& comm, const StepState& s, const Reduction& r) const {
@@ -69,13 +74,13 @@ void Grains::find_too_fast(const StepState& s, Findings& found) const {
     const std::uint64_t id = s.particles.data<Field::id>()[i];
     found.add(id, [&] {
       // Where it came from: so fast, it may have wrapped around.
-      std::array<double, 3> at;
+      std::array<std::int64_t, 3> at;
       for (std::size_t a = 0; a < 3; ++a) {
         const std::int64_t way = round_to_quanta(v[i * 3 + a] * (dt / scale_.quantum));
-        at[a] = scale_.metres(static_cast<std::int64_t>(static_cast<std::uint64_t>(x[i * 3 + a]) -
-                                                        static_cast<std::uint64_t>(way)));
+        at[a] = static_cast<std::int64_t>(static_cast<std::uint64_t>(x[i * 3 + a]) -
+                                          static_cast<std::uint64_t>(way));
       }
-      return fmt::format("grain {} {} has a speed of {:.6g} m/s: {}", id, place_text(at), speed,
+      return fmt::format("grain {} {} has a speed of {:.6g} m/s: {}", id, text_of_place(at.data()), speed,
                          grain_move_text(*scene_, speed * dt));
     });
   }

@@ -112,13 +112,33 @@ int row_position_shift(const Scene& scene, const PositionScale& scale) {
   return std::max(std::ilogb(longest / scale.quantum) + 1 - 29, 0);
 }
 
+std::array<std::int64_t, 3> domain_length(const Scene& scene, const PositionScale& scale) {
+  std::array<std::int64_t, 3> length{};
+  // Whole units of the rows along a period, or a pair in single precision would depend on whose image was
+  // taken.
+  const int bits = scene.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
+    if (scene.periodic[a]) length[a] = (length[a] >> bits) << bits;
+  }
+  return length;
+}
+
+Wrap wrap_of(const Scene& scene, const PositionScale& scale) {
+  Wrap wrap{scale.origin, {}};
+  const std::array<std::int64_t, 3> length = domain_length(scene, scale);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (scene.periodic[a]) wrap.period[a] = length[a];
+  return wrap;
+}
+
 std::int64_t PositionScale::quanta(double metres) const {
   // |metres / quantum| < 2^62, and the division by a power of two is exact.
   return static_cast<std::int64_t>(std::nearbyint(metres / quantum));
 }
 
 SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
-    : scene(&of), scale(position_scale) {
+    : scene(&of), scale(position_scale), wrap(wrap_of(of, position_scale)) {
   if (of.of_grains()) return;
   const KernelNumbers kernel = numbers(of);
   const double h = of.smoothing_length;

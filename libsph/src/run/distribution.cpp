@@ -65,14 +65,7 @@ decomp::CutLimits limits_of(const decomp::CellGrid& grid, const Scene& scene) {
 }  // namespace
 
 decomp::CellGrid cell_grid_of(const Scene& scene, const PositionScale& scale) {
-  decomp::Int3 length{};
-  // Whole units of the rows along a period, or a pair in single precision would depend on whose image was
-  // taken.
-  const int bits = scene.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
-    if (scene.periodic[a]) length[a] = (length[a] >> bits) << bits;
-  }
+  const decomp::Int3 length = domain_length(scene, scale);
   // Places along the Hilbert curve, and cells of all axes, must be numbers of 62 bits.
   constexpr std::int64_t most_cells = (std::int64_t{1} << 20) - 1;
   std::int64_t edge = reach_of(scene, scale);

@@ -12,7 +12,7 @@ std::vector<double> Simulation::metres_of(std::size_t row) const {
   const auto d = static_cast<std::size_t>(particles_.dim());
   std::vector<double> at;
   for (std::size_t a = 0; a < d; ++a)
-    at.push_back(scale_.metres(particles_.data<Field::position>()[row * d + a]));
+    at.push_back(scale_.metres(wrap()(static_cast<int>(a), particles_.data<Field::position>()[row * d + a])));
   return at;
 }
 

@@ -154,15 +154,6 @@ void Simulation::widen_kernels() {
   }
 }
 
-Wrap Simulation::wrap() const {
-  Wrap wrap;
-  for (std::size_t a = 0; a < 3; ++a) {
-    wrap.origin[a] = distribution_.grid().origin()[a];
-    if (scene_.periodic[a]) wrap.period[a] = distribution_.grid().length()[a];
-  }
-  return wrap;
-}
-
 std::string Simulation::fingerprint() const {
   if (!has_history()) return sph::fingerprint(comm_, particles_, global_, scale_, wrap());
   const decomp::Payload entries = contacts();

@@ -1,6 +1,7 @@
 // What all models of fluids and solids share: the constants of a scene in the units of its pair rows.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct SphConstants {
 
   const Scene* scene;
   PositionScale scale;
+  Wrap wrap;
   GroupTable groups;
   std::vector<BubblyEos> bubbly;  ///< by group; used where the group's eos says so
   RowScale row_scale{};
@@ -36,6 +38,9 @@ struct SphConstants {
 /// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and
 /// the support at most 2^50, so that pair distances convert to double exactly.
 [[nodiscard]] PositionScale position_scale(const Scene& scene);
+/// Extent of the domain in quanta, along a period what is wrapped.
+[[nodiscard]] std::array<std::int64_t, 3> domain_length(const Scene& scene, const PositionScale& scale);
+[[nodiscard]] Wrap wrap_of(const Scene& scene, const PositionScale& scale);
 /// Rows of single precision hold positions without so many low bits.
 [[nodiscard]] int row_position_shift(const Scene& scene, const PositionScale& scale);
 
