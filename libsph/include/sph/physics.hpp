@@ -29,6 +29,7 @@ class Physics final : public Model {
   [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
   void act(const Reduction& reduction, GlobalState& global) override;
   void set_step(const Reduction& reduction, GlobalState& global) const override;
+  void guard_step(const Reduction& reduction, const GlobalState& global) const override;
   [[nodiscard]] double longest_look_back(const GlobalState& global) const override;
   [[nodiscard]] double growth(const Reduction& reduction) const override { return reduction[growth_]; }
   [[nodiscard]] double speed_limit() const override;

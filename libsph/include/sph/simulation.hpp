@@ -95,7 +95,7 @@ class Simulation {
   void find_stale(double next);
   void guard_motion(double next) const;
   [[nodiscard]] double look_back() const;
-  [[noreturn]] void stop_at_bad_particle() const;
+  [[noreturn]] void stop_at_fault() const;
   [[noreturn]] void stop_at_fastest(const std::string& what) const;
   [[nodiscard]] std::vector<double> metres_of(std::size_t row) const;
 

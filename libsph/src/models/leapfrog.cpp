@@ -84,12 +84,12 @@ struct WallVelocities {
 /// Without the excess pressure of a second viscosity.
 struct Pressures {
   static constexpr FieldSet reads = Materials::reads;
-  static constexpr FieldSet writes = Materials::writes;
+  static constexpr FieldSet writes{Field::pressure};
   const Materials* materials;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers})
-      materials->derive(p, range_of(step.ranges, c).first, range_of(step.ranges, c).last);
+      materials->derive_pressure(p, range_of(step.ranges, c).first, range_of(step.ranges, c).last);
   }
 };
 

@@ -2,15 +2,19 @@
 
 namespace sph {
 
-void Materials::derive(const View<reads, writes>& p, std::size_t first, std::size_t last) const {
+template <class V>
+void Materials::derive_into(const V& p, std::size_t first, std::size_t last) const {
   const Scene& scene = *constants_->scene;
-  const double* rho = p.get<Field::density>();
-  const auto* group = p.get<Field::group>();
-  double* pressure = p.get<Field::pressure>();
-  double* sound = p.get<Field::sound_speed>();
-  double* psi = p.get<Field::void_fraction>();
-  const double* gas = p.get<Field::gas_content>();
-  const double* energy = p.get<Field::specific_energy>();
+  const double* rho = p.template get<Field::density>();
+  const auto* group = p.template get<Field::group>();
+  double* pressure = p.template get<Field::pressure>();
+  double *sound = nullptr, *psi = nullptr;
+  if constexpr (V::writes.has(Field::sound_speed)) {
+    sound = p.template get<Field::sound_speed>();
+    psi = p.template get<Field::void_fraction>();
+  }
+  const double* gas = p.template get<Field::gas_content>();
+  const double* energy = p.template get<Field::specific_energy>();
   for (std::size_t i = first; i < last; ++i) {
     const Group& g = scene.groups[group[i]];
     if (g.kind == GroupKind::wall && scene.formulation == Formulation::conservative) {
@@ -36,6 +40,14 @@ void Materials::derive(const View<reads, writes>& p, std::size_t first, std::siz
     if (sound != nullptr) sound[i] = c;
     if (psi != nullptr) psi[i] = void_fraction;
   }
+}
+
+void Materials::derive(const View<reads, writes>& p, std::size_t first, std::size_t last) const {
+  derive_into(p, first, last);
+}
+
+void Materials::derive_pressure(const Pressures& p, std::size_t first, std::size_t last) const {
+  derive_into(p, first, last);
 }
 
 }  // namespace sph

@@ -48,8 +48,9 @@ struct CommonMotionSums {
 
 void Shifting::add_to(Builder& b) const {
   b.add_kick("shifting", *this, [own = *this](const GlobalState& global) { return own.longest(global); });
-  b.add_kick("common motion", CommonMotionSums{*this});
 }
+
+void Shifting::add_motion_to(Builder& b) const { b.add_kick("common motion", CommonMotionSums{*this}); }
 
 std::int64_t Shifting::fluid_volume(const Motion& p) const {
   if (constants_->scene->open) return 0;

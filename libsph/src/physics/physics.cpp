@@ -66,6 +66,7 @@ void Physics::add_end_of_step() {
   if (bulk_viscous(s)) add_pressures(builder_);
   if (std::ranges::any_of(s.groups, [](const Group& g) { return g.fragments_to >= 0; }))
     add_fragmentation(builder_);
+  if (shifting_) shifting_->add_motion_to(builder_);
   if (gas_) add_heat(builder_);
   if (s.output.average_time > 0) add_averages(builder_);
 }

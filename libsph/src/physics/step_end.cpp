@@ -38,6 +38,9 @@ void Physics::act(const Reduction& r, GlobalState& global) {
 
 void Physics::set_step(const Reduction& r, GlobalState& global) const {
   global.dt = time_step({r[Reduction::speed], r[Reduction::acceleration], 0, r[sound_], r[viscosity_]});
+}
+
+void Physics::guard_step(const Reduction& r, const GlobalState& global) const {
   if (scene_->time.dt && r[sound_] * *scene_->time.dt > courant_limit(*scene_) * scene_->smoothing_length)
     throw GuardError(
         fmt::format("step {}: (c + u) dt/h is beyond the limit of {:f}, or the kernels of a gas that expands "

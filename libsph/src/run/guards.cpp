@@ -16,9 +16,10 @@ std::vector<double> Simulation::metres_of(std::size_t row) const {
   return at;
 }
 
-// In the order in which a step goes on: to lists, which follow the skin, what is not finite spreads with the
-// forces.
-void Simulation::stop_at_bad_particle() const {
+// What updates have found comes first: what is not finite may follow from it. Then in the order in which a
+// step goes on: to lists, which follow the skin, what is not finite spreads with the forces.
+void Simulation::stop_at_fault() const {
+  findings_.stop(comm_);
   const auto d = static_cast<std::size_t>(particles_.dim());
   Findings found;
   for (const Field f : {Field::density, Field::pressure, Field::sound_speed, Field::velocity}) {

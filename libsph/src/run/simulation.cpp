@@ -83,7 +83,7 @@ void Simulation::add_dawdling() {
             const double until = before + slowness * (timers_.cost() - before);
             while (timers_.cost() < until) {
             }
-            before = until;
+            before = timers_.cost();
           }});
 }
 
@@ -99,13 +99,13 @@ void Simulation::kick_half_a_step() {
         {distribution_.ranges(), part, maxima_, findings_}, particles_, sph_pairs_.lists(), rows_};
     run(plan_.kick, state);
     reduce(0, false);
+    if (reduction_[Reduction::bad] > 0) stop_at_fault();
     take_maxima();
     physics_.set_step(reduction_, part);
     return part.dt;
   };
   global_.dt = kick(0);  // how large a step may be follows from the accelerations
   (void)kick(0.5);
-  findings_.stop(comm_);
   find_stale(longest_move(plan_, global_));
 }
 
@@ -192,10 +192,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   const Findings left = find_leavers();
   reduce(request, left.any());
   for (const Model* m : models_) m->guard(comm_, state_of_step(), reduction_);
-  if (reduction_[Reduction::bad] > 0) {
-    findings_.stop(comm_);  // what is not finite may follow from it
-    stop_at_bad_particle();
-  }
+  if (reduction_[Reduction::bad] > 0) stop_at_fault();
   if (reduction_[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
   for (Model* m : models_) {
     moved_ += m->path(global_, reduction_[Reduction::speed]);
@@ -204,7 +201,10 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   ++global_.step;
   global_.time += global_.dt;
   take_maxima();
-  for (const Model* m : models_) m->set_step(reduction_, global_);
+  for (const Model* m : models_) {
+    m->set_step(reduction_, global_);
+    m->guard_step(reduction_, global_);
+  }
   find_stale(longest_move(plan_, global_));
   return static_cast<std::int64_t>(reduction_[Reduction::request]);
 }

@@ -13,8 +13,14 @@ class Materials {
   explicit Materials(const SphConstants& constants) : constants_(&constants) {}
   /// Of rows [first, last).
   void derive(const View<reads, writes>& particles, std::size_t first, std::size_t last) const;
+  /// The pressure alone, where the rest is what it was.
+  using Pressures = View<reads, FieldSet{Field::pressure}>;
+  void derive_pressure(const Pressures& particles, std::size_t first, std::size_t last) const;
 
  private:
+  template <class V>
+  void derive_into(const V& particles, std::size_t first, std::size_t last) const;
+
   const SphConstants* constants_;
 };
 

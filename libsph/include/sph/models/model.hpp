@@ -26,8 +26,10 @@ class Model {
   virtual void guard(const decomp::Comm&, const StepState&, const Reduction&) const {}
   /// What the reduction changes in the state, with the clock as it was in the step.
   virtual void act(const Reduction&, GlobalState&) {}
-  /// The time step to come; throws GuardError where that cannot be stable.
+  /// The time step to come.
   virtual void set_step(const Reduction&, GlobalState&) const {}
+  /// Throws GuardError where that cannot be stable.
+  virtual void guard_step(const Reduction&, const GlobalState&) const {}
 
   /// Bound on any particle's path in the step at hand beyond what its stages declare, where none was faster
   /// than `speed` [m].

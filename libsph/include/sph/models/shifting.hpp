@@ -19,6 +19,8 @@ class Shifting {
   Shifting(const SphConstants& constants, const BodyForces& body_forces)
       : constants_(&constants), body_forces_(&body_forces) {}
   void add_to(Builder& builder) const;
+  /// What all particles do together, after whatever changes one of them.
+  void add_motion_to(Builder& builder) const;
 
   /// Of this rank's particles that move; see FluidVolume.
   [[nodiscard]] std::int64_t fluid_volume(const Motion& particles) const;
