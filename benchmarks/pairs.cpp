@@ -71,7 +71,7 @@ double true_pairs(const sph::Simulation& s) {
   const double reach = s.scene().support() / s.scale().quantum;
   const std::size_t lanes = static_cast<std::size_t>(s.lists().lanes());
   double pairs = 0;
-  for (const sph::RowRange& range : s.distribution().ranges())
+  for (const sph::RowRange& range : s.sets().front().ranges)
     for (std::size_t first = range.first, b = range.first_block; first < range.last; first += lanes, ++b) {
       const auto entries = s.lists().block(b);
       for (std::size_t k = 0; k < entries.size(); ++k) {
@@ -106,7 +106,8 @@ double pass_seconds(sph::Simulation& s, sph::Particles& particles, const sph::Ne
   for (const sph::Entry* entry : sph::entries_of(s.plan()))
     for (const sph::Stage& stage : entry->stages) {
       if (stage.fusion == nullptr) continue;
-      const sph::PassContext context = s.physics().constants().context(particles, lists, rows, s.global().dt);
+      const sph::PassContext context =
+          s.physics()->constants().context(particles, lists, rows, s.global().dt);
       stage.fusion->pack(context, 0, particles.rows());
       for (const sph::RowRange& r : ranges) stage.fusion->run(context, r);
     }
@@ -130,7 +131,7 @@ void measure(const decomp::Comm& comm, const Case& c, bool shuffled) {
     order_share.push_back((s.timers().seconds(decomp::Region::order) - sorting) /
                           (s.timers().total() - wall));
     sph::NeighbourLists found(s.lists().lanes()), by_id(s.lists().lanes());
-    sph::RowRanges ranges = s.distribution().ranges();
+    sph::RowRanges ranges = s.sets().front().ranges;
     decomp::Timers ignored;
     found.build(particles, s.distribution().grid(), s.distribution().own_cells(),
                 s.distribution().list_radius(), ranges, ignored, sph::PartnerOrder::as_found);

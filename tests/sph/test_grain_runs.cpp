@@ -100,8 +100,8 @@ TEST(GrainRuns, LostHistoryIsMissed) {
   std::iota(order.begin(), order.end(), 0u);
   const auto lists_with = [&](const decomp::Payload& payload) {
     ContactLists lists(old.history());
-    lists.build(p, d.grid(), d.own_cells(), d.list_radius(), d.skin(), simulation.scale().quantum, d.ranges(),
-                {false}, planes);
+    lists.build(p, d.grid(), d.own_cells(), d.list_radius(), d.skin(), simulation.scale().quantum,
+                simulation.sets().front().ranges, {false}, planes);
     const ContactCensus found = lists.unpack(p, payload, order, simulation.scale().quantum, planes);
     return std::pair(std::move(lists), found);
   };

@@ -8,7 +8,7 @@
 #include "sph/distribution.hpp"
 #include "sph/fingerprint.hpp"
 #include "sph/grain_mass.hpp"
-#include "sph/physics.hpp"
+#include "sph/parts.hpp"
 #include "sph/placement.hpp"
 #include "sph/snapshot.hpp"
 #include "state_fixture.hpp"

@@ -122,7 +122,7 @@ TEST(ListReach, no_interior_row_lists_the_halo) {
   }
   comm.barrier();
   const Simulation s(comm, parse_scene(text_with(path), "edge", {}));
-  const auto& ranges = s.distribution().ranges();
+  const auto& ranges = s.sets().front().ranges;
   const auto lanes = static_cast<std::size_t>(s.lists().lanes());
   std::int64_t interior = 0;
   for (const RowClass c : {RowClass::interior_movers, RowClass::interior_walls}) {

@@ -112,7 +112,11 @@ class Part {
         scale_(position_scale(scene_)),
         distribution_(comm, scene_, scale_),
         skin_(scene_.support() * (cloud.wider * (1 + cloud.skin) - 1)),
-        particles_(cloud.dim, {Field::id, Field::position, Field::group}),
+        set_{Particles(cloud.dim, {Field::id, Field::position, Field::group}),
+             is_wall_,
+             {},
+             {},
+             HaloExchange(true)},
         crowd_(draw(cloud, distribution_.grid(), scale_.quanta(scene_.support() + skin_) + 1)) {
     const auto d = static_cast<std::size_t>(cloud.dim), size = static_cast<std::size_t>(comm.size());
     std::vector<std::size_t> mine;  // some of them, to begin with
@@ -126,18 +130,16 @@ class Part {
         particles_.data<Field::position>()[row * d + a] = crowd_.x[mine[row]][a];
     }
     distribution_.scatter(particles_);
-    distribution_.rebuild(particles_, 0, {}, is_wall_, 0, skin_);
-    const std::array<int, 3> columns{particles_.column(Field::id), particles_.column(Field::position),
-                                     particles_.column(Field::group)};
-    distribution_.halo().refresh(particles_.table(), columns);
+    std::array<Distribution::Carried, 1> nothing;
+    distribution_.rebuild(std::span(&set_, 1), 0, {}, 0, skin_, nothing);
+    set_.refresh(particles_.fields(), timers_);
   }
 
   /// What is wrong with the lists of one radius; nothing: "".
   [[nodiscard]] std::string fault_of_even_lists() {
     NeighbourLists lists(lanes_of(scene_.precision));
     const std::int64_t radius = distribution_.list_radius();
-    lists.build(particles_, distribution_.grid(), distribution_.own_cells(), radius, distribution_.ranges(),
-                timers_);
+    lists.build(particles_, distribution_.grid(), distribution_.own_cells(), radius, set_.ranges, timers_);
     lists.mark_walls(particles_, is_wall_);
     // Beside the slack there is the rounding that it makes up for, less than a quarter of it.
     const double slack = 1.25 * list_slack(distribution_.grid(), distribution_.own_cells(), radius);
@@ -150,7 +152,7 @@ class Part {
     NeighbourLists lists(lanes_of(scene_.precision));
     std::vector<double> reach(particles_.rows());
     for (std::size_t row = 0; row < reach.size(); ++row) reach[row] = crowd_.reach[number(row)];
-    lists.build(particles_, reach, distribution_.ranges(), timers_);
+    lists.build(particles_, reach, set_.ranges, timers_);
     // Coordinates of 2^61 quanta, and squares of distances, are rounded to 53 bits.
     constexpr long double rounding = 1e-12L;
     return fault_of(lists, false, [&](std::size_t i, std::size_t j, long double r) {
@@ -184,7 +186,7 @@ class Part {
     const auto lanes = static_cast<std::size_t>(lists.lanes());
     std::size_t row = 0, block = 0, pairs = 0;
     for (std::size_t c = 0; c < 4; ++c) {
-      const RowRange& range = distribution_.ranges()[c];
+      const RowRange& range = set_.ranges[c];
       if (range.first != row) return "rows are in no class, or in two";
       if (range.first_block != block) return "a block is shared by two classes, or by none";
       for (; row < range.last; ++row) {
@@ -249,7 +251,8 @@ class Part {
   PositionScale scale_;
   Distribution distribution_;
   double skin_;  ///< [m]
-  Particles particles_;
+  ParticleSet set_;
+  Particles& particles_ = set_.particles;
   Crowd crowd_;
   decomp::Timers timers_;
 };

@@ -47,12 +47,12 @@ std::int64_t bad_sums(const Simulation& s, bool packed) {
   auto& particles = const_cast<Particles&>(s.particles());  // the sums alone are written
   decomp::LargeVector<std::byte> rows;
   const Fusion& fusion = *s.plan().sums.front().stages.front().fusion;
-  const PassContext context = s.physics().constants().context(particles, s.lists(), rows, s.global().dt);
+  const PassContext context = s.physics()->constants().context(particles, s.lists(), rows, s.global().dt);
   fusion.pack(context, 0, particles.rows());
   if (!packed) poison_rows(context, fusion.row_bytes, particles.owned(), particles.rows());
   std::int64_t bad = 0;
   for (const RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
-    const RowRange& range = s.distribution().ranges()[static_cast<std::size_t>(c)];
+    const RowRange& range = s.sets().front().ranges[static_cast<std::size_t>(c)];
     fusion.run(context, range);
     for (std::size_t i = range.first; i < range.last; ++i)
       if (!std::isfinite(particles.data<Field::divergence>()[i])) ++bad;
@@ -68,7 +68,7 @@ TEST(Poison, a_row_that_reads_the_halo_too_early_is_found) {
     s.step();
     s.refresh_halo(s.plan().sums.front().stages.front().refresh);
     EXPECT_EQ(bad_sums(s, true), 0);
-    const RowRange& boundary = s.distribution().ranges()[static_cast<std::size_t>(RowClass::boundary_movers)];
+    const RowRange& boundary = s.sets().front().ranges[static_cast<std::size_t>(RowClass::boundary_movers)];
     EXPECT_GT(bad_sums(s, false), static_cast<std::int64_t>(boundary.rows() / 2)) << precision;
   }
 }

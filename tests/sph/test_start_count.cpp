@@ -5,7 +5,7 @@
 
 #include "run/memory_need.hpp"
 #include "sph/distribution.hpp"
-#include "sph/physics.hpp"
+#include "sph/parts.hpp"
 #include "sph/placement.hpp"
 #include "start/start_count.hpp"
 #include "state_fixture.hpp"
@@ -64,7 +64,7 @@ class StartCounts : public ::testing::Test {
   void expect_as_placed(const Scene& scene) {
     const PositionScale scale = position_scale(scene);
     Distribution distribution(world_, scene, scale);
-    Particles particles(scene.dim, Physics(scene, scale).fields());
+    Particles particles(scene.dim, Parts(scene, scale).sets.front().fields);
     place_particles(scene, scale, distribution, particles);
     std::vector<std::int64_t> placed(scene.groups.size(), 0);
     for (std::size_t i = 0; i < particles.owned(); ++i) ++placed[particles.data<Field::group>()[i]];

@@ -23,7 +23,7 @@ Pairs look(const Simulation& s) {
   const double* h = p.data<Field::smoothing_length>();
   const double radius = s.scene().support() / s.scene().smoothing_length / s.scale().quantum;
   Pairs found;
-  for (const RowRange& range : s.distribution().ranges())
+  for (const RowRange& range : s.sets().front().ranges)
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t lane = (i - range.first) % lanes;
       const auto block = s.lists().block(range.first_block + (i - range.first) / lanes);

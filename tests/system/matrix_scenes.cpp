@@ -156,7 +156,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
 }
 
 bool has_boundary(const sph::Simulation& simulation) {
-  return simulation.distribution().ranges()[static_cast<std::size_t>(sph::RowClass::boundary_movers)].rows() >
+  return simulation.sets().front().ranges[static_cast<std::size_t>(sph::RowClass::boundary_movers)].rows() >
          0;
 }
 

@@ -9,12 +9,10 @@
 
 #include "decomp/balancer.hpp"
 #include "decomp/comm.hpp"
-#include "decomp/halo.hpp"
 #include "decomp/migrate.hpp"
 #include "decomp/timer.hpp"
 #include "sph/findings.hpp"
-#include "sph/neighbour_lists.hpp"
-#include "sph/particles.hpp"
+#include "sph/particle_set.hpp"
 #include "sph/scene.hpp"
 
 namespace sph {
@@ -30,10 +28,6 @@ class Distribution {
   [[nodiscard]] const decomp::Comm& comm() const { return comm_; }
   [[nodiscard]] const decomp::CellGrid& grid() const { return grid_; }
   [[nodiscard]] const decomp::JaggedPartition& partition() const { return partition_; }
-  [[nodiscard]] decomp::HaloPlan& halo() { return plan_; }
-  [[nodiscard]] const decomp::HaloPlan& halo() const { return plan_; }
-  [[nodiscard]] const RowRanges& ranges() const { return ranges_; }
-  [[nodiscard]] RowRanges& ranges() { return ranges_; }
   /// Of the lists since the last rebuild: how far beyond the range of interaction they reach [m].
   [[nodiscard]] double skin() const { return skin_; }
   [[nodiscard]] std::int64_t list_radius() const { return reach_; }  ///< range of interaction + skin [quanta]
@@ -43,9 +37,9 @@ class Distribution {
 
   /// Where cuts may follow the load: shares out the particles, wherever their rows are now, evenly. Before
   /// the first rebuild; scatter() must follow.
-  void cut_by_counts(Particles& particles);
+  void cut_by_counts(std::span<ParticleSet> sets);
 
-  /// At the last rebuild: how far this rank's movers were from the faces through which they may leave [m].
+  /// At the last rebuild: how far this rank's movers, of any set, were from the faces through which they may leave [m].
   [[nodiscard]] double to_face() const { return to_face_; }
   /// Which rows of this rank lie beyond such a face.
   [[nodiscard]] Findings outside(const Particles& particles) const;
@@ -53,27 +47,34 @@ class Distribution {
   /// Sends every row, with its contacts, to its owner wherever it is: set-up and resume.
   void scatter(Particles& particles, decomp::Payload* contacts = nullptr);
 
-  /// Pairs that are computed for each owned row, or nothing where there are no lists yet.
-  using PairCounts = std::function<std::vector<std::uint32_t>()>;
+  /// Pairs that are computed for each owned row of a set, or nothing where there are no lists yet.
+  using PairCounts = std::function<std::vector<std::uint32_t>(std::size_t set)>;
+  /// What pairs carry migrates with the rows of their set, but is not sorted (it may be most of the memory):
+  /// that of row r is afterwards in row order[r].
+  struct Carried {
+    decomp::Payload payload;
+    bool any = false;
+    std::vector<std::uint32_t> order;
+  };
 
   /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
-  /// plans the halo. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
+  /// plans the halos. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
   /// since the last call. The lists will reach as far as the scene's skin, or `least_skin` [m] where that is
-  /// more. `contacts`, if there are any, migrate with their rows, but are not sorted (they may
-  /// be most of the memory): those of row r are then in row order[r], where `order` is returned.
-  std::vector<std::uint32_t> rebuild(Particles& particles, double cost_seconds, const PairCounts& pairs,
-                                     const std::vector<bool>& is_wall_group, double moved, double least_skin,
-                                     decomp::Payload* contacts = nullptr);
+  /// more. `carried`: one for each set.
+  void rebuild(std::span<ParticleSet> sets, double cost_seconds, const PairCounts& pairs, double moved,
+               double least_skin, std::span<Carried> carried);
 
  private:
   void cut(decomp::Cuts cuts);
   void record_cuts();
   /// Counts for the balancer: rows and their pairs in each column of cells.
-  [[nodiscard]] decomp::Balancer::CountCells counts_of(const Particles& particles,
+  [[nodiscard]] decomp::Balancer::CountCells counts_of(std::span<const ParticleSet> sets,
                                                        const PairCounts& pairs) const;
   void wrap_positions(Particles& particles) const;
   [[nodiscard]] std::vector<decomp::Rank> owners(const Particles& particles) const;
-  std::vector<std::uint32_t> sort_rows(Particles& particles, const std::vector<bool>& is_wall_group);
+  void migrate(std::span<ParticleSet> sets, double cost, const PairCounts& pairs, double moved,
+               std::span<Carried> carried);
+  std::vector<std::uint32_t> sort_rows(ParticleSet& set);
   [[nodiscard]] int curve_bits() const;
 
   const decomp::Comm& comm_;
@@ -84,8 +85,6 @@ class Distribution {
   decomp::CellGrid grid_;
   decomp::JaggedPartition partition_;
   decomp::Balancer balancer_;
-  decomp::HaloPlan plan_;
-  RowRanges ranges_{};
   std::vector<std::uint32_t>
       curve_;  ///< place along the Hilbert curve of each own cell, x fastest; where they are few
   std::int64_t migrated_ = 0;

@@ -20,6 +20,9 @@ class Findings {
     id_ = id;
     text_ = text();
   }
+  void add(const Findings& other) {
+    if (other.any()) add(other.id_, [&] { return other.text_; });
+  }
   [[nodiscard]] bool any() const { return !text_.empty(); }
 
   /// The text of the lowest id on any rank, on all ranks; empty if there is none. Collective.

@@ -48,9 +48,14 @@ void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Part
 
 class Grains final : public Model, public SetPair {
  public:
-  Grains(const Scene& scene, const PositionScale& scale);
+  Grains(std::size_t set, const Scene& scene, const PositionScale& scale);
+  Grains(const Grains&) = delete;  // its stages hold on to it
+  Grains& operator=(const Grains&) = delete;
 
   void reserve(Reduction& reduction) override;
+  [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
+  void check_start(const decomp::Comm& comm, const StepState& state) const override;
+  [[nodiscard]] double longest_step(const Reduction&) const override { return dt_; }
   [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
   void guard(const decomp::Comm& comm, const StepState& state, const Reduction& reduction) const override;
   /// Walls drift with the velocity they had, servos answer to the force of this step.
@@ -60,6 +65,7 @@ class Grains final : public Model, public SetPair {
   [[nodiscard]] std::optional<double> longest_way(const Particles& particles,
                                                   const GlobalState& global) const override;
 
+  [[nodiscard]] std::size_t set() const { return Model::set(); }
   /// Its stages; it must stay where it is.
   [[nodiscard]] Plan plan();
   // Its pairs: half lists, whose contacts carry their history.
@@ -78,8 +84,6 @@ class Grains final : public Model, public SetPair {
   [[nodiscard]] ContactLists& lists() { return lists_; }
   [[nodiscard]] const ContactLists& lists() const { return lists_; }
 
-  /// Walls as the scene describes them, before the first step.
-  [[nodiscard]] std::vector<WallState> first_walls() const;
   /// Takes the changes of the scene's stages that begin at or before the present time.
   void set_stage(GlobalState& global) const;
 
@@ -87,7 +91,6 @@ class Grains final : public Model, public SetPair {
   void begin_step(const Particles& particles, const GlobalState& global);
   void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
   [[nodiscard]] ContactContext context(Particles& particles, double dt);  ///< of a sweep
-  [[nodiscard]] double time_step() const { return dt_; }
 
   /// Walls as they are now.
   [[nodiscard]] std::vector<PlaneNow> planes(const GlobalState& global) const;

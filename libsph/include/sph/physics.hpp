@@ -21,20 +21,22 @@ inline constexpr double courant_recommended = 0.8;
 
 class Physics final : public Model {
  public:
-  Physics(const Scene& scene, const PositionScale& scale);
+  Physics(std::size_t set, const Scene& scene, const PositionScale& scale);
   Physics(const Physics&) = delete;  // its stages hold on to it
   Physics& operator=(const Physics&) = delete;
 
   void reserve(Reduction& reduction) override;
+  [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
+  void derive(Particles& particles) const override { derive(particles, 0, particles.owned()); }
   [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
   void act(const Reduction& reduction, GlobalState& global) override;
-  void set_step(const Reduction& reduction, GlobalState& global) const override;
+  [[nodiscard]] double longest_step(const Reduction& reduction) const override;
   void guard_step(const Reduction& reduction, const GlobalState& global) const override;
   [[nodiscard]] double longest_look_back(const GlobalState& global) const override;
   [[nodiscard]] double growth(const Reduction& reduction) const override { return reduction[growth_]; }
   [[nodiscard]] double speed_limit() const override;
 
-  [[nodiscard]] FieldSet fields() const { return builder_.fields() | grain_fields_; }
+  [[nodiscard]] FieldSet fields() const { return builder_.fields(); }
   [[nodiscard]] const Plan& plan() const { return builder_.plan(); }
   [[nodiscard]] const SphConstants& constants() const { return constants_; }
 
@@ -48,10 +50,6 @@ class Physics final : public Model {
 
   /// Largest step the integrator takes [s], from the maxima of the step before.
   [[nodiscard]] double time_step(const StepMaxima& maxima) const;
-  /// Speed, sound and viscosity of this rank's particles at the start.
-  [[nodiscard]] StepMaxima maxima_at_start(Particles& particles) const;
-  /// Where the scene shifts particles.
-  [[nodiscard]] const std::optional<Shifting>& shifting() const { return shifting_; }
   [[nodiscard]] double longest_shift(const GlobalState& global) const {
     return shifting_ ? shifting_->longest(global) : 0.0;
   }
@@ -60,6 +58,8 @@ class Physics final : public Model {
   [[nodiscard]] bool is_wall(std::uint32_t group) const { return constants_.is_wall(group); }
 
  private:
+  [[nodiscard]] StepMaxima maxima_at_start(Particles& particles) const;
+  void find_common_motion(const decomp::Comm& comm, Particles& particles, GlobalState& global) const;
   void add_liquids_and_solids();
   void add_end_of_step();
 
@@ -69,7 +69,6 @@ class Physics final : public Model {
   Materials materials_;
   BodyForces body_forces_;
   Builder builder_;
-  FieldSet grain_fields_;
   std::optional<Shifting> shifting_;
   std::optional<GasReach> reach_;
   std::vector<double> no_reaches_;

@@ -29,7 +29,11 @@ struct ListSetting {
 
 class SetPair {
  public:
+  explicit SetPair(std::size_t set) : set_(set) {}
   virtual ~SetPair() = default;
+
+  /// Index of the set with whose rows travels what pairs carry, and whose rows lists are of.
+  [[nodiscard]] std::size_t set() const { return set_; }
 
   /// What lists are made of, and what changes only when rows move: sent to the halo after they have.
   [[nodiscard]] virtual FieldSet constants() const = 0;
@@ -44,6 +48,9 @@ class SetPair {
                        std::span<const std::uint32_t> order) = 0;
   /// How many entries are looked at for each owned row, as far as blocks tell: what it costs.
   virtual void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const = 0;
+
+ private:
+  std::size_t set_;
 };
 
 /// Shares `entries` of a block among its rows [first, last).

@@ -11,7 +11,7 @@ namespace sph {
 
 class SphPairs final : public SetPair {
  public:
-  explicit SphPairs(Physics& physics);
+  SphPairs(std::size_t set, Physics& physics);
 
   [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
   [[nodiscard]] FieldSet constants() const override {

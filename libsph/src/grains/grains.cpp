@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "grains/grain_constants.hpp"
+#include "plan/for_rows.hpp"
 #include "sph/fixed_point.hpp"
 #include "sph/models/sph_constants.hpp"
+#include "start/start_overlaps.hpp"
 
 namespace sph {
 namespace {
@@ -16,8 +18,10 @@ double next_power_of_two(double x) { return std::ldexp(1.0, std::ilogb(x) + 1); 
 
 }  // namespace
 
-Grains::Grains(const Scene& scene, const PositionScale& scale)
-    : scene_(&scene),
+Grains::Grains(std::size_t set, const Scene& scene, const PositionScale& scale)
+    : Model(set),
+      SetPair(set),
+      scene_(&scene),
       scale_(scale),
       wrap_(wrap_of(scene, scale)),
       fusion_(contact_fusion(scene)),
@@ -68,7 +72,8 @@ Plan Grains::plan() {
                      [this](StepState& s, Side side) {
                        sweep(s.particles, side == Side::interior ? lists_.interior() : lists_.boundary(),
                              s.ranges, s.global.dt);
-                       s.maxima = {std::sqrt(sweep_.speed2), std::sqrt(sweep_.acceleration2)};
+                       s.maxima.speed = larger(std::sqrt(sweep_.speed2), s.maxima.speed);
+                       s.maxima.acceleration = larger(std::sqrt(sweep_.acceleration2), s.maxima.acceleration);
                      }});
   return plan;
 }
@@ -79,10 +84,16 @@ FieldSet Grains::reads() const {
   return fields;
 }
 
-std::vector<WallState> Grains::first_walls() const {
-  std::vector<WallState> walls(scene_->walls.size());
-  for (std::size_t w = 0; w < walls.size(); ++w) walls[w].velocity = scene_->walls[w].velocity;
-  return walls;
+// Walls as the scene describes them.
+double Grains::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
+  global.walls.resize(scene_->walls.size());
+  for (std::size_t w = 0; w < global.walls.size(); ++w) global.walls[w].velocity = scene_->walls[w].velocity;
+  check_start_speeds(comm, *scene_, particles);
+  return dt_;
+}
+
+void Grains::check_start(const decomp::Comm& comm, const StepState& s) const {
+  refuse_overlaps(comm, *scene_, scale_, s.particles, lists_, planes(s.global));
 }
 
 Grains::WallNow Grains::wall_now(std::size_t wall, const GlobalState& global) const {

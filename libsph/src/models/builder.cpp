@@ -10,7 +10,7 @@ Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms,
   const Fusion& fusion = find_fusion(scene().dim, scene().precision, scene().kernel, terms);
   fields_ |= fusion.writes;
   const auto work = [&k, &fusion, rows](StepState& s, Side side) {
-    const PassContext context = k.context(s.particles, s.lists, s.rows, s.global.dt);
+    const PassContext context = k.context(s.particles, *s.lists, s.rows, s.global.dt);
     const std::size_t owned = s.particles.owned();
     // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.
     const bool interior = side == Side::interior;

@@ -151,7 +151,7 @@ void add_gas(Builder& b) {
   b.add_fields({Field::smoothing_length, Field::kernel_correction, Field::velocity_gradient});
   b.add_sums("density", {term<NumberDensity>, term<GasMoments>});
   b.add_update("compression", Compression{&b.constants(), &b.materials()});
-  b.begin_with_these();
+  b.settle_with_these();
   if (b.has_walls()) add_walls(b, false);
   b.add_sums("forces", {term<GasPressure>, term<Viscosity>, term<ShockViscosity>, term<ShockHeating>});
 }

@@ -61,8 +61,8 @@ struct Kick {
       speed2 = larger(v2, speed2);
       acceleration2 = larger(a2 * (finer * finer), acceleration2);
     });
-    step.maxima.speed = std::sqrt(speed2);
-    step.maxima.acceleration = std::sqrt(acceleration2);
+    step.maxima.speed = larger(std::sqrt(speed2), step.maxima.speed);
+    step.maxima.acceleration = larger(std::sqrt(acceleration2), step.maxima.acceleration);
   }
 };
 

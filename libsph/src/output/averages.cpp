@@ -77,7 +77,7 @@ std::vector<ExtraColumn> averages(Simulation& s) {
   columns[0].values.resize(n * static_cast<std::size_t>(s.scene().dim));
   columns[1].values.resize(n);
   Smoother smoother(s);
-  for (const RowRange& range : s.distribution().ranges())
+  for (const RowRange& range : s.sets().front().ranges)
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t k = i - range.first;
       const auto block = s.lists().block(range.first_block + k / lanes);

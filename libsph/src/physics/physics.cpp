@@ -5,22 +5,18 @@
 #include <numbers>
 
 #include "plan/for_rows.hpp"
-#include "sph/grains.hpp"
 #include "sph/models/models.hpp"
 
 namespace sph {
 
-Physics::Physics(const Scene& scene, const PositionScale& scale)
-    : scene_(&scene),
+Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale)
+    : Model(set),
+      scene_(&scene),
       gas_(scene.has_eos(EosKind::ideal_gas)),
       constants_(scene, scale),
       materials_(constants_),
       body_forces_(constants_),
       builder_(constants_, materials_, body_forces_) {
-  if (scene.of_grains()) {
-    grain_fields_ = grain_fields(scene);  // no stages: Grains has them
-    return;
-  }
   builder_.add_fields({Field::id, Field::position, Field::velocity, Field::density, Field::mass, Field::group,
                        Field::pressure, Field::force});
   if (scene.has_eos(EosKind::bubbly))
@@ -73,21 +69,6 @@ void Physics::add_end_of_step() {
 
 const std::vector<double>& Physics::find_reaches(const Particles& p) {
   return reach_ ? reach_->find(p) : no_reaches_;
-}
-
-StepMaxima Physics::maxima_at_start(Particles& p) const {
-  const std::size_t d = static_cast<std::size_t>(p.dim());
-  const double* v = p.data<Field::velocity>();
-  double speed2 = 0;
-  StepMaxima maxima;
-  for (std::size_t i = 0; i < p.owned(); ++i) {
-    double v2 = 0;
-    for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
-    speed2 = v2 > speed2 ? v2 : speed2;
-  }
-  if (gas_) look_at_gas(constants_, GasView(p), 0, p.owned(), maxima);
-  maxima.speed = std::sqrt(speed2);
-  return maxima;
 }
 
 double Physics::time_step(const StepMaxima& maxima) const {

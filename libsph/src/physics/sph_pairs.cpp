@@ -6,8 +6,8 @@
 
 namespace sph {
 
-SphPairs::SphPairs(Physics& physics)
-    : physics_(&physics), lists_(lanes_of(physics.constants().scene->precision)) {
+SphPairs::SphPairs(std::size_t set, Physics& physics)
+    : SetPair(set), physics_(&physics), lists_(lanes_of(physics.constants().scene->precision)) {
   for (const Group& g : physics.constants().scene->groups) is_wall_.push_back(g.kind == GroupKind::wall);
 }
 

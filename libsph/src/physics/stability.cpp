@@ -19,7 +19,7 @@ void check_time_step(const Scene& scene) {
     check_wall_speeds(scene);
     return;
   }
-  const Physics physics(scene, position_scale(scene));
+  const Physics physics(0, scene, position_scale(scene));
   const double dt = physics.time_step({}), courant = physics.courant_number(dt);
   const char* key = scene.time.dt ? "time.dt" : "time.cfl";
   if (courant > courant_limit(scene))

@@ -36,8 +36,8 @@ void Physics::act(const Reduction& r, GlobalState& global) {
   if (!scene_->open) global.fluid_volume.now = r[volume_][0];
 }
 
-void Physics::set_step(const Reduction& r, GlobalState& global) const {
-  global.dt = time_step({r[Reduction::speed], r[Reduction::acceleration], 0, r[sound_], r[viscosity_]});
+double Physics::longest_step(const Reduction& r) const {
+  return time_step({r[Reduction::speed], r[Reduction::acceleration], 0, r[sound_], r[viscosity_]});
 }
 
 void Physics::guard_step(const Reduction& r, const GlobalState& global) const {

@@ -1,5 +1,7 @@
 #include "sph/plan/plan.hpp"
 
+#include <utility>
+
 namespace sph {
 
 std::vector<const Entry*> entries_of(const Plan& plan) {
@@ -10,11 +12,23 @@ std::vector<const Entry*> entries_of(const Plan& plan) {
 }
 
 double longest_move(const Plan& plan, const GlobalState& global) {
+  return longest_move(plan.drift, global) + longest_move(plan.sums, global) + longest_move(plan.kick, global);
+}
+
+double longest_move(const std::vector<Entry>& entries, const GlobalState& global) {
   double way = 0;
-  for (const Entry* e : entries_of(plan))
-    for (const Stage& s : e->stages)
+  for (const Entry& e : entries)
+    for (const Stage& s : e.stages)
       if (s.moves) way += s.moves(global);
   return way;
+}
+
+void append(Plan& plan, Plan more, std::size_t set) {
+  for (auto part : {&Plan::drift, &Plan::sums, &Plan::kick, &Plan::start, &Plan::settle, &Plan::output})
+    for (Entry& e : more.*part) {
+      for (Stage& s : e.stages) s.set = set;
+      (plan.*part).push_back(std::move(e));
+    }
 }
 
 std::vector<Scheduled> schedule_of(const Plan& plan, FieldSet fields) {

@@ -88,7 +88,7 @@ Beginning place(const decomp::Comm& comm, const Scene& scene, Placed how) {
   }
   const PositionScale scale = position_scale(scene);
   Distribution distribution(comm, scene, scale);
-  Particles particles(scene.dim, Physics(scene, scale).fields());
+  Particles particles(scene.dim, Parts(scene, scale).sets.front().fields);
   place_particles(scene, scale, distribution, particles);
   if (scene.of_grains())
     check_start_speeds(comm, scene, particles);
@@ -211,27 +211,26 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
   return naming_file(scene, [&] {
     check_time_step(scene);
     const PositionScale scale = position_scale(scene);
-    const Physics physics(scene, scale);
+    const Parts parts(scene, scale);
+    const FieldSet fields = parts.sets.front().fields;
     const decomp::CellGrid grid = cell_grid_of(scene, scale);
     Beginning start{count_start(comm, scene)};
-    MemoryNeed need = memory_need(scene, physics, grid, start.count.all);
+    MemoryNeed need = memory_need(scene, parts, grid, start.count.all);
     const MachineMemory machine = machine_memory(comm);
     const Placed placed = worth_placing(scene, start.count, memory_problem(need, machine).empty());
     if (placed != Placed::no) {
       start = place(comm, scene, placed);
-      need = memory_need(scene, physics, grid, start.count.all);
+      need = memory_need(scene, parts, grid, start.count.all);
     }
     if (start.count.all == 0) throw InputError("start: no particle lies in any region");
-    std::optional<Grains> grains;
-    if (scene.of_grains()) grains.emplace(scene, scale);
-    const Plan plan = grains ? grains->plan() : physics.plan();
-    const double dt = grains ? grains->time_step() : physics.time_step({});
+    const double dt = parts.longest_step();
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
-                 unlooked_text(scene, placed), memory_text(scene, plan, physics.fields(), need, machine),
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
+                 unlooked_text(scene, placed), memory_text(scene, parts.plan, fields, need, machine),
                  gas_text(scene), tension_text(scene),
-                 options.plan ? plan_text(scene, plan, physics.fields()) : "",
-                 grains ? contact_step_text(scene, dt) : courant_text(scene, dt, physics.courant_number(dt)),
+                 options.plan ? plan_text(scene, parts.plan, fields) : "",
+                 parts.grains ? contact_step_text(scene, dt) : "",
+                 parts.physics ? courant_text(scene, dt, parts.physics->courant_number(dt)) : "",
                  speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
                  ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);

@@ -22,7 +22,7 @@ std::int64_t pairs_within_support(const Simulation& s) {
     return h == nullptr ? support : support * std::max(h[i], h[j]) / s.scene().smoothing_length;
   };
   std::int64_t pairs = 0;
-  for (const RowRange& range : s.distribution().ranges())
+  for (const RowRange& range : s.sets()[s.physics()->set()].ranges)
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t k = i - range.first;
       const auto block = s.lists().block(range.first_block + k / lanes);
@@ -73,7 +73,7 @@ FieldSet halo_fields(const Plan& plan, FieldSet fields) {
 
 Performance performance_of(Simulation& s) {
   const decomp::Comm& comm = s.comm();
-  const decomp::HaloPlan& halo = s.distribution().halo();
+  const decomp::HaloPlan& halo = s.sets().front().halo;
   const int dim = s.scene().dim;
   const FieldSet fields = s.particles().fields();
   std::size_t sent = 0;

@@ -103,30 +103,33 @@ void Distribution::cut(decomp::Cuts cuts) {
   curve_.clear();
 }
 
-decomp::Balancer::CountCells Distribution::counts_of(const Particles& particles,
+decomp::Balancer::CountCells Distribution::counts_of(std::span<const ParticleSet> sets,
                                                      const PairCounts& pairs) const {
-  return [&](const decomp::CellColumns& columns, std::span<std::int64_t> rows,
-             std::span<std::int64_t> of_pairs) {
+  return [&, sets](const decomp::CellColumns& columns, std::span<std::int64_t> rows,
+                   std::span<std::int64_t> of_pairs) {
     const auto row = static_cast<std::size_t>(scene_.decomposition.cut_axes[0]);
     const auto column = static_cast<std::size_t>(scene_.decomposition.cut_axes[1]);
-    const std::size_t d = static_cast<std::size_t>(particles.dim());
-    const std::int64_t* x = particles.data<Field::position>();
-    const std::vector<std::uint32_t> listed = pairs ? pairs() : std::vector<std::uint32_t>();
-    for (std::size_t i = 0; i < particles.owned(); ++i) {
-      decomp::Int3 p{};
-      for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
-      const decomp::Int3 cell = grid_.cell_of(p);
-      const std::size_t at = columns.index(cell[row], cell[column]);
-      ++rows[at];
-      if (i < listed.size()) of_pairs[at] += listed[i];
+    for (std::size_t set = 0; set < sets.size(); ++set) {
+      const Particles& particles = sets[set].particles;
+      const std::size_t d = static_cast<std::size_t>(particles.dim());
+      const std::int64_t* x = particles.data<Field::position>();
+      const std::vector<std::uint32_t> listed = pairs ? pairs(set) : std::vector<std::uint32_t>();
+      for (std::size_t i = 0; i < particles.owned(); ++i) {
+        decomp::Int3 p{};
+        for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+        const decomp::Int3 cell = grid_.cell_of(p);
+        const std::size_t at = columns.index(cell[row], cell[column]);
+        ++rows[at];
+        if (i < listed.size()) of_pairs[at] += listed[i];
+      }
     }
   };
 }
 
-void Distribution::cut_by_counts(Particles& particles) {
+void Distribution::cut_by_counts(std::span<ParticleSet> sets) {
   if (!balancer_.follows_load() || comm_.size() == 1) return;
-  wrap_positions(particles);
-  cut(balancer_.first(comm_, counts_of(particles, {})));
+  for (ParticleSet& set : sets) wrap_positions(set.particles);
+  cut(balancer_.first(comm_, counts_of(sets, {})));
 }
 
 int Distribution::curve_bits() const {
@@ -183,40 +186,52 @@ void Distribution::scatter(Particles& particles, decomp::Payload* contacts) {
   decomp::redistribute(comm_, owners(particles), particles.table(), contacts);
 }
 
-std::vector<std::uint32_t> Distribution::rebuild(Particles& particles, double cost_seconds,
-                                                 const PairCounts& pairs,
-                                                 const std::vector<bool>& is_wall_group, double moved,
-                                                 double least_skin, decomp::Payload* contacts) {
+void Distribution::rebuild(std::span<ParticleSet> sets, double cost_seconds, const PairCounts& pairs,
+                           double moved, double least_skin, std::span<Carried> carried) {
   skin_ = std::max(scene_.decomposition.skin * scene_.support(), least_skin);
   reach_ = scale_.quanta(scene_.list_range() + skin_) + 1;
-  wrap_positions(particles);
-  if (comm_.size() > 1) {
-    const decomp::JaggedPartition before = partition_;
-    const double cost =
-        scene_.decomposition.cost == CostSource::time ? cost_seconds : static_cast<double>(particles.owned());
-    if (auto cuts = balancer_.next(comm_, partition_.cuts(), cost, counts_of(particles, pairs)))
-      cut(std::move(*cuts));
-    record_cuts();
-    const std::int64_t strayed = scale_.quanta(moved) + 1;
-    const decomp::MigrationPeers peers = decomp::migration_peers(before, partition_, comm_.rank(), strayed);
-    const auto start = std::chrono::steady_clock::now();
-    const auto sent = static_cast<std::int64_t>(
-        decomp::migrate(comm_, owners(particles), peers, particles.table(), contacts));
-    migrated_ += sent;
-    balancer_.migrated(sent, static_cast<std::int64_t>(particles.owned()),
-                       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  for (ParticleSet& set : sets) wrap_positions(set.particles);
+  if (comm_.size() > 1) migrate(sets, cost_seconds, pairs, moved, carried);
+  to_face_ = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    ParticleSet& set = sets[k];
+    carried[k].order = sort_rows(set);
+    set.halo = decomp::HaloPlan(comm_, partition_, reach_, set.particles.dim(),
+                                set.particles.column(Field::position), set.particles.table());
   }
-  std::vector<std::uint32_t> order = sort_rows(particles, is_wall_group);
-  plan_ = decomp::HaloPlan(comm_, partition_, reach_, particles.dim(), particles.column(Field::position),
-                           particles.table());
-  return order;
+}
+
+void Distribution::migrate(std::span<ParticleSet> sets, double cost_seconds, const PairCounts& pairs,
+                           double moved, std::span<Carried> carried) {
+  const decomp::JaggedPartition before = partition_;
+  const auto rows = [&] {
+    std::int64_t n = 0;
+    for (const ParticleSet& set : sets) n += static_cast<std::int64_t>(set.particles.owned());
+    return n;
+  };
+  const double cost =
+      scene_.decomposition.cost == CostSource::time ? cost_seconds : static_cast<double>(rows());
+  if (auto cuts = balancer_.next(comm_, partition_.cuts(), cost, counts_of(sets, pairs)))
+    cut(std::move(*cuts));
+  record_cuts();
+  const std::int64_t strayed = scale_.quanta(moved) + 1;
+  const decomp::MigrationPeers peers = decomp::migration_peers(before, partition_, comm_.rank(), strayed);
+  const auto start = std::chrono::steady_clock::now();
+  std::int64_t sent = 0;
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    sent += static_cast<std::int64_t>(decomp::migrate(comm_, owners(sets[k].particles), peers,
+                                                      sets[k].particles.table(),
+                                                      carried[k].any ? &carried[k].payload : nullptr));
+  migrated_ += sent;
+  balancer_.migrated(sent, rows(),
+                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
 // Counting sort by (class, cell along the curve), then by id within a cell. The boundary is a layer inside
 // the faces shared with anyone, this rank's own periodic images included, as deep as lists can reach:
 // particles deeper in have no partner in the halo, and are computed before it has arrived.
-std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
-                                                   const std::vector<bool>& is_wall_group) {
+std::vector<std::uint32_t> Distribution::sort_rows(ParticleSet& set) {
+  Particles& particles = set.particles;
   const std::size_t d = static_cast<std::size_t>(particles.dim()), n = particles.owned();
   const std::int64_t* x = particles.data<Field::position>();
   const auto* group = particles.data<Field::group>();
@@ -249,7 +264,7 @@ std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
     };
     bool interior = true;
     for (std::size_t a = 0; a < d; ++a) interior = interior && p[a] >= inner.lo[a] && p[a] < inner.hi[a];
-    const std::size_t row_class = (interior ? 0u : 2u) + (is_wall_group[group[i]] ? 1u : 0u);
+    const std::size_t row_class = (interior ? 0u : 2u) + (set.stays[group[i]] ? 1u : 0u);
     for (std::size_t a = 0; a < d && row_class % 2 == 0; ++a)
       if (const std::int64_t low = p[a] - grid_.origin()[a]; !grid_.periodic()[a])
         to_face = std::min({to_face, low, grid_.length()[a] - 1 - low});
@@ -260,7 +275,7 @@ std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
   for (std::size_t i = 0; i < n; ++i) ++start[(bin[i] = occupied.before(bucket[i])) + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
   for (std::size_t c = 0; c < 4; ++c)
-    ranges_[c] = {start[occupied.before(c * cells)], start[occupied.before((c + 1) * cells)], 0};
+    set.ranges[c] = {start[occupied.before(c * cells)], start[occupied.before((c + 1) * cells)], 0};
   std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t first = start[bin[i]];
@@ -268,7 +283,7 @@ std::vector<std::uint32_t> Distribution::sort_rows(Particles& particles,
     for (; k > first && id[order[k - 1]] > id[i]; --k) order[k] = order[k - 1];
     order[k] = static_cast<std::uint32_t>(i);
   }
-  to_face_ = scale_.metres(to_face);
+  to_face_ = std::min(to_face_, scale_.metres(to_face));
   particles.table().reorder(order);
   return order;
 }

@@ -13,7 +13,6 @@
 #include "pairs/occupied.hpp"
 #include "run/cost.hpp"
 #include "sph/distribution.hpp"
-#include "sph/grains.hpp"
 #include "start/start_count.hpp"
 
 namespace sph {
@@ -47,13 +46,14 @@ double limit_in(const char* file) {
 
 }  // namespace
 
-MemoryNeed memory_need(const Scene& scene, const Physics& physics, const decomp::CellGrid& grid,
+MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::CellGrid& grid,
                        std::int64_t particles) {
   MemoryNeed need;
   need.particles = static_cast<double>(particles);
   need.cells = 1;
   for (const std::int64_t n : grid.cells()) need.cells *= static_cast<double>(n);
-  need.of_particle = field_factor * static_cast<double>(bytes_of(physics.fields(), scene.dim)) + bytes_of_row;
+  need.of_particle =
+      field_factor * static_cast<double>(bytes_of(parts.sets.front().fields, scene.dim)) + bytes_of_row;
   if (scene.of_grains()) {
     const ContactFusion fusion = contact_fusion(scene);
     need.listed = contacts_of_grain;
@@ -111,7 +111,7 @@ std::string memory_problem(const MemoryNeed& need, const MachineMemory& machine,
 void require_memory(const decomp::Comm& comm, const Scene& scene) {
   const PositionScale scale = position_scale(scene);
   const MemoryNeed need =
-      memory_need(scene, Physics(scene, scale), cell_grid_of(scene, scale), count_start(comm, scene).all);
+      memory_need(scene, Parts(scene, scale), cell_grid_of(scene, scale), count_start(comm, scene).all);
   constexpr double margin = 1.5;
   const std::string problem = memory_problem(need, machine_memory(comm), margin);
   if (!problem.empty())

@@ -4,7 +4,7 @@
 
 #include "decomp/comm.hpp"
 #include "decomp/grid.hpp"
-#include "sph/physics.hpp"
+#include "sph/parts.hpp"
 #include "sph/scene.hpp"
 
 namespace sph {
@@ -15,7 +15,7 @@ struct MemoryNeed {
   double of_particle = 0;  ///< its fields and lists, and what a rebuild and a file take besides [bytes]
   double bytes = 0;        ///< of all ranks together
 };
-[[nodiscard]] MemoryNeed memory_need(const Scene& scene, const Physics& physics, const decomp::CellGrid& grid,
+[[nodiscard]] MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::CellGrid& grid,
                                      std::int64_t particles);
 
 /// One machine of those that the ranks are on: the one with the largest share of ranks to memory.

@@ -65,7 +65,9 @@ void Screen::banner() const {
       build.version, build.git, build.compiler, build.build_type, build.mpi, build.hdf5, scene.file,
       scene.name, scene.dim, method_of(scene), simulation_.particle_count(), simulation_.comm().size(),
       g.step, g.time, end, g.dt,
-      scene.of_grains() ? "" : fmt::format(", c dt/h = {:.3g}", simulation_.physics().courant_number(g.dt)));
+      simulation_.physics() == nullptr
+          ? ""
+          : fmt::format(", c dt/h = {:.3g}", simulation_.physics()->courant_number(g.dt)));
   print(simulation_.comm(), text);
 }
 

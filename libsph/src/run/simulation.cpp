@@ -12,33 +12,38 @@ namespace sph {
 std::int64_t Simulation::step(std::int64_t request) {
   if (global_.step == 0 && scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
   maxima_ = {};
-  run(plan_.drift);
+  run(parts_.plan.drift, global_);
   if (stale_) rebuild();
-  run(plan_.sums);
-  run(plan_.kick);
+  run(parts_.plan.sums, global_);
+  run(parts_.plan.kick, global_);
   return finish_step(request);
 }
 
-StepState Simulation::state_of_step() {
-  return {{distribution_.ranges(), global_, maxima_, findings_}, particles_, sph_pairs_.lists(), rows_};
+StepState Simulation::state_of(std::size_t set, GlobalState& global) {
+  ParticleSet& of = sets_[set];
+  const bool sums = parts_.sph_pairs && parts_.sph_pairs->set() == set;
+  return {{of.ranges, global, maxima_, findings_},
+          of.particles,
+          sums ? &parts_.sph_pairs->lists() : nullptr,
+          rows_};
 }
 
-void Simulation::run(const std::vector<Entry>& entries) {
-  StepState state = state_of_step();
-  run(entries, state);
-}
-
-void Simulation::run(const std::vector<Entry>& entries, StepState& state) {
+void Simulation::run(const std::vector<Entry>& entries, GlobalState& global) {
   for (const Entry& entry : entries) {
-    state.iteration = 0;
+    int iteration = 0;
     do {
-      for (const Stage& stage : entry.stages) run(stage, state);
-      ++state.iteration;
-    } while (entry.solver && improve(entry, state));
+      for (const Stage& stage : entry.stages) {
+        StepState state = state_of(stage.set, global);
+        state.iteration = iteration;
+        run(stage, state);
+      }
+      ++iteration;
+    } while (entry.solver && improve(entry, global));
   }
 }
 
 void Simulation::run(const Stage& stage, StepState& state) {
+  ParticleSet& set = sets_[stage.set];
   const auto work = [&](Side side) {
     const auto timing = timers_.time(stage.region);
     stage.work(state, side);
@@ -46,17 +51,19 @@ void Simulation::run(const Stage& stage, StepState& state) {
   if (stage.refresh.empty()) {
     work(Side::all);
   } else {
-    exchange_.begin(distribution_.halo(), particles_, stage.refresh, timers_);
+    set.exchange.begin(set.halo, set.particles, stage.refresh, timers_);
     work(Side::interior);
-    exchange_.end(distribution_.halo(), timers_);
+    set.exchange.end(set.halo, timers_);
     work(Side::boundary);
   }
   if (stage.moves) moved_ += stage.moves(state.global);
-  changed(stage.writes);
+  set.changed(stage.writes);
 }
 
 // Are the stages of the loop to be run once more?
-bool Simulation::improve(const Entry& loop, StepState& state) {
+bool Simulation::improve(const Entry& loop, GlobalState& global) {
+  const std::size_t set = loop.stages.front().set;
+  StepState state = state_of(set, global);
   const auto products = [&] {
     const auto timing = timers_.time(decomp::Region::update);
     return loop.solver->products(state);
@@ -67,7 +74,7 @@ bool Simulation::improve(const Entry& loop, StepState& state) {
   }
   const auto timing = timers_.time(decomp::Region::update);
   const bool again = loop.solver->improve(state);
-  changed(loop.improves);
+  sets_[set].changed(loop.improves);
   if (again) ++counters_.repeats;
   if (again && !products.empty()) ++counters_.iterations;
   if (!again) ++counters_.solved;
@@ -78,7 +85,7 @@ bool Simulation::improve(const Entry& loop, StepState& state) {
 void Simulation::add_dawdling() {
   const double slowness = scene_.decomposition.slowness;
   if (slowness <= 1 || scene_.decomposition.slow_rank != comm_.rank()) return;
-  append(plan_.kick,
+  append(parts_.plan.kick,
          {"dawdle", decomp::Region::update, {}, {}, [this, slowness, before = 0.0](StepState&, Side) mutable {
             const double until = before + slowness * (timers_.cost() - before);
             while (timers_.cost() < until) {
@@ -90,128 +97,133 @@ void Simulation::add_dawdling() {
 // Velocities are those of half a step later. A gas may start with a jump of its pressure, and accelerations
 // are never larger than then: the error of a first step that takes them as they are would stay in its energy.
 void Simulation::kick_half_a_step() {
-  run(plan_.sums);
+  run(parts_.plan.sums, global_);
   GlobalState part = global_;
   const auto kick = [&](double share) {
     part.dt = share * global_.dt;
     maxima_ = {};
-    StepState state{
-        {distribution_.ranges(), part, maxima_, findings_}, particles_, sph_pairs_.lists(), rows_};
-    run(plan_.kick, state);
+    run(parts_.plan.kick, part);
     reduce(0, false);
-    if (reduction_[Reduction::bad] > 0) stop_at_fault();
+    if (parts_.reduction[Reduction::bad] > 0) stop_at_fault();
     take_maxima();
-    physics_.set_step(reduction_, part);
-    return part.dt;
+    return parts_.longest_step();
   };
   global_.dt = kick(0);  // how large a step may be follows from the accelerations
   (void)kick(0.5);
-  find_stale(longest_move(plan_, global_));
+  find_stale(longest_move(parts_.plan, global_));
 }
 
-// Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plan -> neighbour lists.
+// Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plans -> lists of all
+// pairs of sets.
 void Simulation::rebuild() {
-  decomp::Payload carried = [&] {
+  std::vector<Distribution::Carried> carried(sets_.size());
+  double least_skin = 0;
+  for (SetPair* pair : parts_.pairs) {
+    least_skin = std::max(least_skin, pair->least_skin(global_));
+    if (!pair->carries()) continue;
     const auto timing = timers_.time(decomp::Region::lists);
-    return pairs_->send(particles_, std::exchange(arrived_, {}));
-  }();
-  std::vector<std::uint32_t> order;
+    carried[pair->set()] = {pair->send(particles(pair->set()), std::exchange(arrived_, {})), true, {}};
+  }
   {
     const auto timing = timers_.time(decomp::Region::migrate);
     try {
-      order = distribution_.rebuild(
-          particles_, timers_.take_cost(), [&] { return pairs_of_rows(); }, is_wall_group_, moved_,
-          pairs_->least_skin(global_), pairs_->carries() ? &carried : nullptr);
+      distribution_.rebuild(
+          sets_, timers_.take_cost(), [&](std::size_t set) { return pairs_of_rows(set); }, moved_, least_skin,
+          carried);
     } catch (const GuardError& error) {
       throw GuardError(step_text(global_.step) + error.what());
     }
-    if (decomp::census(comm_, particles_.table(), particles_.column(Field::id)) != census_)
+    if (census() != census_)
       throw GuardError("step " + std::to_string(global_.step) +
                        ": a particle was lost or duplicated in migration; reduce time.dt");
   }
-  exchange_.forget();
-  refresh_halo(pairs_->constants());
-  pairs_->rebuild(particles_, list_setting(), carried, order);
+  for (ParticleSet& set : sets_) set.exchange.forget();
+  for (const SetPair* pair : parts_.pairs) refresh_halo(pair->constants(), pair->set());
+  for (SetPair* pair : parts_.pairs) {
+    const Distribution::Carried& with = carried[pair->set()];
+    pair->rebuild(particles(pair->set()), list_setting(pair->set()), with.payload, with.order);
+  }
   moved_ = 0;
   ++counters_.rebuilds;
 }
 
-ListSetting Simulation::list_setting() {
+std::vector<decomp::Census> Simulation::census() const {
+  std::vector<decomp::Census> out;
+  for (const ParticleSet& set : sets_)
+    out.push_back(decomp::census(comm_, set.particles.table(), set.particles.column(Field::id)));
+  return out;
+}
+
+ListSetting Simulation::list_setting(std::size_t set) {
   return {comm_,
           distribution_.grid(),
           distribution_.own_cells(),
           distribution_.list_radius(),
           distribution_.skin(),
-          distribution_.ranges(),
+          sets_[set].ranges,
           global_,
           timers_};
 }
 
-std::vector<std::uint32_t> Simulation::pairs_of_rows() const {
-  std::vector<std::uint32_t> pairs(particles_.owned(), 0);
-  if (counters_.rebuilds > 0) pairs_->count(distribution_.ranges(), pairs);
+std::vector<std::uint32_t> Simulation::pairs_of_rows(std::size_t set) const {
+  std::vector<std::uint32_t> pairs(particles(set).owned(), 0);
+  if (counters_.rebuilds == 0) return pairs;
+  for (const SetPair* pair : parts_.pairs)
+    if (pair->set() == set) pair->count(sets_[set].ranges, pairs);
   return pairs;
-}
-
-void Simulation::refresh_halo(FieldSet fields) {
-  exchange_.begin(distribution_.halo(), particles_, fields, timers_);
-  exchange_.end(distribution_.halo(), timers_);
 }
 
 void Simulation::refresh_contacts() {
   if (stale_) rebuild();
   stale_ = false;
-  refresh_halo(grains_->reads());
+  refresh_halo(grains()->reads(), parts_.grains->set());
 }
 
 // What all ranks must know of this step. What it brings acts in the next one.
 void Simulation::reduce(std::int64_t request, bool left) {
-  const StepState state = state_of_step();
-  reduction_.clear();
+  parts_.reduction.clear();
   bool finite = std::isfinite(maxima_.speed) && std::isfinite(maxima_.acceleration) && !findings_.any();
-  for (Model* m : models_) finite = m->report(state, reduction_) && finite;
-  reduction_[Reduction::speed] = finite ? maxima_.speed : 0;
-  reduction_[Reduction::acceleration] = finite ? maxima_.acceleration : 0;
-  reduction_[Reduction::bad] = finite ? 0 : 1;
-  reduction_[Reduction::left] = left ? 1 : 0;
-  reduction_[Reduction::request] = static_cast<double>(request);
+  for (Model* m : parts_.models) finite = m->report(state_of(m->set(), global_), parts_.reduction) && finite;
+  parts_.reduction[Reduction::speed] = finite ? maxima_.speed : 0;
+  parts_.reduction[Reduction::acceleration] = finite ? maxima_.acceleration : 0;
+  parts_.reduction[Reduction::bad] = finite ? 0 : 1;
+  parts_.reduction[Reduction::left] = left ? 1 : 0;
+  parts_.reduction[Reduction::request] = static_cast<double>(request);
   {
     const auto timing = timers_.time(decomp::Region::reduce);
-    reduction_.combine(comm_);
+    parts_.reduction.combine(comm_);
   }
 }
 
 void Simulation::take_maxima() {
-  global_.max_speed = reduction_[Reduction::speed];
-  global_.max_acceleration = reduction_[Reduction::acceleration];
+  global_.max_speed = parts_.reduction[Reduction::speed];
+  global_.max_acceleration = parts_.reduction[Reduction::acceleration];
   growth_ = 0;
-  for (const Model* m : models_) growth_ = std::max(growth_, m->growth(reduction_));
+  for (const Model* m : parts_.models) growth_ = std::max(growth_, m->growth(parts_.reduction));
 }
 
 std::int64_t Simulation::finish_step(std::int64_t request) {
   const Findings left = find_leavers();
   reduce(request, left.any());
-  for (const Model* m : models_) m->guard(comm_, state_of_step(), reduction_);
-  if (reduction_[Reduction::bad] > 0) stop_at_fault();
-  if (reduction_[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
-  for (Model* m : models_) {
-    moved_ += m->path(global_, reduction_[Reduction::speed]);
-    m->act(reduction_, global_);
+  for (const Model* m : parts_.models) m->guard(comm_, state_of(m->set(), global_), parts_.reduction);
+  if (parts_.reduction[Reduction::bad] > 0) stop_at_fault();
+  if (parts_.reduction[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
+  for (Model* m : parts_.models) {
+    moved_ += m->path(global_, parts_.reduction[Reduction::speed]);
+    m->act(parts_.reduction, global_);
   }
   ++global_.step;
   global_.time += global_.dt;
   take_maxima();
-  for (const Model* m : models_) {
-    m->set_step(reduction_, global_);
-    m->guard_step(reduction_, global_);
-  }
-  find_stale(longest_move(plan_, global_));
-  return static_cast<std::int64_t>(reduction_[Reduction::request]);
+  global_.dt = parts_.longest_step();
+  for (const Model* m : parts_.models) m->guard_step(parts_.reduction, global_);
+  find_stale(longest_move(parts_.plan, global_));
+  return static_cast<std::int64_t>(parts_.reduction[Reduction::request]);
 }
 
 double Simulation::look_back() const {
   double way = 0;
-  for (const Model* m : models_) way = std::max(way, m->longest_look_back(global_));
+  for (const Model* m : parts_.models) way = std::max(way, m->longest_look_back(global_));
   return way;
 }
 
@@ -220,8 +232,11 @@ double Simulation::look_back() const {
 // their way since.
 Findings Simulation::find_leavers() const {
   double step = 0;
-  for (const Model* m : models_) step += m->path(global_, maxima_.speed);
-  return moved_ + step < distribution_.to_face() ? Findings() : distribution_.outside(particles_);
+  for (const Model* m : parts_.models) step += m->path(global_, maxima_.speed);
+  Findings found;
+  if (moved_ + step < distribution_.to_face()) return found;
+  for (const ParticleSet& set : sets_) found.add(distribution_.outside(set.particles));
+  return found;
 }
 
 // Lists must hold every pair that a pass of the next step takes, wherever it takes its particles to be: after
@@ -237,8 +252,8 @@ void Simulation::find_stale(double next) {
   stale_ = wanted || std::max(moved_ + next, look_back()) > 0.5 * distribution_.skin();
   if (!stale_ || wanted) return;
   std::array<double, 1> way{0};
-  for (const Model* m : models_) {
-    const std::optional<double> looked = m->longest_way(particles_, global_);
+  for (const Model* m : parts_.models) {
+    const std::optional<double> looked = m->longest_way(particles(m->set()), global_);
     if (!looked) return;
     way[0] = std::max(way[0], *looked);
   }

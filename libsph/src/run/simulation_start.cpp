@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,155 +11,156 @@
 #include "sph/models/models.hpp"
 #include "sph/placement.hpp"
 #include "sph/simulation.hpp"
-#include "start/start_densities.hpp"
-#include "start/start_overlaps.hpp"
 
 namespace sph {
+namespace {
+
+// Passes over movers write nothing to walls, whose partners read all the same: nothing is what they read.
+void forget_sums(Particles& particles) {
+  for (const Field f : particles.fields().list())
+    if (!info(f).state)
+      std::memset(particles.table().column(particles.column(f)).data(), 0,
+                  particles.owned() * width(f, particles.dim()));
+}
+
+}  // namespace
 
 Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
     : comm_(comm),
       scene_(scene),
       scale_(position_scale(scene_)),
-      physics_(scene_, scale_),
-      distribution_(comm_, scene_, scale_),
-      particles_(scene_.dim, physics_.fields()),
-      sph_pairs_(physics_),
-      exchange_(scene_.decomposition.overlap) {
-  place_particles(scene_, scale_, distribution_, particles_);
-  add_models();
-  if (grains_) {
-    global_.dt = grains_->time_step();
-    global_.walls = grains_->first_walls();
-    check_start_speeds(comm_, scene_, particles_);
-    begin();
-    refuse_overlaps(comm_, scene_, scale_, particles_, grains_->lists(), grains_->planes(global_));
-    return;
-  }
-  check_start_densities(comm_, scene_, particles_);
-  const StepMaxima own = physics_.maxima_at_start(particles_);
-  std::array<double, 3> largest{own.speed, own.sound, own.viscosity};
-  comm_.max(largest);
-  global_.max_speed = largest[0];
-  global_.dt = physics_.time_step({largest[0], 0, 0, largest[1], largest[2]});
-  if (physics_.shifting()) find_common_motion(*physics_.shifting());
+      wrap_(wrap_of(scene_, scale_)),
+      parts_(scene_, scale_),
+      distribution_(comm_, scene_, scale_) {
+  add_sets();
+  place_particles(scene_, scale_, distribution_, sets_.front().particles);
+  double dt = std::numeric_limits<double>::infinity();
+  for (Model* m : parts_.models) dt = std::min(dt, m->start(comm_, sets_[m->set()].particles, global_));
+  global_.dt = dt;
   try {
-    guard_motion(longest_drift(global_));
+    guard_motion(longest_move(parts_.plan.drift, global_));
   } catch (const GuardError& error) {
     throw InputError(scene_.file + ": start: " + error.what());
   }
   begin();
-  if (scene_.has_eos(EosKind::ideal_gas)) widen_kernels();
+  for (const Model* m : parts_.models) m->check_start(comm_, state_of(m->set(), global_));
+  if (!parts_.plan.settle.empty()) widen_kernels();
 }
 
 Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint)
     : comm_(comm),
       scene_(scene),
       scale_(checkpoint.record.scale),
-      physics_(scene_, scale_),
-      distribution_(comm_, scene_, scale_),
-      particles_(scene_.dim, physics_.fields()),
-      sph_pairs_(physics_),
-      exchange_(scene_.decomposition.overlap) {
-  add_models();
-  read_checkpoint(comm_, checkpoint, particles_, has_history() ? &arrived_ : nullptr);
+      wrap_(wrap_of(scene_, scale_)),
+      parts_(scene_, scale_),
+      distribution_(comm_, scene_, scale_) {
+  add_sets();
+  read_checkpoint(comm_, checkpoint, sets_.front().particles, has_history() ? &arrived_ : nullptr);
   global_ = checkpoint.record.global;
   begin();
 }
 
-void Simulation::find_common_motion(const Shifting& shifting) {
-  const Shifting::Motion moving(particles_);
-  global_.fluid_volume.start = global_.fluid_volume.now = comm_.sum(shifting.fluid_volume(moving));
-  // The mean first, then the largest difference from it, then all.
-  global_.motion.largest = global_.max_speed;
-  for (int k = 0; k < 3; ++k) {
-    MotionSums motion = shifting.motion_sums(moving, global_);
-    comm_.sum(std::span<std::int64_t>(motion.sums));
-    std::array<double, 1> most{motion.largest};
-    comm_.max(most);
-    motion.largest = most[0];
-    global_.motion = shifting.common_motion(motion, global_);
-  }
-}
-
-void Simulation::add_models() {
-  if (scene_.of_grains()) grains_.emplace(scene_, scale_);
-  pairs_ = grains_ ? static_cast<SetPair*>(&*grains_) : &sph_pairs_;
-  models_ = {grains_ ? static_cast<Model*>(&*grains_) : &physics_};
-  plan_ = grains_ ? grains_->plan() : physics_.plan();
-  for (Model* m : models_) m->reserve(reduction_);
+void Simulation::add_sets() {
+  for (const Parts::Set& set : parts_.sets)
+    sets_.push_back(
+        {Particles(scene_.dim, set.fields), set.stays, {}, {}, HaloExchange(scene_.decomposition.overlap)});
   add_dawdling();
 }
 
 void Simulation::begin() {
-  for (const Group& g : scene_.groups) is_wall_group_.push_back(g.kind == GroupKind::wall || g.grain.fixed);
-  census_ = decomp::census(comm_, particles_.table(), particles_.column(Field::id));
-  count_ = census_.count;
-  if (count_ == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
-  distribution_.cut_by_counts(particles_);
-  const bool carries = pairs_->carries();
-  if (carries && arrived_.rows() == 0) arrived_.offset.assign(particles_.owned() + 1, 0);
-  distribution_.scatter(particles_, carries ? &arrived_ : nullptr);
-  // Passes over movers write nothing to walls, whose partners read all the same: nothing is what they read.
-  for (const Field f : particles_.fields().list())
-    if (!info(f).state)
-      std::memset(particles_.table().column(particles_.column(f)).data(), 0,
-                  particles_.owned() * width(f, particles_.dim()));
-  if (!grains_) physics_.derive(particles_, 0, particles_.owned());
-  // Sorts the rows: advance() needs to know which of them move.
+  census_ = census();
+  if (particle_count() == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
+  distribution_.cut_by_counts(sets_);
+  scatter();
+  for (ParticleSet& set : sets_) forget_sums(set.particles);
+  for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
+  // Sorts the rows: what drifts needs to know which of them move.
   rebuild();
-  if (const std::string text = distribution_.outside(particles_).agree(comm_); !text.empty())
+  Findings outside;
+  for (const ParticleSet& set : sets_) outside.add(distribution_.outside(set.particles));
+  if (const std::string text = outside.agree(comm_); !text.empty())
     throw InputError(scene_.file + ": start: " + text);
-  if (scene_.total_lagrangian()) run(plan_.start);
+  run(parts_.plan.start, global_);
   findings_.stop(comm_);
-  stale_ = !grains_;  // the first advance may leave the skin
+  // The first drift may leave the skin.
+  stale_ = std::ranges::any_of(parts_.plan.drift, [](const Entry& e) {
+    return std::ranges::any_of(e.stages, [](const Stage& s) { return bool{s.moves}; });
+  });
+}
+
+// Every row, with what its pairs carry, to the rank that owns it.
+void Simulation::scatter() {
+  for (std::size_t k = 0; k < sets_.size(); ++k) {
+    const bool carries =
+        std::ranges::any_of(parts_.pairs, [&](const SetPair* p) { return p->set() == k && p->carries(); });
+    if (carries && arrived_.rows() == 0) arrived_.offset.assign(particles(k).owned() + 1, 0);
+    distribution_.scatter(sets_[k].particles, carries ? &arrived_ : nullptr);
+  }
+}
+
+std::int64_t Simulation::particle_count() const {
+  std::int64_t count = 0;
+  for (const decomp::Census& c : census_) count += c.count;
+  return count;
+}
+
+std::int64_t Simulation::refreshes() const {
+  std::int64_t n = 0;
+  for (const ParticleSet& set : sets_) n += set.exchange.refreshes();
+  return n;
 }
 
 void Simulation::derive_for_output() {
-  if (plan_.output.empty()) return;
+  const std::vector<Entry>& stages = parts_.plan.output;
+  if (stages.empty()) return;
+  ParticleSet& set = sets_[stages.front().stages.front().set];
+  Particles& particles = set.particles;
   const auto copy = [&](const double* values, std::size_t components) {
     return values == nullptr ? std::vector<double>()
-                             : std::vector<double>(values, values + components * particles_.owned());
+                             : std::vector<double>(values, values + components * particles.owned());
   };
-  double* velocity = particles_.data<Field::velocity>();
-  double* mirror = particles_.data<Field::wall_mirror>();
+  double* velocity = particles.data<Field::velocity>();
+  double* mirror = particles.data<Field::wall_mirror>();
   const std::vector<double> velocities = copy(velocity, static_cast<std::size_t>(scene_.dim)),
                             mirrors = copy(mirror, 1);
-  run(plan_.output);
+  run(stages, global_);
   std::copy(velocities.begin(), velocities.end(), velocity);
   std::copy(mirrors.begin(), mirrors.end(), mirror);
-  for (const Entry& entry : plan_.output)
-    for (const Stage& stage : entry.stages) changed(stage.writes);
+  for (const Entry& entry : stages)
+    for (const Stage& stage : entry.stages) set.changed(stage.writes);
 }
 
 // At the start neither density nor kernels of a gas are known: steps towards them until none changes any more
 // but by rounding. How many that takes follows from the scene alone: the largest change is that of all ranks.
 void Simulation::widen_kernels() {
+  ParticleSet& set = sets_[parts_.physics->set()];
+  Particles& particles = set.particles;
   constexpr int most = 100;
   constexpr double rounding = 1e-13;
-  const auto* group = particles_.data<Field::group>();
+  const auto* group = particles.data<Field::group>();
   for (int k = 0; k < most; ++k) {
-    double* density = particles_.data<Field::density>();
-    double* h = particles_.data<Field::smoothing_length>();
-    for (std::size_t i = 0; i < particles_.owned(); ++i)
-      if (!physics_.is_wall(group[i])) density[i] = 0;  // not summed yet: no work is done
-    changed({Field::density});
-    const std::vector<double> before(h, h + particles_.owned());
-    run(plan_.start);
+    double* density = particles.data<Field::density>();
+    double* h = particles.data<Field::smoothing_length>();
+    for (std::size_t i = 0; i < particles.owned(); ++i)
+      if (!parts_.physics->is_wall(group[i])) density[i] = 0;  // not summed yet: no work is done
+    set.changed({Field::density});
+    const std::vector<double> before(h, h + particles.owned());
+    run(parts_.plan.settle, global_);
     std::array<double, 1> change{0};
     for (std::size_t i = 0; i < before.size(); ++i)
       change[0] = std::max(change[0], std::abs(h[i] / before[i] - 1));
     comm_.max(change);
-    refresh_halo({Field::smoothing_length});
-    sph_pairs_.rebuild(particles_, list_setting(), {}, {});
+    refresh_halo({Field::smoothing_length}, parts_.physics->set());
+    parts_.sph_pairs->rebuild(particles, list_setting(parts_.physics->set()), {}, {});
     if (change[0] < rounding) break;
   }
 }
 
 std::string Simulation::fingerprint() const {
-  if (!has_history()) return sph::fingerprint(comm_, particles_, global_, scale_, wrap());
+  if (!has_history()) return sph::fingerprint(comm_, particles(), global_, scale_, wrap());
   const decomp::Payload entries = contacts();
-  return sph::fingerprint(comm_, particles_, global_, scale_, wrap(),
-                          {&entries, grains_->lists().entry_bytes()});
+  return sph::fingerprint(comm_, particles(), global_, scale_, wrap(),
+                          {&entries, grains()->lists().entry_bytes()});
 }
 
 }  // namespace sph

@@ -50,8 +50,9 @@ class Builder {
     append(plan_.kick, local_stage(std::move(name), std::move(update)));
     plan_.kick.back().stages.front().moves = std::move(moves);
   }
-  /// The stages so far are what the first step wants done (Plan::start).
+  /// The stages so far are what the first step wants done (Plan::start, Plan::settle).
   void begin_with_these() { plan_.start = plan_.sums; }
+  void settle_with_these() { plan_.settle = plan_.sums; }
   /// The last two stages are read by output alone where no step follows (Plan::output).
   void derive_last_two_for_output() { plan_.output.assign(plan_.sums.end() - 2, plan_.sums.end()); }
 

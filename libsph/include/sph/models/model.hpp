@@ -14,10 +14,22 @@ namespace sph {
 
 class Model {
  public:
+  explicit Model(std::size_t set) : set_(set) {}
   virtual ~Model() = default;
 
+  /// Index of the set of particles that it is about: states and particles below are of that set.
+  [[nodiscard]] std::size_t set() const { return set_; }
   /// Takes its places in the reduction.
   virtual void reserve(Reduction&) {}
+
+  // At the start, in this order. Collective; throw InputError.
+  /// Of particles that are not yet on their ranks: what the global record begins with. Returns how long the
+  /// first step may be [s].
+  [[nodiscard]] virtual double start(const decomp::Comm&, Particles&, GlobalState&) = 0;
+  /// What follows from the state of a particle alone: here, and when a run is resumed.
+  virtual void derive(Particles&) const {}
+  /// With lists and halo.
+  virtual void check_start(const decomp::Comm&, const StepState&) const {}
 
   // At the end of a step, in this order.
   /// This rank's part of the reduction; false if something of it is not finite.
@@ -26,8 +38,8 @@ class Model {
   virtual void guard(const decomp::Comm&, const StepState&, const Reduction&) const {}
   /// What the reduction changes in the state, with the clock as it was in the step.
   virtual void act(const Reduction&, GlobalState&) {}
-  /// The time step to come.
-  virtual void set_step(const Reduction&, GlobalState&) const {}
+  /// How long the step to come may be [s].
+  [[nodiscard]] virtual double longest_step(const Reduction&) const = 0;
   /// Throws GuardError where that cannot be stable.
   virtual void guard_step(const Reduction&, const GlobalState&) const {}
 
@@ -45,6 +57,9 @@ class Model {
   }
   /// Faster than that nothing moves that the scene could mean [m/s].
   [[nodiscard]] virtual double speed_limit() const { return std::numeric_limits<double>::infinity(); }
+
+ private:
+  std::size_t set_;
 };
 
 }  // namespace sph

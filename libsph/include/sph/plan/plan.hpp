@@ -14,6 +14,7 @@ struct Plan {
   std::vector<Entry> sums;    ///< over pairs, each with what follows from it for a particle alone
   std::vector<Entry> kick;    ///< what moves particles last
   std::vector<Entry> start;   ///< of `sums`: what the first step wants done
+  std::vector<Entry> settle;  ///< ... what a start is to be brought into balance with
   std::vector<Entry> output;  ///< of `sums`: what only output reads of a state
 };
 
@@ -24,8 +25,11 @@ inline void append(std::vector<Entry>& entries, Stage stage) {
 
 /// All entries of a step in their order.
 [[nodiscard]] std::vector<const Entry*> entries_of(const Plan& plan);
-/// Bound on any particle's path in the next step [m].
+/// Bound on any particle's path in the next step, or in some entries of it [m].
 [[nodiscard]] double longest_move(const Plan& plan, const GlobalState& global);
+[[nodiscard]] double longest_move(const std::vector<Entry>& entries, const GlobalState& global);
+/// Adds the plan of a model whose particles are those of `set`.
+void append(Plan& plan, Plan more, std::size_t set);
 
 /// Which halo copies are up to date.
 class Freshness {

@@ -45,7 +45,7 @@ struct Step {
 /// What the stages of a step work on: one rank's part of a scene.
 struct StepState : Step {
   Particles& particles;
-  const NeighbourLists& lists;
+  const NeighbourLists* lists;           ///< of a set of fluids and solids
   decomp::LargeVector<std::byte>& rows;  ///< scratch of sums over pairs
   int iteration = 0;                     ///< of the loop that the stage is in
 };
@@ -62,6 +62,7 @@ struct Stage {
   std::function<void(StepState&, Side)> work;
   std::function<double(const GlobalState&)> moves{};  ///< bound on any particle's path in it [m]; empty: 0
   const Fusion* fusion = nullptr;                     ///< of a stage that sums over pairs
+  std::size_t set = 0;                                ///< of particles, as an index
 };
 
 /// A local update: `update(view, step)` of what it declares as `reads` and `writes`.

@@ -1,0 +1,35 @@
+#include "sph/parts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sph {
+
+Parts::Parts(const Scene& scene, const PositionScale& scale) {
+  std::vector<bool> stays;
+  for (const Group& g : scene.groups) stays.push_back(g.kind == GroupKind::wall || g.grain.fixed);
+  if (scene.has_kind(GroupKind::fluid) || scene.has_kind(GroupKind::solid)) {
+    physics.emplace(sets.size(), scene, scale);
+    sph_pairs.emplace(sets.size(), *physics);
+    append(plan, physics->plan(), sets.size());
+    sets.push_back({physics->fields(), stays});
+    models.push_back(&*physics);
+    pairs.push_back(&*sph_pairs);
+  }
+  if (scene.has_kind(GroupKind::grain)) {
+    grains.emplace(sets.size(), scene, scale);
+    append(plan, grains->plan(), sets.size());
+    sets.push_back({grain_fields(scene), stays});
+    models.push_back(&*grains);
+    pairs.push_back(&*grains);
+  }
+  for (Model* m : models) m->reserve(reduction);
+}
+
+double Parts::longest_step() const {
+  double dt = std::numeric_limits<double>::infinity();
+  for (const Model* m : models) dt = std::min(dt, m->longest_step(reduction));
+  return dt;
+}
+
+}  // namespace sph
