@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -26,12 +27,12 @@ class CellBins {
         dim_(particles.dim()),
         layers_(layers(grid, radius)),
         limit_(static_cast<float>(1 + list_slack(grid, own, radius))),
+        unit_(1 / static_cast<double>(radius)),
         occupied_(0, 0) {
-    decomp::Int3 corner{};
     for (int a = 0; a < 3; ++a) {
       lo_[a] = a < dim_ ? own.lo[a] - layers_ : 0;
       extent_[a] = a < dim_ ? own.hi[a] - own.lo[a] + 2 * layers_ : 1;
-      corner[a] = grid.origin()[a] + lo_[a] * grid.edge()[a];
+      corner_[a] = grid.origin()[a] + lo_[a] * grid.edge()[a];
     }
     const std::size_t rows = particles.rows(), d = static_cast<std::size_t>(dim_);
     occupied_ = Occupied(static_cast<std::size_t>(extent_[0] * extent_[1] * extent_[2]), rows);
@@ -50,12 +51,10 @@ class CellBins {
     row_.resize(rows + padding);
     for (std::size_t a = 0; a < d; ++a) x_[a].assign(rows + padding, 1e9f);
     std::vector<std::uint32_t> at(start_.begin(), start_.end() - 1);
-    const double unit = 1 / static_cast<double>(radius);
     for (std::size_t i = 0; i < rows; ++i) {
       const std::uint32_t k = at[bin_[i]]++;
       row_[k] = static_cast<std::uint32_t>(i);
-      for (std::size_t a = 0; a < d; ++a)
-        x_[a][k] = static_cast<float>(static_cast<double>(x[i * d + a] - corner[a]) * unit);
+      for (std::size_t a = 0; a < d; ++a) x_[a][k] = scaled(static_cast<int>(a), x[i * d + a]);
     }
     position_.resize(rows);
     for (std::uint32_t k = 0; k < rows; ++k) position_[row_[k]] = k;
@@ -76,14 +75,27 @@ class CellBins {
   };
   static constexpr int most_layers = 2, most_runs = (2 * most_layers + 1) * (2 * most_layers + 1);
   using Runs = Run[most_runs];
-  /// The runs of candidates of the rows in a bin; returns how many.
-  [[nodiscard]] int runs(std::uint32_t bin, Runs& out) const {
-    const auto cell = static_cast<std::int64_t>(cell_[bin]);
+  /// The runs of candidates of the rows in a bin; they lie in `out`.
+  [[nodiscard]] std::span<const Run> runs(std::uint32_t bin, Runs& out) const {
+    return runs_around(cell_[bin], out);
+  }
+  /// ... of a position, of whatever set of particles.
+  [[nodiscard]] std::span<const Run> runs_near(const std::int64_t* x, Runs& out) const {
+    return runs_around(index(x), out);
+  }
+  /// A position as x() has those of the rows.
+  [[nodiscard]] float scaled(int axis, std::int64_t x) const {
+    return static_cast<float>(static_cast<double>(x - corner_[axis]) * unit_);
+  }
+
+ private:
+  [[nodiscard]] std::span<const Run> runs_around(std::size_t at, Runs& out) const {
+    const auto cell = static_cast<std::int64_t>(at);
     const std::int64_t z = cell / (extent_[0] * extent_[1]), y = cell / extent_[0] % extent_[1],
                        x = cell % extent_[0];
     const auto from = [&](std::int64_t c) { return std::max<std::int64_t>(c - layers_, 0); };
     const auto to = [&](std::int64_t c, int axis) { return std::min(c + layers_, extent_[axis] - 1); };
-    int n = 0;
+    std::size_t n = 0;
     for (std::int64_t k = from(z); k <= to(z, 2); ++k)
       for (std::int64_t j = from(y); j <= to(y, 1); ++j) {
         const std::size_t line = static_cast<std::size_t>((k * extent_[1] + j) * extent_[0]);
@@ -91,10 +103,9 @@ class CellBins {
         const std::size_t last = static_cast<std::size_t>(to(x, 0));
         out[n++] = {start_[occupied_.before(line + first)], start_[occupied_.before(line + last + 1)]};
       }
-    return n;
+    return {out, n};
   }
 
- private:
   /// How many cells away a partner within `radius` may be.
   [[nodiscard]] static std::int64_t layers(const decomp::CellGrid& grid, std::int64_t radius) {
     std::int64_t edge = radius;
@@ -126,6 +137,8 @@ class CellBins {
   int dim_;
   std::int64_t layers_;
   float limit_;
+  double unit_;
+  decomp::Int3 corner_{};  ///< of the bins [quanta]
   decomp::Int3 lo_{}, extent_{1, 1, 1};
   Occupied occupied_;                 ///< cells that hold rows: their bins
   std::vector<std::size_t> cell_;     ///< of a bin

@@ -1,10 +1,9 @@
 #include "sph/neighbour_lists.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
-#include "pairs/cell_bins.hpp"
+#include "pairs/candidates.hpp"
 #include "pairs/id_rank.hpp"
 #include "pairs/lane_sort.hpp"
 #include "sph/simd.hpp"
@@ -13,38 +12,7 @@ namespace sph {
 namespace {
 
 constexpr std::uint32_t no_partner = ~std::uint32_t{0};
-constexpr std::size_t chunk = Simd<float>::lanes;
-
-/// Appends to `out` the tags of the 16 bins from `first` on that lie within the radius of `at`, except
-/// `own`; writes up to 16 beyond the end. Returns how many were appended.
-template <int D>
-std::size_t append_within(const CellBins& bins, const std::uint32_t* tags, std::size_t first,
-                          std::size_t last, const float* at, float limit, std::uint32_t own,
-                          std::uint32_t* out) {
-  Simd<float> d2 = Simd<float>::zero();
-  for (int a = 0; a < D; ++a) {
-    Simd<float> x;
-    std::memcpy(&x.v, bins.x(a) + first, sizeof x.v);
-    x -= Simd<float>(at[a]);
-    d2 += x * x;
-  }
-  const unsigned inside = last - first >= chunk ? 0xffffu : (1u << (last - first)) - 1;
-#if defined(__AVX512F__)
-  const __m512i tag = _mm512_loadu_si512(tags + first);
-  __mmask16 mask = _mm512_cmp_ps_mask(std::bit_cast<__m512>(d2.v), _mm512_set1_ps(limit), _CMP_LT_OQ);
-  mask = static_cast<__mmask16>(mask & inside);
-  mask = _mm512_mask_cmpneq_epi32_mask(mask, tag, _mm512_set1_epi32(static_cast<int>(own)));
-  _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(mask, tag));
-  return static_cast<std::size_t>(std::popcount(static_cast<unsigned>(mask)));
-#else
-  std::size_t n = 0;
-  for (std::size_t l = 0; l < chunk; ++l) {
-    out[n] = tags[first + l];
-    n += (inside >> l & 1u) != 0 && d2[static_cast<int>(l)] < limit && tags[first + l] != own;
-  }
-  return n;
-#endif
-}
+constexpr std::size_t chunk = CandidateTable::chunk;
 
 /// Turns `lanes` lists of `longest` entries, stored one after the other `stride` apart, into the SIMD order.
 void transpose_lists(const std::uint32_t* lists, std::size_t stride, std::size_t lanes, std::size_t longest,
@@ -73,37 +41,32 @@ void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>
   begin_.assign(1, 0);
   entries_.clear();
   pairs_ = 0;
-  const float limit = bins.limit() * bins.limit();
+  const CandidateTable candidates{bins, tags.data()};
   std::size_t stride = 0;
   std::vector<std::uint32_t> lists;
   for (RowRange& range : ranges) {
     range.first_block = begin_.size() - 1;
     std::uint32_t cell = no_partner;
-    CellBins::Runs runs;
-    int run_count = 0;
+    CellBins::Runs all_runs;
+    std::span<const CellBins::Run> runs;
     for (std::size_t first = range.first; first < range.last; first += lanes) {
       std::size_t longest = 0, length[chunk] = {};
       for (std::size_t l = 0; l < std::min(lanes, range.last - first); ++l) {
         const std::size_t place = bins.place(first + l);
         if (bins.bin(first + l) != cell) {
           cell = bins.bin(first + l);
-          run_count = bins.runs(cell, runs);
-          std::size_t candidates = 2 * chunk;
-          for (int r = 0; r < run_count; ++r) candidates += runs[r].last - runs[r].first;
-          if (candidates > stride) {
-            std::vector<std::uint32_t> wider(lanes * 2 * candidates);
+          runs = bins.runs(cell, all_runs);
+          if (const std::size_t room = CandidateTable::room(runs) + chunk; room > stride) {
+            std::vector<std::uint32_t> wider(lanes * 2 * room);
             for (std::size_t k = 0; k < l; ++k)
-              std::copy_n(lists.data() + k * stride, length[k], wider.data() + k * 2 * candidates);
+              std::copy_n(lists.data() + k * stride, length[k], wider.data() + k * 2 * room);
             lists.swap(wider);
-            stride = 2 * candidates;
+            stride = 2 * room;
           }
         }
         const float at[3] = {bins.x(0)[place], bins.x(1)[place], D == 3 ? bins.x(2)[place] : 0};
-        std::uint32_t* const mine = lists.data() + l * stride;
-        std::size_t n = 0;
-        for (int r = 0; r < run_count; ++r)
-          for (std::size_t c = runs[r].first; c < runs[r].last; c += chunk)
-            n += append_within<D>(bins, tags.data(), c, runs[r].last, at, limit, tags[place], mine + n);
+        const std::size_t n =
+            candidates.find<D, Keep::others>(runs, at, bins.limit(), tags[place], lists.data() + l * stride);
         length[l] = n;
         pairs_ += n;
         longest = std::max(longest, n);
