@@ -28,6 +28,7 @@ struct ContactContext {
   double least_force;  ///< see ContactConstants
   double gravity[3];
   double largest_overlap;  ///< in radii of the smaller grain
+  bool drifts;             ///< grains drift once they are kicked, while they are in the cache
 };
 
 /// A contact that must not be: that of the lowest ids is kept.

@@ -48,7 +48,8 @@ struct ContactPass {
         return block.first >= r.first && block.last <= r.last;
       };
       if (moves(RowClass::interior_movers) || moves(RowClass::boundary_movers))
-        move(c, rows, block.first, block.last, sweep);
+        c.drifts ? move<true>(c, rows, block.first, block.last, sweep)
+                 : move<false>(c, rows, block.first, block.last, sweep);
       else
         std::fill(rows.sums + std::size_t{block.first} * stride, rows.sums + std::size_t{block.last} * stride,
                   Sum{});
@@ -319,9 +320,11 @@ struct ContactPass {
   }
 
   // v += (F/m + g) dt, omega += T/I dt with I = 2/5 m r^2, then x += v dt in whole quanta.
+  template <bool drifts>
   static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
                    ContactSweep& sweep) {
-    const double dt = c.dt, quanta = dt / c.length_quantum;
+    const double dt = c.dt;
+    [[maybe_unused]] const double quanta = dt / c.length_quantum;
     double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
     for (std::size_t r = first; r < last; ++r) {
       Sum* sums = rows.sums + r * stride;
@@ -332,7 +335,7 @@ struct ContactPass {
         const double acceleration = force * inverse_mass + c.gravity[a];
         const double v = rows.v[r * 3 + a] + acceleration * dt;
         rows.v[r * 3 + a] = v;
-        rows.x[r * 3 + a] = moved_by(rows.x[r * 3 + a], round_to_quanta(v * quanta));
+        if constexpr (drifts) rows.x[r * 3 + a] = moved_by(rows.x[r * 3 + a], round_to_quanta(v * quanta));
         v2 += v * v;
         a2 += acceleration * acceleration;
       }

@@ -118,7 +118,10 @@ class Grains final : public Model, public SetPair {
     std::optional<double> force;
   };
   [[nodiscard]] WallNow wall_now(std::size_t wall, const GlobalState& global) const;
-  void move_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const;
+  void move_walls(GlobalState& global) const;
+  /// Servos answer to the forces of a step.
+  void push_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const;
+  [[nodiscard]] double longest_wall_way(const GlobalState& global) const;  ///< in a step [m]
   /// From their two halves, summed over all ranks.
   [[nodiscard]] std::vector<std::int64_t> wall_forces(std::span<const std::int64_t> halves,
                                                       const GlobalState& global) const;
@@ -138,6 +141,7 @@ class Grains final : public Model, public SetPair {
   Wrap wrap_;
   ContactFusion fusion_;
   ContactLists lists_;
+  bool alone_;  ///< the scene has no other particles
   decomp::LargeVector<double> constants_;
   std::vector<bool> fixed_;
   double force_quantum_ = 1, torque_quantum_ = 1, dt_ = 0, longest_move_ = 0;

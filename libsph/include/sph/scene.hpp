@@ -49,6 +49,11 @@ struct Group {
   friend bool operator==(const Group&, const Group&) = default;
 };
 
+/// Moves as a fluid or a solid, not as grains.
+[[nodiscard]] inline bool is_matter(const Group& g) {
+  return g.kind == GroupKind::fluid || g.kind == GroupKind::solid;
+}
+
 enum class RegionShape { everywhere, box, ball };
 
 /// Painter's rule: a lattice point belongs to the last region that contains it. group -1 leaves it empty.
@@ -72,6 +77,14 @@ struct Layer {
   friend bool operator==(const Layer&, const Layer&) = default;
 };
 
+/// Grains beside fluids: a square lattice of its own fills a box.
+struct GrainFill {
+  int group = -1;
+  Double3 lower{}, upper{};  ///< points sit at lower + (k + 1/2) spacing, below upper [m]
+  double spacing = 0;        ///< [m]
+  friend bool operator==(const GrainFill&, const GrainFill&) = default;
+};
+
 struct Start {
   // Either a lattice painted by regions ...
   LatticeKind lattice = LatticeKind::square;
@@ -83,6 +96,7 @@ struct Start {
   // ... or a file with columns id, x, v, group, rho, m (HDF5 or CSV).
   std::string file;
   std::optional<bool> free_surface;  ///< file: is there one? Default: unless all axes are periodic
+  std::vector<GrainFill> fills;      ///< of grains beside fluids
   Tile tile;                         ///< ... or, grains only, a packing repeated side by side
 
   InitialVelocity velocity = InitialVelocity::rest;
@@ -209,9 +223,14 @@ struct Scene {
   Decomposition decomposition;
   OutputControl output;
 
-  [[nodiscard]] bool of_grains() const { return has_kind(GroupKind::grain); }
-  [[nodiscard]] double support()
-      const;  ///< range of interaction [m]: the kernel's radius, or twice the largest grain's
+  /// Of grains alone.
+  [[nodiscard]] bool of_grains() const { return has_grains() && !has_matter(); }
+  [[nodiscard]] bool has_grains() const { return has_kind(GroupKind::grain); }
+  [[nodiscard]] bool has_matter() const;          ///< fluids or solids
+  [[nodiscard]] double largest_diameter() const;  ///< of grains, 0 if there are none [m]
+  [[nodiscard]] double kernel_radius() const;     ///< 0 if there is no matter [m]
+  /// Range of interaction [m]: the kernel's radius or the largest diameter of the grains, whichever is more.
+  [[nodiscard]] double support() const;
   [[nodiscard]] double list_range()
       const;  ///< how far pairs of the lists may be apart [m]: support(), or more
   [[nodiscard]] bool has_kind(GroupKind k) const;

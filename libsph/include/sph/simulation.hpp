@@ -40,7 +40,9 @@ class Simulation {
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const decomp::Comm& comm() const { return comm_; }
-  [[nodiscard]] const Particles& particles(std::size_t set = 0) const { return sets_[set].particles; }
+  [[nodiscard]] const Particles& particles(std::size_t set) const { return sets_[set].particles; }
+  /// Of all sets, as files have them. Of several sets it is a copy, without halo, good until the next step.
+  [[nodiscard]] const Particles& particles() const;
   [[nodiscard]] std::span<const ParticleSet> sets() const { return sets_; }
   [[nodiscard]] const GlobalState& global() const { return global_; }
   [[nodiscard]] const PositionScale& scale() const { return scale_; }
@@ -50,10 +52,8 @@ class Simulation {
   [[nodiscard]] const NeighbourLists& lists() const { return parts_.sph_pairs->lists(); }
   [[nodiscard]] const Grains* grains() const { return parts_.grains ? &*parts_.grains : nullptr; }
   [[nodiscard]] bool has_history() const { return grains() != nullptr && grains()->lists().history() > 0; }
-  /// Histories of this rank's contacts, one entry per contact of a row: what travels and is checkpointed.
-  [[nodiscard]] decomp::Payload contacts() const {
-    return grains() ? grains()->lists().pack(particles(parts_.grains->set())) : decomp::Payload{};
-  }
+  /// Histories of this rank's contacts, one entry per contact of a row of particles(): what is checkpointed.
+  [[nodiscard]] decomp::Payload contacts() const;
   [[nodiscard]] decomp::Timers& timers() { return timers_; }
   /// Of a simulation that has made no step since its checkpoint: computes what a snapshot holds besides the
   /// state, the pressure on walls. Changes no bit of the state. Collective.
@@ -91,7 +91,7 @@ class Simulation {
   void take_maxima();
   std::int64_t finish_step(std::int64_t request);
   [[nodiscard]] Findings find_leavers() const;
-  void find_stale(double next);
+  void find_stale();
   void guard_motion(double next) const;
   [[nodiscard]] double look_back() const;
   [[noreturn]] void stop_at_fault() const;
@@ -106,6 +106,7 @@ class Simulation {
   Parts parts_;
   Distribution distribution_;
   std::vector<ParticleSet> sets_;
+  mutable std::optional<Particles> united_;  ///< of several sets, where it is up to date
   GlobalState global_;
   decomp::Timers timers_;
   Counters counters_;
@@ -114,8 +115,8 @@ class Simulation {
   StepMaxima maxima_;        ///< of this rank and step
   decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
   bool stale_ = true;
-  double moved_ = 0;   ///< bound on any particle's path since the last rebuild [m]
-  double growth_ = 0;  ///< of reaches until the end of the next step, as a share of what lists bear
+  std::vector<double> moved_;  ///< of each set: bound on any particle's path since the last rebuild [m]
+  double growth_ = 0;          ///< of reaches until the end of the next step, as a share of what lists bear
   std::vector<decomp::Census> census_;  ///< of each set
 };
 

@@ -1,6 +1,7 @@
 #include "sph/grains.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include "grains/grain_constants.hpp"
 #include "plan/for_rows.hpp"
 #include "sph/fixed_point.hpp"
+#include "sph/models/models.hpp"
 #include "sph/models/sph_constants.hpp"
 #include "start/start_overlaps.hpp"
 
@@ -15,6 +17,21 @@ namespace sph {
 namespace {
 
 double next_power_of_two(double x) { return std::ldexp(1.0, std::ilogb(x) + 1); }
+
+struct GrainDrift {
+  static constexpr FieldSet reads{Field::velocity};
+  static constexpr FieldSet writes{Field::position};
+  double quantum;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    std::int64_t* x = p.get<Field::position>();
+    const double* v = p.get<Field::velocity>();
+    const double quanta = step.global.dt / quantum;
+    for_movers(step.ranges, [&](std::size_t i) {
+      for (std::size_t k = i * 3; k < i * 3 + 3; ++k) x[k] = moved_by(x[k], round_to_quanta(v[k] * quanta));
+    });
+  }
+};
 
 }  // namespace
 
@@ -25,7 +42,8 @@ Grains::Grains(std::size_t set, const Scene& scene, const PositionScale& scale)
       scale_(scale),
       wrap_(wrap_of(scene, scale)),
       fusion_(contact_fusion(scene)),
-      lists_(fusion_.history) {
+      lists_(fusion_.history),
+      alone_(!scene.has_matter()) {
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
   dt_ = grain_step(scene);
   longest_move_ = longest_grain_move(scene);
@@ -60,20 +78,33 @@ void Grains::find_quanta() {
   torque_quantum_ = std::ldexp(next_power_of_two(8 * force * radius * friction), -50);
 }
 
-// Contacts and walls of a block of rows, then at once the kick and drift of its grains: one stage.
+// Alone, contacts and walls of a block of rows, then at once the kick and drift of its grains: one stage. In
+// company they drift when the others do, since forces between sets want all where they are at one time.
 Plan Grains::plan() {
   Plan plan;
-  append(plan.drift,
-         {"walls", decomp::Region::update, {}, {}, [this](StepState& s, Side) { set_stage(s.global); }});
+  append(plan.drift, {"walls", decomp::Region::update, {}, {}, [this](StepState& s, Side) {
+                        set_stage(s.global);
+                        if (!alone_) move_walls(s.global);
+                      }});
+  if (!alone_) {
+    append(plan.drift, local_stage("drift of grains", GrainDrift{scale_.quantum}));
+    plan.drift.back().stages.front().moves = [this](const GlobalState& global) {
+      return std::max(longest_drift(global), longest_wall_way(global));
+    };
+  }
   append(plan.sums, {"contacts to forget", decomp::Region::contacts, {}, {}, [this](StepState& s, Side) {
                        begin_step(s.particles, s.global);
                      }});
-  append(plan.kick, {"contacts, kick, drift", decomp::Region::contacts, reads(), reads(),
-                     [this](StepState& s, Side side) {
+  const FieldSet writes = alone_ ? reads() : reads().without({Field::position});
+  append(plan.kick, {alone_ ? "contacts, kick, drift" : "contacts, kick", decomp::Region::contacts, reads(),
+                     writes, [this](StepState& s, Side side) {
                        sweep(s.particles, side == Side::interior ? lists_.interior() : lists_.boundary(),
                              s.ranges, s.global.dt);
                        s.maxima.speed = larger(std::sqrt(sweep_.speed2), s.maxima.speed);
-                       s.maxima.acceleration = larger(std::sqrt(sweep_.acceleration2), s.maxima.acceleration);
+                       // Of others, accelerations limit the time step; of contacts their stiffness does.
+                       const double most = std::sqrt(sweep_.acceleration2);
+                       if (alone_ || !std::isfinite(most))
+                         s.maxima.acceleration = larger(most, s.maxima.acceleration);
                      }});
   return plan;
 }
@@ -89,6 +120,16 @@ double Grains::start(const decomp::Comm& comm, Particles& particles, GlobalState
   global.walls.resize(scene_->walls.size());
   for (std::size_t w = 0; w < global.walls.size(); ++w) global.walls[w].velocity = scene_->walls[w].velocity;
   check_start_speeds(comm, *scene_, particles);
+  if (alone_) return dt_;
+  // What drifts first needs to know how far.
+  double speed2 = 0;
+  const double* v = particles.data<Field::velocity>();
+  for (std::size_t i = 0; i < particles.owned(); ++i)
+    speed2 =
+        std::max(speed2, v[i * 3] * v[i * 3] + v[i * 3 + 1] * v[i * 3 + 1] + v[i * 3 + 2] * v[i * 3 + 2]);
+  std::array<double, 1> largest{std::sqrt(speed2)};
+  comm.max(largest);
+  global.max_speed = std::max(global.max_speed, largest[0]);
   return dt_;
 }
 
@@ -155,7 +196,8 @@ ContactContext Grains::context(Particles& particles, double dt) {
           dt,
           scene_->contact.pull ? -std::numeric_limits<double>::infinity() : 0.0,
           {scene_->gravity[0], scene_->gravity[1], scene_->gravity[2]},
-          scene_->contact.largest_overlap};
+          scene_->contact.largest_overlap,
+          alone_};
 }
 
 void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges,
@@ -170,15 +212,24 @@ void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, c
   counters_.ended += now.ended;
 }
 
-void Grains::move_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const {
+// A tangential velocity drags the grains; the plane itself moves along its normal only.
+void Grains::move_walls(GlobalState& global) const {
+  for (std::size_t w = 0; w < global.walls.size(); ++w) {
+    WallState& state = global.walls[w];
+    const Double3& normal = scene_->walls[w].normal;
+    double along = 0;
+    for (std::size_t a = 0; a < 3; ++a) along += state.velocity[a] * normal[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      state.offset[a] += round_to_quanta(along * normal[a] * global.dt / scale_.quantum);
+  }
+}
+
+void Grains::push_walls(GlobalState& global, std::span<const std::int64_t> wall_force) const {
   for (std::size_t w = 0; w < global.walls.size(); ++w) {
     WallState& state = global.walls[w];
     const Wall& wall = scene_->walls[w];
-    // A tangential velocity drags the grains; the plane itself moves along its normal only.
-    double along = 0, pressed = 0;
-    for (std::size_t a = 0; a < 3; ++a) along += state.velocity[a] * wall.normal[a];
+    double pressed = 0;
     for (std::size_t a = 0; a < 3; ++a) {
-      state.offset[a] += round_to_quanta(along * wall.normal[a] * global.dt / scale_.quantum);
       state.force[a] = wall_force[3 * w + a];
       pressed -= wall_force_newton(state.force[a]) * wall.normal[a];
     }
@@ -218,12 +269,17 @@ std::int64_t Grains::touching_pairs() const {
   return n;
 }
 
+// In company stages say how far grains and walls drift.
 double Grains::path(const GlobalState& global, double speed) const {
+  return alone_ ? std::max(1.0001 * speed * global.dt, longest_wall_way(global)) : 0.0;
+}
+
+double Grains::longest_wall_way(const GlobalState& global) const {
   double speed2 = 0;
   for (const WallState& w : global.walls)
     speed2 = std::max(speed2, w.velocity[0] * w.velocity[0] + w.velocity[1] * w.velocity[1] +
                                   w.velocity[2] * w.velocity[2]);
-  return 1.0001 * std::max(speed, std::sqrt(speed2)) * global.dt;
+  return 1.0001 * std::sqrt(speed2) * global.dt;
 }
 
 }  // namespace sph

@@ -104,7 +104,9 @@ std::vector<std::int64_t> Grains::wall_forces(std::span<const std::int64_t> halv
 }
 
 void Grains::act(const Reduction& r, GlobalState& global) {
-  move_walls(global, wall_forces(r[halves_], global));
+  const std::vector<std::int64_t> forces = wall_forces(r[halves_], global);
+  if (alone_) move_walls(global);
+  push_walls(global, forces);
 }
 
 }  // namespace sph

@@ -98,8 +98,7 @@ bool bulk_viscous(const Scene& s) {
 
 void add_kinematics(Builder& b) {
   const Scene& s = b.scene();
-  const auto movers =
-      std::ranges::count_if(s.groups, [](const Group& g) { return g.kind != GroupKind::wall; });
+  const auto movers = std::ranges::count_if(s.groups, is_matter);
   const bool solid = s.has_kind(GroupKind::solid);
   const bool single = movers == 1 && !b.has_walls() && !s.has_eos(EosKind::bubbly);
   std::vector<Term> terms{slips(s)      ? term<SlippingGradient>
@@ -120,7 +119,9 @@ void add_forces(Builder& b) {
   const Scene& s = b.scene();
   const bool solid = s.has_kind(GroupKind::solid);
   const bool uniform_viscosity =
-      std::ranges::all_of(s.groups, [&](const Group& g) { return g.viscosity == s.groups[0].viscosity; });
+      std::ranges::all_of(s.groups, [first = std::ranges::find_if(s.groups, is_matter)](const Group& g) {
+        return g.kind == GroupKind::grain || g.viscosity == first->viscosity;
+      });
   const bool jump = tension(s) && s.terms.surface_tension.form == TensionForm::jump;
   const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
   const bool uniform = uniform_viscosity && !solid && !weighted(s) && !tension(s) && !symmetric;

@@ -161,6 +161,7 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   for (std::size_t a = 0; a < 3; ++a) row_scale.pull_centre[a] = of.pull_centre[a];
 
   const double divide = density_divide(of);
+  const auto fluid = std::ranges::find_if(of.groups, is_matter);
   for (const Group& g : of.groups) {
     groups.viscosity.push_back(g.viscosity);
     // p-waves are the fastest in a solid
@@ -174,10 +175,8 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
     const std::size_t body = g.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.clamps);
     groups.body.push_back(static_cast<double>(body));
     groups.modulus.push_back(of.groups[body].bulk_modulus + 4.0 / 3.0 * of.groups[body].shear_modulus);
-    bubbly.push_back(bubbly_eos(g, g.gas_content));
+    bubbly.push_back(g.kind == GroupKind::grain ? bubbly_eos(*fluid, 0) : bubbly_eos(g, g.gas_content));
   }
-  const auto fluid = std::find_if(of.groups.begin(), of.groups.end(),
-                                  [](const Group& g) { return g.kind != GroupKind::wall; });
   groups.surface_tension = of.terms.surface_tension.coefficient;
   terms = {};
   // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.

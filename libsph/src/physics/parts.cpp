@@ -8,7 +8,7 @@ namespace sph {
 Parts::Parts(const Scene& scene, const PositionScale& scale) {
   std::vector<bool> stays;
   for (const Group& g : scene.groups) stays.push_back(g.kind == GroupKind::wall || g.grain.fixed);
-  if (scene.has_kind(GroupKind::fluid) || scene.has_kind(GroupKind::solid)) {
+  if (scene.has_matter()) {
     physics.emplace(sets.size(), scene, scale);
     sph_pairs.emplace(sets.size(), *physics);
     append(plan, physics->plan(), sets.size());
@@ -16,7 +16,7 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
     models.push_back(&*physics);
     pairs.push_back(&*sph_pairs);
   }
-  if (scene.has_kind(GroupKind::grain)) {
+  if (scene.has_grains()) {
     grains.emplace(sets.size(), scene, scale);
     append(plan, grains->plan(), sets.size());
     sets.push_back({grain_fields(scene), stays});

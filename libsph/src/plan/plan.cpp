@@ -11,15 +11,16 @@ std::vector<const Entry*> entries_of(const Plan& plan) {
   return out;
 }
 
-double longest_move(const Plan& plan, const GlobalState& global) {
-  return longest_move(plan.drift, global) + longest_move(plan.sums, global) + longest_move(plan.kick, global);
+double longest_move(const Plan& plan, std::size_t set, const GlobalState& global) {
+  return longest_move(plan.drift, set, global) + longest_move(plan.sums, set, global) +
+         longest_move(plan.kick, set, global);
 }
 
-double longest_move(const std::vector<Entry>& entries, const GlobalState& global) {
+double longest_move(const std::vector<Entry>& entries, std::size_t set, const GlobalState& global) {
   double way = 0;
   for (const Entry& e : entries)
     for (const Stage& s : e.stages)
-      if (s.moves) way += s.moves(global);
+      if (s.moves && s.set == set) way += s.moves(global);
   return way;
 }
 

@@ -15,9 +15,10 @@ std::int64_t pairs_within_support(const Simulation& s) {
   if (s.grains() != nullptr) return s.grains()->touching_pairs();
   const auto d = static_cast<std::size_t>(s.scene().dim);
   const auto lanes = static_cast<std::size_t>(s.lists().lanes());
-  const double support = s.scene().support() / s.scale().quantum;
-  const std::int64_t* x = s.particles().data<Field::position>();
-  const double* h = s.particles().data<Field::smoothing_length>();
+  const double support = s.scene().kernel_radius() / s.scale().quantum;
+  const Particles& particles = s.particles(s.physics()->set());
+  const std::int64_t* x = particles.data<Field::position>();
+  const double* h = particles.data<Field::smoothing_length>();
   const auto radius = [&](std::size_t i, std::size_t j) {
     return h == nullptr ? support : support * std::max(h[i], h[j]) / s.scene().smoothing_length;
   };

@@ -11,6 +11,7 @@ namespace sph {
 
 std::int64_t Simulation::step(std::int64_t request) {
   if (global_.step == 0 && scene_.has_eos(EosKind::ideal_gas)) kick_half_a_step();
+  united_.reset();
   maxima_ = {};
   run(parts_.plan.drift, global_);
   if (stale_) rebuild();
@@ -56,7 +57,7 @@ void Simulation::run(const Stage& stage, StepState& state) {
     set.exchange.end(set.halo, timers_);
     work(Side::boundary);
   }
-  if (stage.moves) moved_ += stage.moves(state.global);
+  if (stage.moves) moved_[stage.set] += stage.moves(state.global);
   set.changed(stage.writes);
 }
 
@@ -110,12 +111,13 @@ void Simulation::kick_half_a_step() {
   };
   global_.dt = kick(0);  // how large a step may be follows from the accelerations
   (void)kick(0.5);
-  find_stale(longest_move(parts_.plan, global_));
+  find_stale();
 }
 
 // Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plans -> lists of all
 // pairs of sets.
 void Simulation::rebuild() {
+  united_.reset();
   std::vector<Distribution::Carried> carried(sets_.size());
   double least_skin = 0;
   for (SetPair* pair : parts_.pairs) {
@@ -128,8 +130,8 @@ void Simulation::rebuild() {
     const auto timing = timers_.time(decomp::Region::migrate);
     try {
       distribution_.rebuild(
-          sets_, timers_.take_cost(), [&](std::size_t set) { return pairs_of_rows(set); }, moved_, least_skin,
-          carried);
+          sets_, timers_.take_cost(), [&](std::size_t set) { return pairs_of_rows(set); },
+          *std::ranges::max_element(moved_), least_skin, carried);
     } catch (const GuardError& error) {
       throw GuardError(step_text(global_.step) + error.what());
     }
@@ -143,7 +145,7 @@ void Simulation::rebuild() {
     const Distribution::Carried& with = carried[pair->set()];
     pair->rebuild(particles(pair->set()), list_setting(pair->set()), with.payload, with.order);
   }
-  moved_ = 0;
+  moved_.assign(sets_.size(), 0);
   ++counters_.rebuilds;
 }
 
@@ -209,7 +211,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   if (parts_.reduction[Reduction::bad] > 0) stop_at_fault();
   if (parts_.reduction[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
   for (Model* m : parts_.models) {
-    moved_ += m->path(global_, parts_.reduction[Reduction::speed]);
+    moved_[m->set()] += m->path(global_, parts_.reduction[Reduction::speed]);
     m->act(parts_.reduction, global_);
   }
   ++global_.step;
@@ -217,7 +219,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   take_maxima();
   global_.dt = parts_.longest_step();
   for (const Model* m : parts_.models) m->guard_step(parts_.reduction, global_);
-  find_stale(longest_move(parts_.plan, global_));
+  find_stale();
   return static_cast<std::int64_t>(parts_.reduction[Reduction::request]);
 }
 
@@ -231,37 +233,44 @@ double Simulation::look_back() const {
 // have to look: how far particles were from the faces is known from the last rebuild, and so is a bound on
 // their way since.
 Findings Simulation::find_leavers() const {
-  double step = 0;
-  for (const Model* m : parts_.models) step += m->path(global_, maxima_.speed);
+  std::vector<double> moved = moved_;
+  for (const Model* m : parts_.models) moved[m->set()] += m->path(global_, maxima_.speed);
   Findings found;
-  if (moved_ + step < distribution_.to_face()) return found;
+  if (*std::ranges::max_element(moved) < distribution_.to_face()) return found;
   for (const ParticleSet& set : sets_) found.add(distribution_.outside(set.particles));
   return found;
 }
 
 // Lists must hold every pair that a pass of the next step takes, wherever it takes its particles to be: after
-// they have moved by `next`, or half a step before that. moved_ bounds every particle's path since the
+// they have moved in it, or half a step before that. moved_ bounds every particle's path since the
 // rebuild by the largest speed of each step: no positions to remember, and never late. A rebuild in that step
 // finds lists that are wide enough for it, however small the scene's skin (rebuild()). Grains are looked at
 // again when the bound runs out: one that flies through the sparse part of a scene must not cost rebuilds of
 // the rest.
-void Simulation::find_stale(double next) {
+void Simulation::find_stale() {
+  double next = 0, way = 0;
+  for (std::size_t set = 0; set < sets_.size(); ++set) {
+    const double of_set = longest_move(parts_.plan, set, global_);
+    next = std::max(next, of_set);
+    way = std::max(way, moved_[set] + of_set);
+  }
   guard_motion(next);
   const int every = scene_.decomposition.rebuild_every;
   const bool wanted = growth_ > 1 || (every > 0 && global_.step % every == 0);
-  stale_ = wanted || std::max(moved_ + next, look_back()) > 0.5 * distribution_.skin();
+  stale_ = wanted || std::max(way, look_back()) > 0.5 * distribution_.skin();
   if (!stale_ || wanted) return;
-  std::array<double, 1> way{0};
+  std::vector<double> looked(sets_.size(), 0);
   for (const Model* m : parts_.models) {
-    const std::optional<double> looked = m->longest_way(particles(m->set()), global_);
-    if (!looked) return;
-    way[0] = std::max(way[0], *looked);
+    const std::optional<double> by_model = m->longest_way(particles(m->set()), global_);
+    if (!by_model) return;
+    looked[m->set()] = std::max(looked[m->set()], *by_model);
   }
   const auto timing = timers_.time(decomp::Region::reduce);
-  comm_.max(way);
-  moved_ = way[0];
+  comm_.max(looked);
+  moved_ = looked;
   // Another step of the fastest grain must fit, or this look was for nothing.
-  stale_ = moved_ + 2 * global_.max_speed * global_.dt > 0.5 * distribution_.skin();
+  stale_ =
+      *std::ranges::max_element(moved_) + 2 * global_.max_speed * global_.dt > 0.5 * distribution_.skin();
 }
 
 }  // namespace sph

@@ -11,6 +11,7 @@
 #include "sph/models/models.hpp"
 #include "sph/placement.hpp"
 #include "sph/simulation.hpp"
+#include "sph/united.hpp"
 
 namespace sph {
 namespace {
@@ -33,12 +34,13 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
       parts_(scene_, scale_),
       distribution_(comm_, scene_, scale_) {
   add_sets();
-  place_particles(scene_, scale_, distribution_, sets_.front().particles);
+  for (ParticleSet& set : sets_) place_particles(scene_, scale_, distribution_, set.particles);
   double dt = std::numeric_limits<double>::infinity();
   for (Model* m : parts_.models) dt = std::min(dt, m->start(comm_, sets_[m->set()].particles, global_));
   global_.dt = dt;
   try {
-    guard_motion(longest_move(parts_.plan.drift, global_));
+    for (std::size_t set = 0; set < sets_.size(); ++set)
+      guard_motion(longest_move(parts_.plan.drift, set, global_));
   } catch (const GuardError& error) {
     throw InputError(scene_.file + ": start: " + error.what());
   }
@@ -55,7 +57,13 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
       parts_(scene_, scale_),
       distribution_(comm_, scene_, scale_) {
   add_sets();
-  read_checkpoint(comm_, checkpoint, sets_.front().particles, has_history() ? &arrived_ : nullptr);
+  if (sets_.size() == 1) {
+    read_checkpoint(comm_, checkpoint, sets_.front().particles, has_history() ? &arrived_ : nullptr);
+  } else {
+    Particles all(scene_.dim, fields_of(sets_));
+    read_checkpoint(comm_, checkpoint, all, has_history() ? &arrived_ : nullptr);
+    divide(all, scene_, sets_, arrived_, parts_.grains ? parts_.grains->set() : sets_.size());
+  }
   global_ = checkpoint.record.global;
   begin();
 }
@@ -64,6 +72,7 @@ void Simulation::add_sets() {
   for (const Parts::Set& set : parts_.sets)
     sets_.push_back(
         {Particles(scene_.dim, set.fields), set.stays, {}, {}, HaloExchange(scene_.decomposition.overlap)});
+  moved_.assign(sets_.size(), 0);
   add_dawdling();
 }
 
@@ -102,6 +111,18 @@ std::int64_t Simulation::particle_count() const {
   std::int64_t count = 0;
   for (const decomp::Census& c : census_) count += c.count;
   return count;
+}
+
+const Particles& Simulation::particles() const {
+  if (sets_.size() == 1) return sets_.front().particles;
+  if (!united_) united_.emplace(unite(sets_));
+  return *united_;
+}
+
+decomp::Payload Simulation::contacts() const {
+  if (grains() == nullptr) return {};
+  const std::size_t set = parts_.grains->set();
+  return unite(grains()->lists().pack(particles(set)), sets_, set);
 }
 
 std::int64_t Simulation::refreshes() const {

@@ -5,14 +5,20 @@
 
 namespace sph {
 
-double Scene::support() const {
-  if (of_grains()) {
-    double largest = 0;
-    for (const Group& g : groups) largest = std::max(largest, g.grain.largest_radius);
-    return 2 * largest;
-  }
+bool Scene::has_matter() const { return has_kind(GroupKind::fluid) || has_kind(GroupKind::solid); }
+
+double Scene::largest_diameter() const {
+  double largest = 0;
+  for (const Group& g : groups) largest = std::max(largest, g.grain.largest_radius);
+  return 2 * largest;
+}
+
+double Scene::kernel_radius() const {
+  if (!has_matter()) return 0;
   return kernel == KernelShape::quintic ? 3 * smoothing_length : 2 * smoothing_length;
 }
+
+double Scene::support() const { return std::max(kernel_radius(), largest_diameter()); }
 
 double Scene::list_range() const {
   return support() * (total_lagrangian() ? terms.largest_stretch : largest_growth);

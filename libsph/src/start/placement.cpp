@@ -18,10 +18,57 @@ int painted_group(const Scene& scene, const Double3& x) {
   return -1;
 }
 
+/// How many points of its lattice a fill has along an axis.
+std::int64_t points_of(const GrainFill& fill, std::size_t axis) {
+  return std::max<std::int64_t>(
+      static_cast<std::int64_t>(std::ceil((fill.upper[axis] - fill.lower[axis]) / fill.spacing - 0.5)), 0);
+}
+
+/// Ids of fills follow on those of the lattice, one fill after the other.
+std::uint64_t first_id(const Scene& scene, const GrainFill& fill) {
+  const Lattice lattice(scene);
+  std::uint64_t id = 1;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    id *= static_cast<std::uint64_t>(lattice.count(a));
+  for (const GrainFill& before : scene.start.fills) {
+    if (&before == &fill) break;
+    id += static_cast<std::uint64_t>(points_of(before, 0) * points_of(before, 1) * points_of(before, 2));
+  }
+  return id;
+}
+
+void fill_with_grains(const Scene& scene, const GrainFill& fill, const PositionScale& scale,
+                      Distribution& distribution, Particles& particles) {
+  const InitialFields fields(scene);
+  const decomp::Box own = distribution.own_cells();
+  std::uint64_t id = first_id(scene, fill);
+  decomp::Int3 k{};
+  for (k[2] = 0; k[2] < points_of(fill, 2); ++k[2])
+    for (k[1] = 0; k[1] < points_of(fill, 1); ++k[1])
+      for (k[0] = 0; k[0] < points_of(fill, 0); ++k[0], ++id) {
+        NewParticle p{id, {}, {}, static_cast<std::uint32_t>(fill.group), 0, 0};
+        decomp::Int3 q{};
+        for (std::size_t a = 0; a < 3; ++a) {
+          p.position[a] = fill.lower[a] + (static_cast<double>(k[a]) + 0.5) * fill.spacing;
+          q[a] = scale.quanta(p.position[a]);
+        }
+        q = distribution.grid().wrap(q);
+        if (!own.contains(distribution.grid().cell_of(q))) continue;
+        p.radius = random_radius(scene, p);
+        fields.set(p);
+        append(scene, p, q, particles);
+      }
+}
+
 }  // namespace
 
 void place_particles(const Scene& scene, const PositionScale& scale, Distribution& distribution,
                      Particles& particles) {
+  if (particles.has(Field::radius) && scene.has_matter()) {
+    for (const GrainFill& fill : scene.start.fills)
+      fill_with_grains(scene, fill, scale, distribution, particles);
+    return;
+  }
   if (!scene.start.file.empty()) {
     place_particles_from_file(scene, scale, distribution, particles);
     return;

@@ -25,9 +25,10 @@ inline void append(std::vector<Entry>& entries, Stage stage) {
 
 /// All entries of a step in their order.
 [[nodiscard]] std::vector<const Entry*> entries_of(const Plan& plan);
-/// Bound on any particle's path in the next step, or in some entries of it [m].
-[[nodiscard]] double longest_move(const Plan& plan, const GlobalState& global);
-[[nodiscard]] double longest_move(const std::vector<Entry>& entries, const GlobalState& global);
+/// Bound on the path of any particle of a set in the next step, or in some entries of it [m].
+[[nodiscard]] double longest_move(const Plan& plan, std::size_t set, const GlobalState& global);
+[[nodiscard]] double longest_move(const std::vector<Entry>& entries, std::size_t set,
+                                  const GlobalState& global);
 /// Adds the plan of a model whose particles are those of `set`.
 void append(Plan& plan, Plan more, std::size_t set);
 
