@@ -21,7 +21,7 @@ Grains::Grains(const Scene& scene, const PositionScale& scale)
       scale_(scale),
       wrap_(wrap_of(scene, scale)),
       fusion_(contact_fusion(scene)),
-      lists_(fusion_.history) {
+      lists_(fusion_.parities) {
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
   dt_ = grain_step(scene);
   longest_move_ = longest_grain_move(scene);

@@ -1,5 +1,6 @@
 // Words of the scene's enumerations.
 #include "scene/scene_resolve.hpp"
+#include "sph/contact/law.hpp"
 
 namespace sph {
 
@@ -75,8 +76,12 @@ const Choices<MonitorKind>& monitor_words() {
       {"wall", MonitorKind::wall},         {"contacts", MonitorKind::contacts}};
   return words;
 }
-const Choices<ContactLaw>& contact_law_words() {
-  static const Choices<ContactLaw> words{{"linear", ContactLaw::linear}, {"hertz", ContactLaw::hertz}};
+const Choices<const ContactLaw*>& contact_law_words() {
+  static const Choices<const ContactLaw*> words = [] {
+    Choices<const ContactLaw*> all;
+    for (const ContactLaw* law : contact_laws()) all.emplace_back(law->word, law);
+    return all;
+  }();
   return words;
 }
 
