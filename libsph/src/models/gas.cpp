@@ -8,6 +8,7 @@
 
 #include "physics/gas_kernel.hpp"
 #include "plan/for_rows.hpp"
+#include "sph/eos/ideal_gas.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/gas.hpp"
 #include "sph/terms/shock.hpp"

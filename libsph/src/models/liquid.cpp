@@ -101,7 +101,7 @@ void add_kinematics(Builder& b) {
   const auto movers =
       std::ranges::count_if(s.groups, [](const Group& g) { return g.kind != GroupKind::wall; });
   const bool solid = s.has_kind(GroupKind::solid);
-  const bool single = movers == 1 && !b.has_walls() && !s.has_eos(EosKind::bubbly);
+  const bool single = movers == 1 && !b.has_walls() && !b.fields().has(Field::sound_speed);
   std::vector<Term> terms{slips(s)      ? term<SlippingGradient>
                           : solid       ? term<VelocityGradient>
                           : weighted(s) ? term<WeightedDivergence>

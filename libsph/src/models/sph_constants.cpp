@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "sph/eos/law.hpp"
 #include "sph/kernels.hpp"
 
 namespace sph {
@@ -174,7 +175,7 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
     const std::size_t body = g.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.clamps);
     groups.body.push_back(static_cast<double>(body));
     groups.modulus.push_back(of.groups[body].bulk_modulus + 4.0 / 3.0 * of.groups[body].shear_modulus);
-    bubbly.push_back(bubbly_eos(g, g.gas_content));
+    g.eos->check(g);
   }
   const auto fluid = std::find_if(of.groups.begin(), of.groups.end(),
                                   [](const Group& g) { return g.kind != GroupKind::wall; });

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "plan/for_rows.hpp"
+#include "sph/eos/law.hpp"
 #include "sph/grains.hpp"
 #include "sph/models/models.hpp"
 
@@ -26,6 +27,10 @@ Physics::Physics(const Scene& scene, const PositionScale& scale)
   if (scene.has_eos(EosKind::bubbly))
     builder_.add_fields({Field::sound_speed, Field::void_fraction, Field::gas_content});
   if (gas_) builder_.add_fields({Field::sound_speed, Field::specific_energy});
+  stiffens_ = std::ranges::any_of(scene.groups, [](const Group& g) {
+    return g.eos->kind == EosKind::barotropic && !g.eos->constant_sound;
+  });
+  if (stiffens_) builder_.add_fields({Field::sound_speed});
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
   if (gas_) reach_.emplace(scene);
@@ -51,6 +56,7 @@ void Physics::add_liquids_and_solids() {
   const InterfaceTension& tension = s.terms.surface_tension;
   if (tension.coefficient > 0 && tension.form == TensionForm::jump) add_curvature(builder_);
   add_forces(builder_);
+  add_accelerations(builder_);
   // Only where fluid flies can it come into walls.
   if (walls && fluid && (s.terms.implicit_viscosity || s.free_surface)) {
     add_wall_share(builder_);
@@ -63,17 +69,38 @@ void Physics::add_end_of_step() {
   const Scene& s = *scene_;
   add_kick(builder_);
   if (shifting_) shifting_->add_to(builder_);
+  add_drifts(builder_);
   if (bulk_viscous(s)) add_pressures(builder_);
   if (std::ranges::any_of(s.groups, [](const Group& g) { return g.fragments_to >= 0; }))
     add_fragmentation(builder_);
   if (shifting_) shifting_->add_motion_to(builder_);
   if (gas_) add_heat(builder_);
+  if (stiffens_) add_sound(builder_);
   if (s.output.average_time > 0) add_averages(builder_);
 }
 
 const std::vector<double>& Physics::find_reaches(const Particles& p) {
   return reach_ ? reach_->find(p) : no_reaches_;
 }
+
+namespace {
+
+/// Before there are pressures.
+double fastest_sound(const Scene& scene, const Particles& p) {
+  const double* rho = p.data<Field::density>();
+  const auto* group = p.data<Field::group>();
+  double fastest = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const Group& g = scene.groups[group[i]];
+    if (g.eos->kind != EosKind::barotropic || g.kind == GroupKind::wall) continue;
+    double pressure, sound;
+    g.eos->derive(g, {rho + i, nullptr, nullptr, &pressure, &sound, nullptr, 0}, 0, 1);
+    fastest = larger(sound, fastest);
+  }
+  return fastest;
+}
+
+}  // namespace
 
 StepMaxima Physics::maxima_at_start(Particles& p) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
@@ -86,6 +113,7 @@ StepMaxima Physics::maxima_at_start(Particles& p) const {
     speed2 = v2 > speed2 ? v2 : speed2;
   }
   if (gas_) look_at_gas(constants_, GasView(p), 0, p.owned(), maxima);
+  if (stiffens_) maxima.sound = fastest_sound(*scene_, p);
   maxima.speed = std::sqrt(speed2);
   return maxima;
 }

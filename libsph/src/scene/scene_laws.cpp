@@ -1,4 +1,4 @@
-// Keys of [[group]] that belong to a law, as the law's header declares them.
+// Keys that belong to a law or to a term, as their headers declare them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scene/scene_resolve.hpp"
+#include "sph/added_term.hpp"
 
 namespace sph {
 namespace {
@@ -62,6 +63,19 @@ LawConstants read_law_constants(const TableReader& table, std::string_view choic
                                     : fmt::format("it must be above {} and at most {}", key.above, key.most));
   }
   return values;
+}
+
+void read_added_terms(const TableReader& table, Scene& scene) {
+  const bool has_them = scene.formulation == Formulation::conservative && !scene.total_lagrangian() &&
+                        !scene.has_eos(EosKind::ideal_gas);
+  for (const AddedTerm* t : added_terms()) {
+    table.only_if(has_them, t->word, "it is of liquids and updated-Lagrangian solids");
+    const double strength = table.number(t->word, dimension::none, Bound::not_negative).value_or(0);
+    if (strength > t->most)
+      table.fail(t->word, fmt::format("is {}", strength), fmt::format("it must be 0 to {}", t->most));
+    scene.terms.added.push_back(strength);
+  }
+  if (std::ranges::all_of(scene.terms.added, [](double x) { return x == 0; })) scene.terms.added.clear();
 }
 
 }  // namespace sph

@@ -55,6 +55,8 @@ struct LawWord {
 /// among which `choice` ("contact.law") chooses.
 [[nodiscard]] LawConstants read_law_constants(const TableReader& table, std::string_view choice,
                                               const LawWord& law, const std::vector<LawWord>& all);
+/// Terms that a number in [terms] switches on.
+void read_added_terms(const TableReader& table, Scene& scene);
 /// `"a", "b" or "c"`
 [[nodiscard]] std::string either(const std::vector<std::string>& words);
 
@@ -93,7 +95,7 @@ void read_grain_velocity(const TableReader& table, Start& start);
 [[nodiscard]] const Choices<KernelShape>& kernel_words();
 [[nodiscard]] const Choices<ViscosityForm>& viscosity_words();
 [[nodiscard]] const Choices<GroupKind>& group_kind_words();
-[[nodiscard]] const Choices<EosKind>& eos_words();
+[[nodiscard]] const Choices<const EquationOfState*>& eos_words();
 [[nodiscard]] const Choices<Lagrangian>& lagrangian_words();
 [[nodiscard]] const Choices<RegionShape>& region_words();
 [[nodiscard]] const Choices<LatticeKind>& lattice_words();
