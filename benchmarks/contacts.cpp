@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "program.hpp"
+#include "sph/contact/hertz.hpp"
+#include "sph/contact/linear.hpp"
 #include "sph/contact_pass.hpp"
 #include "sph/error.hpp"
 #include "sph/simulation.hpp"
@@ -72,7 +74,7 @@ int main(int argc, char** argv) {
     Simulation s(comm, read_scene(scene, overrides));
     if (!s.scene().of_grains()) throw InputError(scene + ": is no scene of grains");
     for (int k = 0; k < 20; ++k) s.step();
-    if (s.scene().contact.law == ContactLaw::hertz)
+    if (s.scene().contact.law->word == HertzNormal::word)
       compare<HertzNormal>(s);
     else if (s.scene().contact.normal_damping)
       compare<LinearRate>(s);

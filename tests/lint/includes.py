@@ -26,6 +26,7 @@ HIDDEN = {
 # folder, longest first: what else it may include
 LAYERS = [
     (r"libsph/include/sph/terms/", r"sph/(pair_values|kernels)\.hpp|sph/(materials|terms)/\w+\.hpp"),
+    (r"libsph/include/sph/eos/", r"sph/(law_key|scene|exact_math|error)\.hpp|sph/eos/\w+\.hpp"),
     (r"libsph/include/", r"(decomp|sph)/.*"),
     (r"libsph/src/", r"(decomp|sph|scene|start|pairs|physics|plan|models|grains|output|checkpoint|run)/.*"),
     (r"libdecomp/", r"decomp/.*"),

@@ -7,7 +7,8 @@
 
 #include "sph/contact/contact.hpp"
 #include "sph/contact/friction.hpp"
-#include "sph/contact/normal.hpp"
+#include "sph/contact/hertz.hpp"
+#include "sph/contact/linear.hpp"
 #include "sph/contact/rolling.hpp"
 #include "sph/contact_pass.hpp"
 #include "sph/simd.hpp"
@@ -55,6 +56,7 @@ struct Pair {
   V3 gravity{V::zero(), V::zero(), V::zero()};
   V dt = 1e-3;
   V3 spring{V::zero(), V::zero(), V::zero()}, roll_spring{V::zero(), V::zero(), V::zero()};
+  V memory[Normal::history.size() + 1]{};  ///< of the normal law
   V largest_overlap = V::zero(), largest_force = V::zero(), steps_in_touch = V::zero();
   Contact<V> contact{};
   NormalForce<V> normal{};
@@ -86,13 +88,14 @@ struct Pair {
   /// The contact of the present state; forgets the history of lanes that do not touch.
   Load load() {
     look();
-    normal = Normal::force(contact, k);
+    normal = normal_force<Normal>(contact, k, memory);
     Load out;
     const V touch = contact.overlap;
     V3 tangent{V::zero(), V::zero(), V::zero()}, rolling{V::zero(), V::zero(), V::zero()};
     if constexpr (Friction::history > 0) Friction::force(contact, k, normal, spring, tangent);
     if constexpr (Rolling::history > 0) Rolling::torque(contact, k, normal, roll_spring, rolling);
     cross(contact.normal, tangent, out.twist);
+    for (V& m : memory) m = where_positive(touch, m);
     for (int a = 0; a < 3; ++a) {
       spring[a] = where_positive(touch, spring[a]);
       roll_spring[a] = where_positive(touch, roll_spring[a]);
@@ -135,9 +138,9 @@ struct Pair {
 
 /// Kinetic energy at the time of the forces, and that of the springs: what may only fall. `before`: the pair
 /// before the step that led to `after`.
-template <class P>
-V whole_energy(const P& before, const P& after, bool hertz) {
-  P middle = after;
+template <class Normal, class Friction, class Rolling>
+V whole_energy(const Pair<Normal, Friction, Rolling>& before, const Pair<Normal, Friction, Rolling>& after) {
+  Pair<Normal, Friction, Rolling> middle = after;
   for (int a = 0; a < 3; ++a) {
     middle.i.v[a] = V(0.5) * (before.i.v[a] + after.i.v[a]);
     middle.j.v[a] = V(0.5) * (before.j.v[a] + after.j.v[a]);
@@ -145,7 +148,7 @@ V whole_energy(const P& before, const P& after, bool hertz) {
     middle.j.w[a] = V(0.5) * (before.j.w[a] + after.j.w[a]);
   }
   const V overlap = after.contact.overlap;
-  const V stored = V(hertz ? 0.4 : 0.5) * after.normal.elastic * overlap +
+  const V stored = Normal::energy(after.contact, after.k, after.normal) +
                    V(0.5) * dot(after.spring, after.spring) / max(after.normal.shear_stiffness, V(1e-300));
   return middle.kinetic_energy() + where_positive(overlap, stored);
 }

@@ -32,7 +32,7 @@ inline HertzPair on_plane(const std::array<Impact, 8>& cases, int steps) {
   p.k.stiffness = each([](const Impact& c) { return c.material.contact_modulus(); });
   p.k.shear_stiffness = each([](const Impact& c) { return c.material.contact_shear(); });
   p.k.damping =
-      each([](const Impact& c) { return damping_of(ContactLaw::hertz, false, c.material.restitution); });
+      each([](const Impact& c) { return damping_of(HertzNormal::impact, false, c.material.restitution); });
   p.k.friction = each([](const Impact& c) { return c.material.friction; });
   p.dt = each([&](const Impact& c) {
     return hertz_contact_time(c.material.contact_modulus(), c.radius, c.material.mass(c.radius),

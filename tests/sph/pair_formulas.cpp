@@ -77,6 +77,8 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
                  delta * j.volume * (i.pressure - j.pressure + fluid.density * gravity) /
                      std::sqrt(fluid.bulk_modulus / fluid.density) * slope / r);
     }
+    case key("Xsph"):
+      return vector(Field::added, 0, (j.mover ? j.volume * j.density / rho : 0.0) * (w_ij / h_) * dv);
     case key("Concentration"):
       vector(Field::spread, 0, j.volume * (1 + 0.2 * power(w_ij / w(scene_.spacing, h_), 4)) * grad);
       one(Field::spread, dim_, j.volume * w_ij / h_);

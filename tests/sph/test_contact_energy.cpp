@@ -36,7 +36,7 @@ Pair<Normal> impact(double e, double shear_damping, double friction, double spin
   if (!wall) p.i.w[1] = V(0.7 * spin) / p.i.radius;
   p.k.stiffness = stiffness;
   p.k.shear_stiffness = hertz ? 0.24 * stiffness : 2.0 / 7 * stiffness;
-  p.k.damping = damping_of(hertz ? ContactLaw::hertz : ContactLaw::linear, false, e);
+  p.k.damping = damping_of(Normal::impact, false, e);
   p.k.shear_damping = shear_damping;
   p.k.friction = friction;
   p.dt = (hertz ? hertz_contact_time(stiffness, radius, mass, 1.0) : linear_contact_time(stiffness, mass)) /
@@ -51,7 +51,6 @@ struct Worst {
 
 template <class Normal>
 Worst over_the_grid(double e, double shear_damping) {
-  constexpr bool hertz = std::is_same_v<Normal, HertzNormal>;
   const double unit = 0.5 * 0.01;
   Worst worst;
   for (const bool wall : {true, false})
@@ -63,7 +62,7 @@ Worst over_the_grid(double e, double shear_damping) {
         for (int n = 0; n < 3 * steps_of_contact; ++n) {
           const auto before = p;
           p.step();
-          const V energy = test::whole_energy(before, p, hertz);
+          const V energy = test::whole_energy(before, p);
           rise = max(rise, energy - lowest);
           lowest = min(lowest, energy);
         }

@@ -34,7 +34,7 @@ Pair<Normal, Friction> on_floor() {
 TEST(ContactTimes, Duration) {
   for (const bool pull : {false, true}) {
     auto p = on_floor<LinearNormal>();
-    p.k.damping = lanes([&](int l) { return damping_of(ContactLaw::linear, pull, restitutions[l]); });
+    p.k.damping = lanes([&](int l) { return damping_of(LinearNormal::impact, pull, restitutions[l]); });
     p.k.least_force = pull ? -infinity : 0.0;
     p.j.v[1] = -1.0;
     const double time = linear_contact_time(stiffness, mass);
@@ -120,14 +120,14 @@ TEST(ContactTimes, OverlapAtRest) {
   auto linear = on_floor<LinearNormal>();
   auto hertz = on_floor<HertzNormal>();
   const V weight = lanes([](int l) { return 0.5 * (l + 1); });
-  const auto settle = [&](auto& p, ContactLaw law) {
+  const auto settle = [&](auto& p, const ReducedImpact& law) {
     p.gravity[1] = V::zero() - weight / V(mass);
     p.k.damping = damping_of(law, false, 0.3);
     p.dt = 2e-5;
     p.steps(100000);
   };
-  settle(linear, ContactLaw::linear);
-  settle(hertz, ContactLaw::hertz);
+  settle(linear, LinearNormal::impact);
+  settle(hertz, HertzNormal::impact);
   for (int l = 0; l < V::lanes; ++l) {
     EXPECT_NEAR((radius - linear.j.x[1][l]) / (weight[l] / stiffness), 1, 1e-9);
     const double overlap = std::pow(0.75 * weight[l] / (1e7 * std::sqrt(radius)), 2.0 / 3);
@@ -141,7 +141,7 @@ TEST(ContactTimes, Bounce) {
   const double height = 0.5;
   constexpr double e[8] = {1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.55, 0.5};
   p.k.stiffness = 1e8;
-  p.k.damping = lanes([&](int l) { return damping_of(ContactLaw::hertz, false, e[l]); });
+  p.k.damping = lanes([&](int l) { return damping_of(HertzNormal::impact, false, e[l]); });
   p.gravity[1] = -g;
   p.j.x[1] = radius + height;
   const double speed = std::sqrt(2 * g * height);

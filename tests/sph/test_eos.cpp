@@ -10,7 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "sph/eos.hpp"
+#include "sph/eos/bubbly.hpp"
+#include "sph/eos/ideal_gas.hpp"
 
 namespace {
 

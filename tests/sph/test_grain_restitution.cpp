@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "grain_fixture.hpp"
-#include "sph/contact/restitution.hpp"
+#include "sph/contact/hertz.hpp"
+#include "sph/contact/linear.hpp"
 
 namespace sph {
 namespace {
@@ -94,11 +95,11 @@ TEST(GrainRestitution, HertzAtTheDefaultStep) {
 }
 
 TEST(GrainRestitution, SlopeOfAllRestitutions) {
-  EXPECT_EQ(damping_slope(ContactLaw::linear, false, 1.0), 0.0);
+  EXPECT_EQ(damping_slope(LinearNormal::impact, false, 1.0), 0.0);
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const double e : {1e-300, 1e-9, 1e-4, 1e-3, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.999999})
     for (const bool pull : {false, true})
-      for (const ContactLaw law : {ContactLaw::linear, ContactLaw::hertz}) {
+      for (const ReducedImpact& law : {LinearNormal::impact, HertzNormal::impact}) {
         const double slope = damping_slope(law, pull, e), damping = damping_of(law, pull, e);
         EXPECT_LE(slope, 0) << e;
         EXPECT_GE(slope, -0.5 * damping * damping) << e;

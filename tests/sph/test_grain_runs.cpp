@@ -99,7 +99,7 @@ TEST(GrainRuns, LostHistoryIsMissed) {
   std::vector<std::uint32_t> order(p.owned());
   std::iota(order.begin(), order.end(), 0u);
   const auto lists_with = [&](const decomp::Payload& payload) {
-    ContactLists lists(old.history());
+    ContactLists lists(old.parities());
     lists.build(p, d.grid(), d.own_cells(), d.list_radius(), d.skin(), simulation.scale().quantum,
                 simulation.sets().front().ranges, {false}, planes);
     const ContactCensus found = lists.unpack(p, payload, order, simulation.scale().quantum, planes);

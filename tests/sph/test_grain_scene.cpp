@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sph/contact/law.hpp"
 #include "sph/scene.hpp"
 
 namespace {
@@ -111,10 +112,13 @@ TEST(GrainScene, Defaults) {
   EXPECT_EQ(s.spacing, 1.1 * 0.02);
   EXPECT_EQ(s.decomposition.skin, 0.06);
   EXPECT_FALSE(s.time.dt.has_value());
-  EXPECT_EQ(s.contact, sph::ContactControl{});
+  EXPECT_EQ(s.contact.law->word, "linear");
+  sph::ContactControl plain;
+  plain.law = s.contact.law;
+  EXPECT_EQ(s.contact, plain);
   EXPECT_EQ(s.groups[0].grain.least_radius, 0.01);
   EXPECT_EQ(s.groups[0].grain.largest_radius, 0.01);
-  EXPECT_EQ(s.groups[0].grain.tangential_stiffness, 200);
+  EXPECT_EQ(s.groups[0].grain.constants[1], 200);
   EXPECT_EQ(s.groups[0].grain.friction, 0);
   EXPECT_FALSE(s.groups[0].grain.fixed);
   EXPECT_EQ(s.groups[1].grain.largest_radius, 0);
@@ -135,13 +139,13 @@ TEST(GrainScene, LargestGrainDecides) {
 
 TEST(GrainScene, UnitsGiveTheSameBitsAsTheNumber) {
   const auto stiffness = [](const std::string& value) {
-    return parse(small, {"group.sand.normal_stiffness=" + value}).groups[0].grain.normal_stiffness;
+    return parse(small, {"group.sand.normal_stiffness=" + value}).groups[0].grain.constants[0];
   };
   EXPECT_EQ(stiffness("1 kN/m"), 1000);
   EXPECT_EQ(stiffness("0.7 N/mm"), 700);
   EXPECT_EQ(stiffness("3 kg/s2"), 3);
   EXPECT_EQ(parse(small, {"group.sand.diameter=9.3 mm"}).groups[0].grain.largest_radius, 0.5 * 0.0093);
-  EXPECT_EQ(parse(small, hertz).groups[0].grain.young_modulus, 1e7);
+  EXPECT_EQ(parse(small, hertz).groups[0].grain.constants[0], 1e7);
   const Options undamped{"group.sand.restitution=", "group.glass.restitution="};
   EXPECT_EQ(parse(small, undamped + Options{"contact.normal_damping=50 1/s"}).contact.normal_damping, 50);
   EXPECT_EQ(parse(small, undamped + Options{"contact.normal_damping=2 Hz"}).contact.normal_damping, 2);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sph/eos/bubbly.hpp"
 #include "sph/error.hpp"
 #include "sph/exact_math.hpp"
 #include "start/hydrostatic.hpp"
@@ -57,8 +58,8 @@ steps = 1
 )";
 
 double density(const Group& g, double absolute) {
-  return g.eos == EosKind::bubbly ? bubbly_eos(g, g.gas_content).density(absolute)
-                                  : g.density * (1 + absolute / g.bulk_modulus);
+  return g.eos->kind == EosKind::bubbly ? bubbly_eos(g, g.gas_content).density(absolute)
+                                        : g.density * (1 + absolute / g.bulk_modulus);
 }
 
 TEST(Hydrostatic, Layers_carry_what_lies_above_them_each_by_its_own_equation_of_state) {

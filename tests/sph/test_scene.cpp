@@ -264,7 +264,7 @@ TEST(Scene, IdealGasHasDefaultsOfItsOwn) {
   EXPECT_TRUE(s.has_eos(sph::EosKind::ideal_gas));
   EXPECT_EQ(s.groups[1].bulk_modulus, 1.4 * 2e5);
   EXPECT_EQ(s.groups[0].bulk_modulus, s.groups[1].bulk_modulus);
-  EXPECT_EQ(s.groups[0].eos, sph::EosKind::linear);
+  EXPECT_EQ(s.groups[0].eos, sph::linear_eos());
   EXPECT_EQ(s.terms.density_diffusion, 0);
   EXPECT_EQ(s.terms.artificial_viscosity, 1);
   EXPECT_EQ(s.terms.quadratic_viscosity, 2);

@@ -34,7 +34,8 @@ const Table& factors(Family family) {
        "fluid3d", "viscous3d", "solid3d", "bodies2d", "bodies3d", "gas3d", "blast2d", "blast2d_wide"},
       {"double", "mixed"});
   // Contacts are always computed in double.
-  static const Table grains = table_of({"linear", "hertz", "smooth", "sizes", "glued", "servo"}, {"double"});
+  static const Table grains =
+      table_of({"linear", "hertz", "latched", "smooth", "sizes", "glued", "servo"}, {"double"});
   return family == Family::grains ? grains : sph;
 }
 

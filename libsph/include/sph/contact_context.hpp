@@ -50,4 +50,14 @@ struct ContactSweep {
   std::int64_t created = 0, ended = 0;   ///< contacts, each once a rank that sees it
 };
 
+/// A compiled sweep over blocks of contacts: the laws fused.
+using ContactSweepFunction = void (*)(const ContactContext&, std::span<const ContactBlock>, const RowRanges&,
+                                      ContactSweep&);
+struct ContactFusion {
+  ContactSweepFunction sweep;
+  int history;  ///< doubles a contact carries
+  bool spins;
+  std::span<const Parity> parities;  ///< of the history
+};
+
 }  // namespace sph

@@ -5,7 +5,8 @@
 //
 // The history of a contact lives in the list, beside its pair, oriented as the pair is. At a rebuild it
 // travels with the grains: every owned grain carries an entry for each contact it has, keyed by the partner's
-// id (or the wall's key), with forces and torques as they act on the carrier. It exists exactly while the
+// id (or the wall's key), as the carrier sees it: forces and torques as they act on it (contact/contact.hpp,
+// Parity). It exists exactly while the
 // pair touches: a step ends with grains where the next sweep will find them, so that a pair may have parted
 // since its history was last looked at. Such a history is nobody's any more, near or far; until that sweep it
 // is kept beside the lists, or the state would tell whether lists were rebuilt before it was written.
@@ -20,6 +21,7 @@
 #include "decomp/grid.hpp"
 #include "decomp/memory.hpp"
 #include "decomp/table.hpp"
+#include "sph/contact/contact.hpp"
 #include "sph/neighbour_lists.hpp"
 #include "sph/particles.hpp"
 
@@ -68,8 +70,9 @@ struct ContactCensus {
 
 class ContactLists {
  public:
-  /// `history`: doubles a contact carries.
-  explicit ContactLists(int history) : history_(static_cast<std::size_t>(history)) {}
+  /// `parities`: of the doubles that a contact carries.
+  explicit ContactLists(std::span<const Parity> parities)
+      : parities_(parities.begin(), parities.end()), history_(parities.size()) {}
 
   /// Finds all pairs closer than r_i + r_j + skin, and grains closer than r_i + skin to a wall. Rows of
   /// `fixed` groups do not touch each other or walls.
@@ -98,6 +101,7 @@ class ContactLists {
   [[nodiscard]] static ContactCensus census(const Particles& particles, const decomp::Payload& payload,
                                             int history);
 
+  [[nodiscard]] std::span<const Parity> parities() const { return parities_; }
   [[nodiscard]] int history() const { return static_cast<int>(history_); }
   [[nodiscard]] std::size_t entry_bytes() const { return 8 * (1 + history_); }
   /// Blocks without halo partners come first.
@@ -115,6 +119,7 @@ class ContactLists {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  std::vector<Parity> parities_;
   std::size_t history_;
   std::vector<ContactBlock> blocks_;
   std::size_t interior_blocks_ = 0;

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <span>
 
 #include "sph/contact/contact.hpp"
 #include "sph/contact/friction.hpp"
-#include "sph/contact/normal.hpp"
 #include "sph/contact/rolling.hpp"
 #include "sph/contact_context.hpp"
 #include "sph/fixed_point.hpp"
@@ -30,8 +30,16 @@ struct QuantumSums {
 
 template <class NormalLaw, class FrictionLaw, class RollingLaw, bool one_material, class Sums = QuantumSums>
 struct ContactPass {
-  static constexpr bool spins = FrictionLaw::history + RollingLaw::history > 0;
-  static constexpr int history = FrictionLaw::history + RollingLaw::history;
+  static constexpr int springs = FrictionLaw::history + RollingLaw::history;  // components of history
+  static constexpr bool spins = springs > 0;
+  static constexpr int memories = static_cast<int>(NormalLaw::history.size());
+  static constexpr int history = springs + memories;
+  static constexpr std::array<Parity, static_cast<std::size_t>(history)> parities = [] {
+    std::array<Parity, static_cast<std::size_t>(history)> all{};
+    std::fill_n(all.begin(), springs, Parity::odd);
+    std::copy(NormalLaw::history.begin(), NormalLaw::history.end(), all.begin() + springs);
+    return all;
+  }();
   static constexpr int stride = spins ? 8 : 4;
   static constexpr std::size_t lanes = ContactGroups::lanes;
   using V = Simd<double>;
@@ -95,9 +103,16 @@ struct ContactPass {
     const V gone = V::zero();
     const auto touching = [&](V x) { return where_less(gone, contact.overlap, x); };
     Answer out;
-    const NormalForce<V> normal = NormalLaw::force(contact, k);
-    const V push = touching(normal.force);
     double* stored = list.history.data() + g * history * lanes;
+    V memory[memories > 0 ? memories : 1];
+    for (int m = 0; m < memories; ++m)
+      std::memcpy(&memory[m].v, stored + (springs + m) * lanes, sizeof memory[m].v);
+    const NormalForce<V> normal = normal_force<NormalLaw>(contact, k, memory);
+    for (int m = 0; m < memories; ++m) {
+      const V kept = touching(memory[m]);
+      std::memcpy(stored + (springs + m) * lanes, &kept.v, sizeof kept.v);
+    }
+    const V push = touching(normal.force);
     V t[3] = {gone, gone, gone};
     if constexpr (FrictionLaw::history > 0) {
       V spring[3];

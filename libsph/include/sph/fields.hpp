@@ -55,6 +55,7 @@ enum class Field : std::uint8_t {
   wall_slope,
   curvature_sums,
   curvature,
+  added,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -183,6 +184,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      SumScale::one},
     {Field::curvature, "curvature", "1/m", Type::f64, Shape::scalar, false, false,
      "of the interface with tension nearby, positive where its first fluid is inside; 0 far from it"},
+    {Field::added, "added", "1/m", Type::f64, Shape::vector, false, false,
+     "sum of a term of added_term.hpp, in the unit of the term", SumScale::gradient},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

@@ -7,19 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "sph/law_key.hpp"
+
 namespace sph {
 
 using Double3 = std::array<double, 3>;
 
-enum class ContactLaw { linear, hertz };
+struct ContactLaw;  // contact/law.hpp
 
-/// Of a group with kind = "grain": spheres, or only the material of walls. Which constants are used follows
-/// from the contact law; the others stay 0.
+/// Of a group with kind = "grain": spheres, or only the material of walls.
 struct GrainMaterial {
   double least_radius = 0, largest_radius = 0;  ///< uniform distribution of the radius between them [m]
-  double young_modulus = 0, poisson_ratio = 0;  ///< Hertz [Pa, 1]
-  double normal_stiffness = 0;                  ///< linear: k_n [N/m]
-  double tangential_stiffness = 0;              ///< linear: k_t [N/m], default 2/7 k_n
+  LawConstants constants{};                     ///< of the contact law, in the order of its keys
   double restitution = 1;                       ///< of a head-on impact, 0 < e <= 1
   double friction = 0;                          ///< mu
   double rolling_friction = 0;                  ///< mu_r
@@ -37,7 +36,7 @@ struct ContactPair {
 };
 
 struct ContactControl {
-  ContactLaw law = ContactLaw::linear;
+  const ContactLaw* law = nullptr;       ///< of contact/registry.hpp; of all scenes of grains
   std::optional<double> normal_damping;  ///< linear law: gamma_n [1/s] for all, instead of restitution
   double tangential_damping = 0;         ///< of the tangential dashpot, in normal ones
   double rolling_damping = 0.3;          ///< of the rolling dashpot, in critical ones

@@ -17,15 +17,6 @@
 
 namespace sph {
 
-/// A compiled sweep over blocks of contacts: the laws fused.
-using ContactSweepFunction = void (*)(const ContactContext&, std::span<const ContactBlock>, const RowRanges&,
-                                      ContactSweep&);
-struct ContactFusion {
-  ContactSweepFunction sweep;
-  int history;  ///< doubles a contact carries
-  bool spins;
-};
-
 /// The fusion that a scene needs: normal law, friction, rolling resistance, one material or several.
 [[nodiscard]] ContactFusion contact_fusion(const Scene& scene);
 [[nodiscard]] FieldSet grain_fields(const Scene& scene);

@@ -20,6 +20,10 @@ struct Term {
 template <class T>
 inline constexpr Term term{T::name};
 
+/// What the sum of a term in a pass of its own is (added_term.hpp): an acceleration [m/s^2], with the scale of
+/// a sum of V_j grad W, or a velocity that particles drift with [m/s], with that of a sum of V_j W.
+enum class Effect : std::uint8_t { acceleration, drift };
+
 /// What a term can read of a particle besides its position.
 enum class Value : std::uint8_t {
   velocity,            ///< [m/s]

@@ -64,7 +64,8 @@ class Physics final : public Model {
   void add_end_of_step();
 
   const Scene* scene_;
-  bool gas_;  ///< there is an ideal gas
+  bool gas_;               ///< there is an ideal gas
+  bool stiffens_ = false;  ///< some sound speed grows with the pressure
   SphConstants constants_;
   Materials materials_;
   BodyForces body_forces_;

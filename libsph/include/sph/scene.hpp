@@ -19,7 +19,10 @@ enum class Precision { double_, mixed };
 enum class KernelShape { quintic, wendland_c2, wendland_c4 };
 
 enum class GroupKind { fluid, solid, wall, grain };
-enum class EosKind { linear, bubbly, ideal_gas };
+/// What the pressure depends on besides the density: nothing, the gas content, the internal energy.
+enum class EosKind { barotropic, bubbly, ideal_gas };
+struct EquationOfState;  // eos/law.hpp
+[[nodiscard]] const EquationOfState* linear_eos();
 /// updated: stress follows the rate of strain; total: it is a function of the deformation since the start.
 enum class Lagrangian { updated, total };
 
@@ -27,12 +30,13 @@ enum class Lagrangian { updated, total };
 struct Group {
   std::string name;
   GroupKind kind = GroupKind::fluid;
-  EosKind eos = EosKind::linear;
+  const EquationOfState* eos = linear_eos();
   double density = 0;                                 ///< rho_0 at zero pressure [kg/m^3]
   double bulk_modulus = 0;                            ///< K, or K_l of the liquid [Pa]
   double viscosity = 0;                               ///< eta [Pa s]
   double bulk_viscosity = 0;                          ///< zeta, Ida eq. (9) [Pa s]
   double shear_modulus = 0;                           ///< mu, solids [Pa]; lambda = K - 2/3 mu
+  LawConstants eos_constants{};                       ///< of the equation of state, in the order of its keys
   double heat_ratio = 0;                              ///< gamma of an ideal gas [1]
   double start_pressure = 0;                          ///< of an ideal gas, at rho_0; K = gamma p_0 [Pa]
   double gas_content = 0;                             ///< m, Ida eq. (14) [1]
@@ -138,6 +142,7 @@ struct Terms {
   InterfaceTension surface_tension;
   double hourglass = 0.3;        ///< total-Lagrangian solids: stiffness against hourglass modes / modulus
   double largest_stretch = 1.2;  ///< of their bonds, as far as the lists reach
+  std::vector<double> added;     ///< strengths of the terms of added_term.hpp, in their order; 0: off
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 

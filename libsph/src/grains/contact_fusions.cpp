@@ -1,21 +1,25 @@
-// The explicit list of compiled contact sweeps: a law that is not here is not compiled.
+// The contact laws that are compiled in, and the sweep that a scene needs of them.
 #include <algorithm>
 
-#include "sph/contact_pass.hpp"
+#include "sph/contact/hertz.hpp"
+#include "sph/contact/linear.hpp"
+#include "sph/contact/registry.hpp"
+#include "sph/contact/walton_braun.hpp"
 #include "sph/grains.hpp"
+#include "sph/registry.hpp"
 
 namespace sph {
 namespace {
 
-template <class Normal, class Friction, class Rolling>
-ContactFusion fuse(bool one_material) {
-  using One = ContactPass<Normal, Friction, Rolling, true>;
-  using Several = ContactPass<Normal, Friction, Rolling, false>;
-  return {one_material ? One::run : Several::run, One::history, One::spins};
+/// A law that is not here, and that the program does not add, is none.
+Registry<ContactLaw>& registry() {
+  // The one thing in the library that outlives a scene: filled before the first is read, constant after it.
+  static Registry<ContactLaw> laws(
+      {&entry_of<LinearNormal>(), &entry_of<HertzNormal>(), &entry_of<WaltonBraun>()});
+  return laws;
 }
 
-template <class Normal>
-ContactFusion with_friction(const Scene& scene, bool one_material) {
+Roughness roughness_of(const Scene& scene) {
   bool friction = false, rolling = false;
   for (const Group& g : scene.groups) {
     friction = friction || g.grain.friction > 0;
@@ -25,18 +29,22 @@ ContactFusion with_friction(const Scene& scene, bool one_material) {
     friction = friction || p.friction.value_or(0) > 0;
     rolling = rolling || p.rolling_friction.value_or(0) > 0;
   }
-  if (rolling) return fuse<Normal, Coulomb, RollingSpring>(one_material);
-  if (friction) return fuse<Normal, Coulomb, NoRolling>(one_material);
-  return fuse<Normal, NoFriction, NoRolling>(one_material);
+  return rolling ? Roughness::rolling : friction ? Roughness::sliding : Roughness::smooth;
 }
 
 }  // namespace
 
+std::span<const ContactLaw* const> contact_laws() { return registry().look(); }
+
+void register_contact_law(const ContactLaw& law) { registry().add(law); }
+
+const ContactLaw& contact_law(const Scene& scene) {
+  const ContactLaw& law = *scene.contact.law;
+  return scene.contact.normal_damping ? *law.by_rate : law;
+}
+
 ContactFusion contact_fusion(const Scene& scene) {
-  const bool one_material = scene.groups.size() == 1;
-  if (scene.contact.law == ContactLaw::hertz) return with_friction<HertzNormal>(scene, one_material);
-  if (scene.contact.normal_damping) return with_friction<LinearRate>(scene, one_material);
-  return with_friction<LinearNormal>(scene, one_material);
+  return contact_law(scene).fusion(roughness_of(scene), scene.groups.size() == 1);
 }
 
 FieldSet grain_fields(const Scene& scene) {

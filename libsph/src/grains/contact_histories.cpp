@@ -42,6 +42,9 @@ bool touch(const std::int64_t* a, const std::int64_t* b, double radii, double qu
   return distance2 > 0 && radii - std::sqrt(distance2) > 0;
 }
 
+/// Lists hold a history as it acts on j; i has its own view of it.
+double seen(double value, Parity parity, bool by_i) { return by_i && parity == Parity::odd ? -value : value; }
+
 }  // namespace
 
 double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantum) {
@@ -72,20 +75,20 @@ decomp::Payload ContactLists::pack(const Particles& p) const {
   payload.bytes.resize(payload.offset.back());
   std::vector<std::uint64_t> at(payload.offset.begin(), payload.offset.end() - 1);
   const std::uint64_t* id = p.data<Field::id>();
-  const auto put = [&](std::uint32_t row, std::uint64_t key, const double* history, double sign) {
+  const auto put = [&](std::uint32_t row, std::uint64_t key, const double* history, bool is_i) {
     std::byte* out = payload.bytes.data() + at[row];
     at[row] += entry_bytes();
     std::memcpy(out, &key, sizeof key);
     for (std::size_t c = 0; c < history_; ++c) {
       // + 0: a zero keeps no sign, since which of the two it got depended on the orientation of the pair.
-      const double value = sign * history[c * lanes] + 0.0;
+      const double value = seen(history[c * lanes], parities_[c], is_i) + 0.0;
       std::memcpy(out + 8 * (1 + c), &value, sizeof value);
     }
   };
   each([&](const ContactGroups& g, std::size_t k, std::size_t lane, std::uint32_t i, std::uint32_t j) {
     const double* history = g.history.data() + k * history_ * lanes + lane;
-    put(i, &g == &walls_ ? wall_key | j : id[j], history, -1);
-    if (&g == &pairs_ && j < owned) put(j, id[i], history, 1);
+    put(i, &g == &walls_ ? wall_key | j : id[j], history, true);
+    if (&g == &pairs_ && j < owned) put(j, id[i], history, false);
   });
   for (std::size_t n = 0; n < parted_.size(); ++n) {
     std::memcpy(payload.bytes.data() + at[parted_[n].row], parted_entries_.data() + n * entry_bytes(),
@@ -135,7 +138,7 @@ ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& pa
       for (std::size_t c = 0; c < history_; ++c) {
         double value;
         std::memcpy(&value, payload.bytes.data() + *at + 8 * (1 + c), sizeof value);
-        history[c * lanes] = -value;
+        history[c * lanes] = seen(value, parities_[c], true);
       }
       count(found, id[i], wanted);
       if (both) count(found, wanted, id[i]);

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "sph/contact/friction.hpp"
-#include "sph/contact/normal.hpp"
-#include "sph/contact/rolling.hpp"
-#include "sph/simd.hpp"
+#include "sph/contact/law.hpp"
 
 namespace sph {
 namespace {
 
-using V = Simd<double>;
 constexpr std::size_t lanes = ContactGroups::lanes;
 
 double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -40,7 +36,9 @@ class Enumeration {
         group_(p_.data<Field::group>()),
         planes_(grains_.planes(s.global())),
         quantum_(s.scale().quantum),
-        history_(static_cast<std::size_t>(grains_.lists().history())) {}
+        law_(contact_law(s.scene())),
+        history_(static_cast<std::size_t>(grains_.lists().history())),
+        springs_(history_ - law_.history.size()) {}
 
   [[nodiscard]] std::optional<Found> pair(std::uint32_t i, std::uint32_t j) const {
     if (i == j) return std::nullopt;  // an unused lane
@@ -107,33 +105,28 @@ class Enumeration {
   /// Force and energy of the contact at `lane` of group `g`, by the law that moves it.
   void respond(Found& f, const ContactGroups& list, std::size_t g, std::size_t lane) const {
     const std::span<const double, 8> table = grains_.pair_constants(f.groups[0], f.groups[1]);
-    V row[8];
-    for (std::size_t n = 0; n < 8; ++n) row[n] = table[n];
-    const auto k = ContactConstants<V>::of_row(row, V::zero());
-    Contact<V> contact{};
-    contact.overlap = f.record.overlap;
-    contact.separation = f.separation;
-    contact.radius = f.radius;
-    contact.mass = f.mass;
-    contact.dt = s_.global().dt;
-    const bool hertz = s_.scene().contact.law == ContactLaw::hertz;
-    const NormalForce<V> law = hertz ? HertzNormal::force(contact, k) : LinearNormal::force(contact, k);
-    const double elastic = law.elastic[0], change = law.shear_change[0];
-    f.record.energy = (hertz ? 0.4 : 0.5) * elastic * f.record.overlap;
+    const auto stored = [&](std::size_t c) { return list.history[(g * history_ + c) * lanes + lane]; };
+    std::array<double, most_history> memory{};
+    for (std::size_t m = 0; m < law_.history.size(); ++m)
+      memory[m] = (law_.history[m] == Parity::odd ? f.turn : 1.0) * stored(springs_ + m);
+    const PointForce law = law_.respond({f.record.overlap, f.separation, f.radius, f.mass, s_.global().dt},
+                                        table, memory.data());
+    const double elastic = law.elastic, change = law.shear_change;
+    f.record.energy = law.energy;
     const auto spring = [&](std::size_t first, std::size_t c) {
       // + 0: a zero keeps no sign, since which of the two it got depended on the orientation of the pair.
-      return f.turn * list.history[(g * history_ + first + c) * lanes + lane] + 0.0;
+      return f.turn * stored(first + c) + 0.0;
     };
     const auto add_energy = [&](std::size_t first, double stiffness) {
       const Double3 t{change * spring(first, 0), change * spring(first, 1), change * spring(first, 2)};
       if (stiffness > 0) f.record.energy += 0.5 * dot(t, t) / stiffness;
     };
     Double3 t{};
-    if (history_ >= 3) {
+    if (springs_ >= 3) {
       t = {spring(0, 0), spring(0, 1), spring(0, 2)};
-      add_energy(0, law.shear_stiffness[0]);
+      add_energy(0, law.shear_stiffness);
     }
-    if (history_ >= 6) {
+    if (springs_ >= 6) {
       const double reach = table[5] * f.radius;
       add_energy(3, 2.25 * elastic / f.record.overlap * (reach * reach));  // k_r of contact/rolling.hpp
     }
@@ -152,7 +145,8 @@ class Enumeration {
   const std::uint32_t* group_;
   std::vector<PlaneNow> planes_;
   double quantum_;
-  std::size_t history_;
+  const ContactLaw& law_;
+  std::size_t history_, springs_;
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ Grains::Grains(std::size_t set, const Scene& scene, const PositionScale& scale)
       scale_(scale),
       wrap_(wrap_of(scene, scale)),
       fusion_(contact_fusion(scene)),
-      lists_(fusion_.history),
+      lists_(fusion_.parities),
       alone_(!scene.has_matter()) {
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
   dt_ = grain_step(scene);

@@ -39,23 +39,19 @@ double overdamped(double loss) {
   return 0.5 * (exact_exp(u) + exact_exp(-u));
 }
 
-constexpr double reference_linear = 0.11;  // in sqrt(m/k): the default step of the lightest pair is 0.126
-constexpr double reference_hertz = 0.2;    // in sqrt(m/S) at the largest overlap
-constexpr double least_followed = 1e-3;    // below, grains hardly part, and take ever smaller steps
+constexpr double least_followed = 1e-3;  // below, grains hardly part, and take ever smaller steps
 
-/// Mean speed after over speed before of impacts on a spring of stiffness 1 (Hertz: S = 2 E* sqrt(R x) = 1 at
-/// the largest overlap of an undamped one), mass 1, that begin at all parts of a step.
-double followed_restitution(ContactLaw law, bool pull, double damping, double change, double step) {
+/// Mean speed after over speed before of impacts that begin at all parts of a step.
+double followed_restitution(const ReducedImpact& law, bool pull, double damping, double change, double step) {
   constexpr int phases = 64, longest = 100000;
-  const bool hertz = law == ContactLaw::hertz;
-  const double before = hertz ? std::sqrt(8.0 / 15.0) : 1.0;
+  const double before = std::sqrt(law.speed_square);
   double sum = 0;
   for (int p = 0; p < phases; ++p) {
     double x = (p + 0.5) / phases * before * step, v = before;
     for (int n = 0; n < longest && x > 0; ++n) {
-      const double tangent = hertz ? std::sqrt(x) : 1.0;
+      const double tangent = law.tangent(x);
       const double dashpot = damping * std::sqrt(tangent) + change * step * tangent;
-      const double force = (hertz ? 2.0 / 3.0 : 1.0) * tangent * x + dashpot * v;
+      const double force = law.elastic * tangent * x + dashpot * v;
       if (force > 0 || pull) v -= force * step;
       x += v * step;
     }
@@ -74,17 +70,15 @@ double damping_ratio(bool pull, double restitution) {
   return loss <= 2.0 ? underdamped(loss) : overdamped(loss);
 }
 
-double damping_of(ContactLaw law, bool pull, double restitution) {
-  const double factor = law == ContactLaw::hertz ? 2.0 * std::sqrt(5.0 / 6.0) : 2.0;
-  return factor * damping_ratio(pull, restitution);
+double damping_of(const ReducedImpact& law, bool pull, double restitution) {
+  return 2.0 * std::sqrt(law.damping_square) * damping_ratio(pull, restitution);
 }
 
-double damping_slope(ContactLaw law, bool pull, double restitution) {
+double damping_slope(const ReducedImpact& law, bool pull, double restitution) {
   const double wanted = std::max(restitution, least_followed);
   const double damping = damping_of(law, pull, wanted), half = 0.5 * damping;
   if (damping == 0) return 0.0;
-  const double step = std::min(law == ContactLaw::hertz ? reference_hertz : reference_linear,
-                               std::sqrt(1 + half * half) - half);
+  const double step = std::min(law.reference_step, std::sqrt(1 + half * half) - half);
   const double share = bisect(-0.5, 0.0, false, wanted, [&](double s) {
     return followed_restitution(law, pull, damping, s * damping * damping, step);
   });

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/trace.hpp"
 #include "physics/gas_kernel.hpp"
 #include "plan/for_rows.hpp"
+#include "sph/eos/ideal_gas.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/gas.hpp"
 #include "sph/terms/shock.hpp"
@@ -20,12 +22,6 @@ namespace {
 constexpr double room_to_grow = 1.2;
 // Kernels that grow are not let grow faster than lists and the sums of one step bear.
 constexpr double growth_in_a_step = 0.05;
-
-double trace_of(const double* matrix, std::size_t d) {
-  double t = 0;
-  for (std::size_t a = 0; a < d; ++a) t += matrix[a * (d + 1)];
-  return t;
-}
 
 std::size_t width_of_moments(std::size_t d) { return 2 + d * (d + 1) / 2 + d * d; }
 

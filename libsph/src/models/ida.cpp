@@ -2,6 +2,7 @@
 // walls included; then the force (6) on those that move.
 #include "sph/terms/ida.hpp"
 
+#include "models/trace.hpp"
 #include "sph/models/models.hpp"
 #include "sph/stress_update.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
@@ -46,12 +47,6 @@ struct DensitiesAndStresses {
           s[k] = g.viscosity * (grad[a * d + b] + grad[b * d + a]) + (a == b ? g.bulk_viscosity * div : 0.0);
         }
     }
-  }
-
-  static double trace_of(const double* matrix, std::size_t d) {
-    double t = 0;
-    for (std::size_t a = 0; a < d; ++a) t += matrix[a * (d + 1)];
-    return t;
   }
 };
 

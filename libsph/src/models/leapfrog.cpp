@@ -111,6 +111,16 @@ struct Fragmentation {
   }
 };
 
+struct Sound {
+  static constexpr FieldSet reads{Field::sound_speed};
+  static constexpr FieldSet writes{};
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const double* sound = p.get<Field::sound_speed>();
+    for_movers(step.ranges, [&](std::size_t i) { step.maxima.sound = larger(sound[i], step.maxima.sound); });
+  }
+};
+
 // a += dt/T (f - a), T the time since the start until that is the scene's window: from the plain mean to an
 // exponential one. Nothing reads it but output.
 struct Averages {
@@ -146,6 +156,8 @@ void add_kick(Builder& b) {
 void add_pressures(Builder& b) { b.add_kick("pressures", Pressures{&b.materials()}); }
 
 void add_fragmentation(Builder& b) { b.add_kick("fragmentation", Fragmentation{&b.scene()}); }
+
+void add_sound(Builder& b) { b.add_kick("sound", Sound{}); }
 
 void add_averages(Builder& b) {
   b.add_fields(output_averages);

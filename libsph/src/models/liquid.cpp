@@ -4,6 +4,7 @@
 // (accuracy.md 0.3).
 #include <algorithm>
 
+#include "models/trace.hpp"
 #include "plan/for_rows.hpp"
 #include "sph/models/models.hpp"
 #include "sph/stress_update.hpp"
@@ -19,12 +20,6 @@
 
 namespace sph {
 namespace {
-
-double trace_of(const double* matrix, std::size_t d) {
-  double t = 0;
-  for (std::size_t a = 0; a < d; ++a) t += matrix[a * (d + 1)];
-  return t;
-}
 
 // A flow that disorders its particles seems compressed to their sums of div v, and the shifting that orders
 // them again is in no sum: the mean density of a closed box would rise, or fall, without end. But the box is
@@ -100,7 +95,7 @@ void add_kinematics(Builder& b) {
   const Scene& s = b.scene();
   const auto movers = std::ranges::count_if(s.groups, is_matter);
   const bool solid = s.has_kind(GroupKind::solid);
-  const bool single = movers == 1 && !b.has_walls() && !s.has_eos(EosKind::bubbly);
+  const bool single = movers == 1 && !b.has_walls() && !b.fields().has(Field::sound_speed);
   std::vector<Term> terms{slips(s)      ? term<SlippingGradient>
                           : solid       ? term<VelocityGradient>
                           : weighted(s) ? term<WeightedDivergence>

@@ -1,44 +1,44 @@
 #include "sph/models/materials.hpp"
 
+#include <algorithm>
+
+#include "sph/eos/law.hpp"
+
 namespace sph {
 
+// Rows of one group in a row are one call of its law: particles that are near in space are near in memory.
 template <class V>
 void Materials::derive_into(const V& p, std::size_t first, std::size_t last) const {
   const Scene& scene = *constants_->scene;
-  const double* rho = p.template get<Field::density>();
   const auto* group = p.template get<Field::group>();
-  double* pressure = p.template get<Field::pressure>();
-  double *sound = nullptr, *psi = nullptr;
+  EosRows rows{p.template get<Field::density>(),
+               p.template get<Field::gas_content>(),
+               p.template get<Field::specific_energy>(),
+               p.template get<Field::pressure>(),
+               nullptr,
+               nullptr,
+               scene.surface_pressure};
+  double* sound = nullptr;
   if constexpr (V::writes.has(Field::sound_speed)) {
     sound = p.template get<Field::sound_speed>();
-    psi = p.template get<Field::void_fraction>();
+    rows.void_fraction = p.template get<Field::void_fraction>();
   }
-  const double* gas = p.template get<Field::gas_content>();
-  const double* energy = p.template get<Field::specific_energy>();
-  for (std::size_t i = first; i < last; ++i) {
-    const Group& g = scene.groups[group[i]];
-    if (g.kind == GroupKind::wall && scene.formulation == Formulation::conservative) {
-      if (sound != nullptr) sound[i] = constants_->groups.sound_speed[group[i]];
-      if (psi != nullptr) psi[i] = 0;
-      pressure[i] = 0;  // until it is extrapolated from the fluid; a checkpoint does not have it
-      continue;
+  for (std::size_t begin = first, end; begin < last; begin = end) {
+    end = begin + 1;
+    while (end < last && group[end] == group[begin]) ++end;
+    const Group& g = scene.groups[group[begin]];
+    const bool wall = g.kind == GroupKind::wall && scene.formulation == Formulation::conservative;
+    rows.sound_speed = sound;
+    if (sound != nullptr && (wall || g.eos->constant_sound)) {
+      std::fill(sound + begin, sound + end, constants_->groups.sound_speed[group[begin]]);
+      rows.sound_speed = nullptr;
     }
-    double absolute, c = constants_->groups.sound_speed[group[i]], void_fraction = 0;
-    if (g.eos == EosKind::bubbly) {
-      const BubblyEos eos = gas[i] == g.gas_content ? constants_->bubbly[group[i]] : bubbly_eos(g, gas[i]);
-      absolute = eos.pressure(rho[i]);
-      c = eos.sound_speed(absolute);
-      void_fraction = eos.void_fraction(absolute);
-    } else if (g.eos == EosKind::ideal_gas) {
-      const IdealGas eos{g.heat_ratio};
-      absolute = eos.pressure(rho[i], energy[i]);
-      c = eos.sound_speed(energy[i]);
+    if (wall) {  // until it is extrapolated from the fluid; a checkpoint does not have it
+      std::fill(rows.pressure + begin, rows.pressure + end, 0.0);
+      if (rows.void_fraction != nullptr) std::fill(rows.void_fraction + begin, rows.void_fraction + end, 0.0);
     } else {
-      absolute = g.bulk_modulus * ((rho[i] - g.density) / g.density);
+      g.eos->derive(g, rows, begin, end);
     }
-    pressure[i] = absolute - scene.surface_pressure;
-    if (sound != nullptr) sound[i] = c;
-    if (psi != nullptr) psi[i] = void_fraction;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "sph/eos/law.hpp"
 #include "sph/kernels.hpp"
 
 namespace sph {
@@ -175,7 +176,7 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
     const std::size_t body = g.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.clamps);
     groups.body.push_back(static_cast<double>(body));
     groups.modulus.push_back(of.groups[body].bulk_modulus + 4.0 / 3.0 * of.groups[body].shear_modulus);
-    bubbly.push_back(g.kind == GroupKind::grain ? bubbly_eos(*fluid, 0) : bubbly_eos(g, g.gas_content));
+    if (g.kind != GroupKind::grain) g.eos->check(g);
   }
   groups.surface_tension = of.terms.surface_tension.coefficient;
   terms = {};

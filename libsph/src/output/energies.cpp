@@ -1,25 +1,8 @@
 #include "output/energies.hpp"
 
-#include <cmath>
-
-#include "sph/exact_math.hpp"
+#include "sph/eos/law.hpp"
 
 namespace sph {
-namespace {
-
-/// rho_0/K times the energy of compression per mass: ln(1+s) - s/(1+s), s = rho/rho_0 - 1. The closed form
-/// cancels for small s, where its series sum (-1)^k (k-1)/k s^k is good to rounding.
-double compression(double s) {
-  constexpr double small = 0.03125;
-  constexpr int last_power = 12;
-  if (!(std::fabs(s) < small)) return exact_log(1 + s) - s / (1 + s);
-  double sum = 0;
-  for (int k = last_power; k >= 2; --k) sum = (k % 2 == 0 ? 1.0 : -1.0) * (k - 1) / k + s * sum;
-  return s * s * sum;
-}
-
-}  // namespace
-
 bool is_held(const Group& group) { return group.kind == GroupKind::wall || group.grain.fixed; }
 
 double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t row) {
@@ -28,9 +11,7 @@ double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t 
   const Group& g = scene.groups[of.group(row)];
   const double m = of.mass(row), rho = p.data<Field::density>()[row];
   if (const double* strain = p.data<Field::strain_energy>()) return strain[row];
-  double energy = 0;
-  if (g.eos == EosKind::linear)
-    energy += m * (g.bulk_modulus / g.density) * compression((rho - g.density) / g.density);
+  double energy = m * (g.bulk_modulus / g.density) * g.eos->energy(g, rho);
   if (g.kind != GroupKind::solid || scene.formulation != Formulation::conservative) return energy;
   const std::size_t n = d * (d + 1) / 2;
   const double* s = p.data<Field::stress>() + row * n;

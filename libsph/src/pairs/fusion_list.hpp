@@ -1,9 +1,7 @@
 // The explicit list of compiled fusions, the same for each dimension and precision. A new one is a new line.
 #pragma once
 
-#include "sph/fusions.hpp"
-#include "sph/kernels.hpp"
-#include "sph/pair_pass.hpp"
+#include "sph/fuse.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
 #include "sph/terms/body_contact.hpp"
 #include "sph/terms/bonds.hpp"
@@ -24,28 +22,11 @@
 
 namespace sph {
 
-template <class Kernel>
-inline constexpr KernelShape shape_of = KernelShape::quintic;
-template <>
-inline constexpr KernelShape shape_of<WendlandC2> = KernelShape::wendland_c2;
-template <>
-inline constexpr KernelShape shape_of<WendlandC4> = KernelShape::wendland_c4;
-
 template <class T, int D>
 struct FusionList {
   template <class Kernel, class... Terms>
   static Fusion fuse() {
-    using Pass = PairPass<T, D, Kernel, Terms...>;
-    return {D,
-            sizeof(T) == 4 ? Precision::mixed : Precision::double_,
-            shape_of<Kernel>,
-            {term<Terms>...},
-            Pass::values,
-            Pass::writes,
-            static_cast<int>(Pass::Layout::stride * sizeof(T)),
-            Pass::pack,
-            Pass::repack,
-            Pass::run};
+    return fusion_of<T, D, Kernel, Terms...>();
   }
 
   template <class Kernel>

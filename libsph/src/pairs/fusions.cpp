@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sph/added_term.hpp"
+
 namespace sph {
 
 std::vector<Fusion> fusions_2d_float();
@@ -15,6 +17,7 @@ const std::vector<Fusion>& all_fusions() {
     for (const auto& part :
          {fusions_2d_float(), fusions_2d_double(), fusions_3d_float(), fusions_3d_double()})
       list.insert(list.end(), part.begin(), part.end());
+    for (const AddedTerm* t : added_terms()) list.insert(list.end(), t->fusions.begin(), t->fusions.end());
     return list;
   }();
   return all;

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "sph/eos/law.hpp"
 #include "sph/exact_math.hpp"
 #include "sph/kernels.hpp"
 
@@ -163,7 +164,8 @@ std::vector<Rates> rates_of(const Scene& scene) {
     const double nu = scene.terms.implicit_viscosity ? 0 : g.viscosity / g.density;
     Rates r;
     r.sound = std::sqrt((g.bulk_modulus + (solid ? 4.0 / 3.0 * g.shear_modulus : 0)) / g.density) / h;
-    r.diffusion = solid || g.eos == EosKind::ideal_gas ? 0 : 2 * scene.terms.density_diffusion * r.sound;
+    r.diffusion =
+        solid || g.eos->kind == EosKind::ideal_gas ? 0 : 2 * scene.terms.density_diffusion * r.sound;
     r.artificial = 0.5 * scene.terms.artificial_viscosity * r.sound;
     r.bulk = g.bulk_viscosity / g.density / (h * h);
     if (ida)  // eq. (9) of the velocity gradient: no pairwise viscosity

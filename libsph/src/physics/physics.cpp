@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "plan/for_rows.hpp"
+#include "sph/eos/law.hpp"
 #include "sph/models/models.hpp"
 
 namespace sph {
@@ -22,6 +23,10 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
   if (scene.has_eos(EosKind::bubbly))
     builder_.add_fields({Field::sound_speed, Field::void_fraction, Field::gas_content});
   if (gas_) builder_.add_fields({Field::sound_speed, Field::specific_energy});
+  stiffens_ = std::ranges::any_of(scene.groups, [](const Group& g) {
+    return g.eos->kind == EosKind::barotropic && !g.eos->constant_sound;
+  });
+  if (stiffens_) builder_.add_fields({Field::sound_speed});
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
   if (gas_) reach_.emplace(scene);
@@ -47,6 +52,7 @@ void Physics::add_liquids_and_solids() {
   const InterfaceTension& tension = s.terms.surface_tension;
   if (tension.coefficient > 0 && tension.form == TensionForm::jump) add_curvature(builder_);
   add_forces(builder_);
+  add_accelerations(builder_);
   // Only where fluid flies can it come into walls.
   if (walls && fluid && (s.terms.implicit_viscosity || s.free_surface)) {
     add_wall_share(builder_);
@@ -59,11 +65,13 @@ void Physics::add_end_of_step() {
   const Scene& s = *scene_;
   add_kick(builder_);
   if (shifting_) shifting_->add_to(builder_);
+  add_drifts(builder_);
   if (bulk_viscous(s)) add_pressures(builder_);
   if (std::ranges::any_of(s.groups, [](const Group& g) { return g.fragments_to >= 0; }))
     add_fragmentation(builder_);
   if (shifting_) shifting_->add_motion_to(builder_);
   if (gas_) add_heat(builder_);
+  if (stiffens_) add_sound(builder_);
   if (s.output.average_time > 0) add_averages(builder_);
 }
 

@@ -2,10 +2,30 @@
 #include <array>
 #include <cmath>
 
+#include "plan/for_rows.hpp"
+#include "sph/eos/law.hpp"
 #include "sph/physics.hpp"
 #include "start/start_densities.hpp"
 
 namespace sph {
+namespace {
+
+/// Before there are pressures.
+double fastest_sound(const Scene& scene, const Particles& p) {
+  const double* rho = p.data<Field::density>();
+  const auto* group = p.data<Field::group>();
+  double fastest = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const Group& g = scene.groups[group[i]];
+    if (g.eos->kind != EosKind::barotropic || g.kind == GroupKind::wall) continue;
+    double pressure, sound;
+    g.eos->derive(g, {rho + i, nullptr, nullptr, &pressure, &sound, nullptr, 0}, 0, 1);
+    fastest = larger(sound, fastest);
+  }
+  return fastest;
+}
+
+}  // namespace
 
 double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
   check_start_densities(comm, *scene_, particles);
@@ -28,6 +48,7 @@ StepMaxima Physics::maxima_at_start(Particles& p) const {
     speed2 = v2 > speed2 ? v2 : speed2;
   }
   if (gas_) look_at_gas(constants_, GasView(p), 0, p.owned(), maxima);
+  if (stiffens_) maxima.sound = fastest_sound(*scene_, p);
   maxima.speed = std::sqrt(speed2);
   return maxima;
 }

@@ -7,6 +7,7 @@
 
 #include "run/agree.hpp"
 #include "run/cost.hpp"
+#include "sph/contact/law.hpp"
 #include "sph/monitors.hpp"
 #include "sph/report.hpp"
 
@@ -32,8 +33,7 @@ const char* name_of(Formulation f) { return f == Formulation::ida ? "ida" : "con
 const char* name_of(Precision p) { return p == Precision::mixed ? "mixed" : "double"; }
 
 std::string method_of(const Scene& scene) {
-  if (scene.of_grains())
-    return fmt::format("grains, {} contacts", scene.contact.law == ContactLaw::hertz ? "Hertz" : "linear");
+  if (scene.of_grains()) return fmt::format("grains, {} contacts", scene.contact.law->name);
   return fmt::format("{}, {} pairs", name_of(scene.formulation), name_of(scene.precision));
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sph/eos/law.hpp"
+
 namespace sph {
 namespace {
 
@@ -71,7 +73,8 @@ std::string speed_warnings(const Scene& scene, const std::vector<Height>& height
   const double least = stiff_enough * std::max(start.value, fall);
   for (const Group& g : scene.groups) {
     const double c = sound_speed(g);
-    if (g.kind != GroupKind::fluid || g.eos != EosKind::linear || c >= least * (1 - rounding)) continue;
+    if (g.kind != GroupKind::fluid || g.eos->kind != EosKind::barotropic || c >= least * (1 - rounding))
+      continue;
     out += fmt::format(
         "warning: group.{}: its sound speed of {:.4g} m/s is below {} times {}: set it to {:.4g} m/s or "
         "more\n",

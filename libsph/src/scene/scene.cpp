@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "sph/eos/law.hpp"
+
 namespace sph {
 
 bool Scene::has_matter() const { return has_kind(GroupKind::fluid) || has_kind(GroupKind::solid); }
@@ -38,7 +40,7 @@ bool Scene::has_kind(GroupKind k) const {
 
 bool Scene::has_eos(EosKind kind) const {
   for (const Group& g : groups)
-    if (g.eos == kind) return true;
+    if (g.eos->kind == kind) return true;
   return false;
 }
 

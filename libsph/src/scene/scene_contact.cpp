@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/scene_resolve.hpp"
+#include "sph/contact/law.hpp"
 
 namespace sph {
 namespace {
@@ -48,11 +49,17 @@ ContactPair read_pair(const TableReader& table, const Scene& scene) {
 
 ContactControl read_contact_law(const TableReader& table) {
   ContactControl contact;
-  const std::optional<ContactLaw> law = table.choice("law", contact_law_words());
-  if (!law) table.fail_missing("law", "give \"linear\" or \"hertz\"");
+  std::vector<std::string> laws, by_rate;
+  for (const ContactLaw* law : contact_laws()) {
+    laws.emplace_back(law->word);
+    if (law->by_rate != nullptr) by_rate.emplace_back(law->word);
+  }
+  const std::optional<const ContactLaw*> law = table.choice("law", contact_law_words());
+  if (!law) table.fail_missing("law", "give " + either(laws));
   contact.law = *law;
-  table.only_if(*law == ContactLaw::linear, "normal_damping",
-                "it is of law = \"linear\"; Hertz's takes the restitution of its groups");
+  table.only_if(
+      contact.law->by_rate != nullptr, "normal_damping",
+      fmt::format("it is of law = {}; this one takes the restitution of its groups", either(by_rate)));
   contact.normal_damping = table.number("normal_damping", dimension::rate, Bound::not_negative);
   contact.tangential_damping =
       table.number("tangential_damping", dimension::none, Bound::not_negative).value_or(0);

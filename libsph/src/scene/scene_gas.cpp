@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "scene/scene_resolve.hpp"
+#include "sph/eos/law.hpp"
 
 namespace sph {
 
@@ -71,12 +72,11 @@ void check_ideal_gas(const TableReader& top, const TableReader& domain, const Ta
   if (!scene.has_eos(EosKind::ideal_gas)) return;
   const std::vector<TableReader> groups = top.tables("group", scene_keys::group);
   for (std::size_t k = 0; k < groups.size(); ++k)
-    if (const Group& g = scene.groups[k]; g.kind != GroupKind::wall && g.eos != EosKind::ideal_gas)
-      groups[k].fail(g.kind == GroupKind::solid ? "kind" : "eos",
-                     fmt::format("is \"{}\" beside an ideal gas", g.kind == GroupKind::solid ? "solid"
-                                                                  : g.eos == EosKind::bubbly ? "bubbly"
-                                                                                             : "linear"),
-                     "a scene with ideal gases has no other matter but walls");
+    if (const Group& g = scene.groups[k]; g.kind != GroupKind::wall && g.eos->kind != EosKind::ideal_gas)
+      groups[k].fail(
+          g.kind == GroupKind::solid ? "kind" : "eos",
+          fmt::format("is \"{}\" beside an ideal gas", g.kind == GroupKind::solid ? "solid" : g.eos->word),
+          "a scene with ideal gases has no other matter but walls");
   if (scene.formulation == Formulation::ida)
     top.fail("formulation", "is \"ida\"", "it has no energy equation, which an ideal gas needs");
   if (scene.start.pressure == InitialPressure::hydrostatic)

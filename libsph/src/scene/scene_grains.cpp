@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/scene_resolve.hpp"
+#include "sph/contact/law.hpp"
 #include "sph/grain_mass.hpp"
 
 namespace sph {
@@ -55,33 +56,10 @@ void read_body(const TableReader& table, Group& group) {
   group.wall_velocity = table.vector("velocity", dimension::speed, 3).value_or(Double3{});
 }
 
-void read_hertz(const TableReader& table, GrainMaterial& g) {
-  g.young_modulus = table.required_number("young_modulus", dimension::pressure, Bound::positive);
-  g.poisson_ratio = table.required_number("poisson_ratio", dimension::none, Bound::any);
-  if (!(g.poisson_ratio > -1 && g.poisson_ratio <= 0.5))
-    table.fail("poisson_ratio", fmt::format("is {}", g.poisson_ratio), "it must be above -1 and at most 0.5");
-}
-
-void read_springs(const TableReader& table, GrainMaterial& g) {
-  g.normal_stiffness = table.required_number("normal_stiffness", dimension::stiffness, Bound::positive);
-  // 2/7: both springs of an impact then swing back together.
-  g.tangential_stiffness = table.number("tangential_stiffness", dimension::stiffness, Bound::positive)
-                               .value_or(2 * (g.normal_stiffness / 7));
-  if (!(g.tangential_stiffness > 0))
-    table.fail("normal_stiffness", "is below the range of numbers", "check its unit");
-}
-
 void read_contact_material(const TableReader& table, GrainMaterial& g, const ContactControl& contact) {
-  const bool hertz = contact.law == ContactLaw::hertz;
-  for (const std::string_view key : {"young_modulus", "poisson_ratio"})
-    table.only_if(hertz, key, "it is of contact.law = \"hertz\"; the linear law takes normal_stiffness");
-  for (const std::string_view key : {"normal_stiffness", "tangential_stiffness"})
-    table.only_if(!hertz, key,
-                  "it is of contact.law = \"linear\"; Hertz's takes young_modulus and poisson_ratio");
-  if (hertz)
-    read_hertz(table, g);
-  else
-    read_springs(table, g);
+  std::vector<LawWord> laws;
+  for (const ContactLaw* law : contact_laws()) laws.push_back({law->word, law->keys});
+  g.constants = read_law_constants(table, "contact.law", {contact.law->word, contact.law->keys}, laws);
   table.only_if(!contact.normal_damping, "restitution", "contact.normal_damping stands instead of it");
   if (!contact.normal_damping) {
     g.restitution = table.required_number("restitution", dimension::none, Bound::positive);

@@ -9,13 +9,14 @@
 
 #include "scene/nearest.hpp"
 #include "scene/scene_resolve.hpp"
+#include "sph/eos/law.hpp"
 
 namespace sph {
 namespace {
 
 /// Elastic constants: K from the sound speed, mu from Poisson's ratio, as the paper's readers know them.
 void read_stiffness(const TableReader& table, Group& group, const Group* like) {
-  if (group.eos == EosKind::ideal_gas) return read_ideal_gas(table, group);
+  if (group.eos->kind == EosKind::ideal_gas) return read_ideal_gas(table, group);
   for (const std::string_view key : {"heat_ratio", "start_pressure"})
     table.only_if(false, key, "only groups with eos = \"ideal_gas\" have it");
   table.not_both("bulk_modulus", "sound_speed");
@@ -53,7 +54,7 @@ void read_stiffness(const TableReader& table, Group& group, const Group* like) {
 }
 
 void read_gas(const TableReader& table, Group& group) {
-  const bool bubbly = group.eos == EosKind::bubbly;
+  const bool bubbly = group.eos->kind == EosKind::bubbly;
   for (const std::string_view key :
        {"gas_content", "gas_rt", "solubility_pressure", "solubility_exponent", "fragmentation"})
     table.only_if(bubbly, key, "only groups with eos = \"bubbly\" have it");
@@ -78,15 +79,18 @@ Group read_material(const TableReader& table, const std::string& name, GroupKind
   for (const std::string_view key : {"diameter", "young_modulus", "normal_stiffness", "tangential_stiffness",
                                      "restitution", "friction", "rolling_friction", "fixed"})
     table.only_if(false, key, "only groups with kind = \"grain\" have it");
-  group.eos = table.choice("eos", eos_words()).value_or(EosKind::linear);
-  if (kind != GroupKind::fluid && group.eos != EosKind::linear)
+  group.eos = table.choice("eos", eos_words()).value_or(linear_eos());
+  if (kind != GroupKind::fluid && group.eos != linear_eos())
     table.fail("eos", fmt::format("is \"{}\"", *table.text("eos")),
-               "only groups with kind = \"fluid\" hold gas");
+               "only groups with kind = \"fluid\" have another than the linear law");
   if (like == nullptr)
     group.density = table.required_number("density", dimension::density, Bound::positive);
   else
     group.density = table.number("density", dimension::density, Bound::positive).value_or(like->density);
   read_stiffness(table, group, like);
+  std::vector<LawWord> laws;
+  for (const EquationOfState* law : equations_of_state()) laws.push_back({law->word, law->keys});
+  group.eos_constants = read_law_constants(table, "eos", {group.eos->word, group.eos->keys}, laws);
   const auto viscosity = [&](std::string_view key, double fallback) {
     return table.number(key, dimension::viscosity, Bound::not_negative).value_or(fallback);
   };

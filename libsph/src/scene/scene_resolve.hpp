@@ -1,6 +1,7 @@
 // The steps from a TOML tree to a Scene, one per table; scene_toml.cpp calls them in order.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,20 @@ struct SharedTables {
 /// Refuses what has a meaning in the other sort of scene only.
 void refuse_foreign_keys(const SharedTables& tables, bool grains);
 
+/// A law as the reader sees it.
+struct LawWord {
+  std::string_view word;
+  std::span<const LawKey> keys;
+};
+/// The constants of a law, from its keys in a [[group]]; refuses those that only other laws of its sort have,
+/// among which `choice` ("contact.law") chooses.
+[[nodiscard]] LawConstants read_law_constants(const TableReader& table, std::string_view choice,
+                                              const LawWord& law, const std::vector<LawWord>& all);
+/// Terms that a number in [terms] switches on.
+void read_added_terms(const TableReader& table, Scene& scene);
+/// `"a", "b" or "c"`
+[[nodiscard]] std::string either(const std::vector<std::string>& words);
+
 /// [contact] but for its pairs, which name groups; the materials of grains depend on the law.
 [[nodiscard]] ContactControl read_contact_law(const TableReader& table);
 [[nodiscard]] std::vector<Group> read_grain_groups(const TableReader& top, const ContactControl& contact);
@@ -80,14 +95,14 @@ void read_grain_velocity(const TableReader& table, Start& start);
 [[nodiscard]] const Choices<KernelShape>& kernel_words();
 [[nodiscard]] const Choices<ViscosityForm>& viscosity_words();
 [[nodiscard]] const Choices<GroupKind>& group_kind_words();
-[[nodiscard]] const Choices<EosKind>& eos_words();
+[[nodiscard]] const Choices<const EquationOfState*>& eos_words();
 [[nodiscard]] const Choices<Lagrangian>& lagrangian_words();
 [[nodiscard]] const Choices<RegionShape>& region_words();
 [[nodiscard]] const Choices<LatticeKind>& lattice_words();
 [[nodiscard]] const Choices<CutRule>& cut_rule_words();
 [[nodiscard]] const Choices<CostSource>& cost_words();
 [[nodiscard]] const Choices<MonitorKind>& monitor_words();
-[[nodiscard]] const Choices<ContactLaw>& contact_law_words();
+[[nodiscard]] const Choices<const ContactLaw*>& contact_law_words();
 
 /// True if the start leaves a surface where matter meets nothing: an empty lattice point inside, or movers at
 /// an edge that is neither periodic nor walled. Large lattices are sampled.

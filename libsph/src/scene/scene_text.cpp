@@ -4,6 +4,8 @@
 #include <cstddef>
 
 #include "scene/scene_writer.hpp"
+#include "sph/added_term.hpp"
+#include "sph/eos/law.hpp"
 
 namespace sph {
 namespace {
@@ -14,14 +16,15 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
   out.text("kind", word(group_kind_words(), g.kind));
   out.text("eos", word(eos_words(), g.eos));
   out.number("density", g.density);
-  if (g.eos == EosKind::ideal_gas) {
+  if (g.eos->kind == EosKind::ideal_gas) {
     out.number("heat_ratio", g.heat_ratio);
     out.number("start_pressure", g.start_pressure);
   } else {
     out.number("bulk_modulus", g.bulk_modulus);
   }
+  for (std::size_t k = 0; k < g.eos->keys.size(); ++k) out.number(g.eos->keys[k].name, g.eos_constants[k]);
   out.number("viscosity", g.viscosity);
-  if (g.eos != EosKind::ideal_gas) out.number("bulk_viscosity", g.bulk_viscosity);
+  if (g.eos->kind != EosKind::ideal_gas) out.number("bulk_viscosity", g.bulk_viscosity);
   if (g.kind == GroupKind::solid) {
     out.number("shear_modulus", g.shear_modulus);
     out.text("lagrangian", word(lagrangian_words(), g.lagrangian));
@@ -32,7 +35,7 @@ void write_group(SceneWriter& out, const Scene& scene, const Group& g) {
     out.flag("slip", true);
   else if (g.kind == GroupKind::wall)
     out.vector("velocity", g.wall_velocity);
-  if (g.eos != EosKind::bubbly) return;
+  if (g.eos->kind != EosKind::bubbly) return;
   out.number("gas_content", g.gas_content);
   out.number("gas_rt", g.gas_rt);
   out.number("solubility_pressure", g.solubility_pressure);
@@ -148,6 +151,8 @@ void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
     return;
   }
   out.text("viscosity", word(viscosity_words(), scene.terms.viscosity));
+  for (std::size_t k = 0; k < scene.terms.added.size(); ++k)
+    if (scene.terms.added[k] > 0) out.number(added_terms()[k]->word, scene.terms.added[k]);
   if (scene.has_kind(GroupKind::solid)) return;
   out.flag("implicit_viscosity", scene.terms.implicit_viscosity);
   if (scene.terms.implicit_viscosity) out.number("viscosity_tolerance", scene.terms.viscosity_tolerance);

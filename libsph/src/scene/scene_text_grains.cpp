@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "scene/scene_writer.hpp"
+#include "sph/contact/law.hpp"
 
 namespace sph {
 namespace {
@@ -47,13 +48,8 @@ void write_material(SceneWriter& out, const Group& group, const ContactControl& 
   out.text("kind", word(group_kind_words(), group.kind));
   if (group.density > 0) out.number("density", group.density);
   if (g.largest_radius > 0) write_size(out, group);
-  if (contact.law == ContactLaw::hertz) {
-    out.number("young_modulus", g.young_modulus);
-    out.number("poisson_ratio", g.poisson_ratio);
-  } else {
-    out.number("normal_stiffness", g.normal_stiffness);
-    out.number("tangential_stiffness", g.tangential_stiffness);
-  }
+  for (std::size_t k = 0; k < contact.law->keys.size(); ++k)
+    out.number(contact.law->keys[k].name, g.constants[k]);
   if (!contact.normal_damping) out.number("restitution", g.restitution);
   out.number("friction", g.friction);
   out.number("rolling_friction", g.rolling_friction);

@@ -200,6 +200,7 @@ void read_terms(const TableReader& table, Scene& scene) {
   refuse(terms.shifting, "shifting");
   refuse(table.has("viscosity"), "viscosity");
   read_bonds(table, scene);
+  read_added_terms(table, scene);
   table.finish();
 }
 

@@ -1,5 +1,7 @@
 // Words of the scene's enumerations.
 #include "scene/scene_resolve.hpp"
+#include "sph/contact/law.hpp"
+#include "sph/eos/law.hpp"
 
 namespace sph {
 
@@ -39,9 +41,12 @@ const Choices<GroupKind>& group_kind_words() {
                                         {"grain", GroupKind::grain}};
   return words;
 }
-const Choices<EosKind>& eos_words() {
-  static const Choices<EosKind> words{
-      {"linear", EosKind::linear}, {"bubbly", EosKind::bubbly}, {"ideal_gas", EosKind::ideal_gas}};
+const Choices<const EquationOfState*>& eos_words() {
+  static const Choices<const EquationOfState*> words = [] {
+    Choices<const EquationOfState*> all;
+    for (const EquationOfState* law : equations_of_state()) all.emplace_back(law->word, law);
+    return all;
+  }();
   return words;
 }
 const Choices<Lagrangian>& lagrangian_words() {
@@ -75,8 +80,12 @@ const Choices<MonitorKind>& monitor_words() {
       {"wall", MonitorKind::wall},         {"contacts", MonitorKind::contacts}};
   return words;
 }
-const Choices<ContactLaw>& contact_law_words() {
-  static const Choices<ContactLaw> words{{"linear", ContactLaw::linear}, {"hertz", ContactLaw::hertz}};
+const Choices<const ContactLaw*>& contact_law_words() {
+  static const Choices<const ContactLaw*> words = [] {
+    Choices<const ContactLaw*> all;
+    for (const ContactLaw* law : contact_laws()) all.emplace_back(law->word, law);
+    return all;
+  }();
   return words;
 }
 

@@ -9,6 +9,9 @@
 #include <stdexcept>
 
 #include "scene/nearest.hpp"
+#include "sph/added_term.hpp"
+#include "sph/contact/law.hpp"
+#include "sph/eos/law.hpp"
 
 namespace sph {
 
@@ -27,13 +30,29 @@ std::string join_path(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
+/// The keys of a table, with those that laws and terms have brought (law_key.hpp, added_term.hpp).
+std::vector<std::string> keys_of(const KeyTable& table) {
+  std::vector<std::string> keys(table.keys.begin(), table.keys.end());
+  const auto add = [&](std::span<const LawKey> own) {
+    for (const LawKey& key : own)
+      if (std::ranges::find(keys, key.name) == keys.end()) keys.emplace_back(key.name);
+  };
+  if (table.name == scene_keys::group.name) {
+    for (const ContactLaw* law : contact_laws()) add(law->keys);
+    for (const EquationOfState* law : equations_of_state()) add(law->keys);
+  }
+  if (table.name == scene_keys::terms.name)
+    for (const AddedTerm* t : added_terms()) keys.emplace_back(t->word);
+  return keys;
+}
+
 /// Where a misplaced key belongs, or the nearest key of its own table.
 std::string key_advice(const std::string& key, const KeyTable& own) {
-  const std::vector<std::string> words(own.keys.begin(), own.keys.end());
+  const std::vector<std::string> words = keys_of(own);
   const std::string near = nearest(key, words);
   if (near.empty())
     for (const KeyTable& other : scene_keys::all)
-      if (std::find(other.keys.begin(), other.keys.end(), key) != other.keys.end())
+      if (std::ranges::count(keys_of(other), key) > 0)
         return other.name.empty() ? std::string("it belongs above the first table")
                                   : fmt::format("it belongs to [{}]", other.name);
   return suggestion(key, words);
@@ -45,13 +64,14 @@ TableReader::TableReader(const Node& node, std::string path, const KeyTable& key
     : node_(&node), path_(std::move(path)), keys_(keys) {
   if (node.table() == nullptr)
     toml_tree::fail(node.where, path_, fmt::format("is {}", type_name(node)), "it must be a table");
+  const std::vector<std::string> known = keys_of(keys_);
   for (const toml_tree::Entry& e : *node.table())
-    if (std::find(keys_.keys.begin(), keys_.keys.end(), e.key) == keys_.keys.end())
+    if (std::ranges::find(known, e.key) == known.end())
       toml_tree::fail(e.where, join_path(path_, shown(e.key)), "unknown key", key_advice(e.key, keys_));
 }
 
 const Node* TableReader::find(std::string_view key) const {
-  if (std::find(keys_.keys.begin(), keys_.keys.end(), key) == keys_.keys.end())
+  if (std::ranges::count(keys_of(keys_), key) == 0)
     throw std::logic_error(fmt::format("key {} is read but not listed in scene_keys.hpp", key));
   used_.emplace(key);
   return node_->find(key);

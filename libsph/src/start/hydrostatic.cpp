@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sph/error.hpp"
-#include "sph/exact_math.hpp"
 
 namespace sph {
 
@@ -21,16 +20,15 @@ HydrostaticColumn::HydrostaticColumn(const Scene& scene)
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const Group& fluid = scene.groups[static_cast<std::size_t>(layers[k].group)];
     const double bottom = k + 1 < layers.size() ? layers[k + 1].top : lowest;
-    Part part{&fluid, layers[k].top, pressure, {}};
-    if (fluid.eos == EosKind::bubbly) {
-      part.eos = bubbly_eos(fluid, fluid.gas_content);
+    Part part{&fluid, layers[k].top, pressure};
+    if (fluid.eos->pressure_below == nullptr) {
       part.below.push_back(pressure + surface_pressure_);
-      if (!(part.below.back() > 0))
+      if (fluid.eos->needs_pressure && !(part.below.back() > 0))
         throw InputError(scene.file + ": start.pressure: the layer \"" + fluid.name +
                          "\" begins without pressure, where it is all gas; give domain.surface_pressure");
       const auto nodes = static_cast<std::size_t>(std::max(0.0, (layers[k].top - bottom) / step_));
       for (std::size_t n = 0; n < nodes; ++n)
-        part.below.push_back(descend(*part.eos, part.below.back(), step_));
+        part.below.push_back(descend(*part.fluid, part.below.back(), step_));
     }
     parts_.push_back(std::move(part));
     pressure = at_depth(parts_.back(), layers[k].top - bottom);
@@ -51,25 +49,23 @@ double HydrostaticColumn::operator()(const Double3& x) const {
 }
 
 double HydrostaticColumn::at_depth(const Part& part, double depth) const {
-  if (part.eos) {
+  const Group& fluid = *part.fluid;
+  if (fluid.eos->pressure_below == nullptr) {
     const double nodes = static_cast<double>(part.below.size() - 1);
     const double node = std::clamp(std::floor(depth / step_), 0.0, nodes);
     double p = part.below[static_cast<std::size_t>(node)], rest = depth - node * step_;
-    for (; rest > step_; rest -= step_) p = descend(*part.eos, p, step_);  // below the domain
-    return descend(*part.eos, p, rest) - surface_pressure_;
+    for (; rest > step_; rest -= step_) p = descend(*part.fluid, p, step_);  // below the domain
+    return descend(*part.fluid, p, rest) - surface_pressure_;
   }
-  // rho = rho_0 (1 + p/K): p = (K + p_top) (exp(rho_0 g d / K) - 1) + p_top
-  const Group& f = *part.fluid;
-  return part.pressure + (f.bulk_modulus + surface_pressure_ + part.pressure) *
-                             (exact_exp(f.density * gravity_ * depth / f.bulk_modulus) - 1);
+  return fluid.eos->pressure_below(fluid, {part.pressure, surface_pressure_, gravity_, depth});
 }
 
 // Eight steps of the classical Runge-Kutta method for a way of one spacing or less: 1e-10 of the pressure,
 // unless it doubles within a spacing.
-double HydrostaticColumn::descend(const BubblyEos& eos, double p, double way) const {
+double HydrostaticColumn::descend(const Group& fluid, double p, double way) const {
   constexpr int steps = 8;
   const double dd = way / steps;
-  const auto slope = [&](double pressure) { return eos.density(pressure) * gravity_; };
+  const auto slope = [&](double pressure) { return fluid.eos->density(fluid, pressure) * gravity_; };
   for (int k = 0; k < steps; ++k) {
     const double k1 = slope(p), k2 = slope(p + 0.5 * dd * k1), k3 = slope(p + 0.5 * dd * k2),
                  k4 = slope(p + dd * k3);

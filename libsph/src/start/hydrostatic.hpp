@@ -1,12 +1,10 @@
 // Pressure of still layers under their own weight: dp/dd = rho(p) g along the depth d, each layer with its
-// own equation of state. Closed form where rho is linear in p; of bubbly magma a table of Runge-Kutta steps
-// of fixed length, so that the pressure at a point depends on nothing but the scene.
+// own equation of state. Closed form where the law has one; else a table of Runge-Kutta steps of fixed length, so that the pressure at a point depends on nothing but the scene.
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "sph/eos.hpp"
+#include "sph/eos/law.hpp"
 #include "sph/scene.hpp"
 
 namespace sph {
@@ -14,7 +12,7 @@ namespace sph {
 class HydrostaticColumn {
  public:
   /// Of scene.start.layers, which must not be empty, in a scene with gravity. Throws InputError where a layer
-  /// of bubbly magma begins without pressure: it would be all gas.
+  /// that needs pressure begins without pressure: it would be all gas.
   explicit HydrostaticColumn(const Scene& scene);
 
   /// At a point [m], above the surface pressure [Pa].
@@ -23,13 +21,13 @@ class HydrostaticColumn {
  private:
   struct Part {
     const Group* fluid;
-    double top;                      ///< height [m]
-    double pressure;                 ///< there, above the surface pressure [Pa]
-    std::optional<BubblyEos> eos;    ///< of bubbly magma
-    std::vector<double> below = {};  ///< ... absolute pressures every `step_` from the top on [Pa]
+    double top;       ///< height [m]
+    double pressure;  ///< there, above the surface pressure [Pa]
+    /// Where the law has no closed form: absolute pressures every `step_` from the top on [Pa].
+    std::vector<double> below = {};
   };
   [[nodiscard]] double at_depth(const Part& part, double depth) const;
-  [[nodiscard]] double descend(const BubblyEos& eos, double pressure, double way) const;
+  [[nodiscard]] double descend(const Group& fluid, double pressure, double way) const;
 
   [[nodiscard]] double height(const Double3& x) const;  ///< against gravity [m]
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "physics/random.hpp"
-#include "sph/eos.hpp"
+#include "sph/eos/law.hpp"
 #include "sph/exact_math.hpp"
 #include "sph/grain_mass.hpp"
 
@@ -64,15 +64,9 @@ void InitialFields::set(NewParticle& p) const {
     p.density = g.density;
     p.velocity = g.wall_velocity;
   } else {
-    const double above_surface = pressure(x), absolute = above_surface + scene.surface_pressure;
-    if (g.eos == EosKind::bubbly)
-      p.density = bubbly_eos(g, g.gas_content).density(absolute);
-    else if (g.eos == EosKind::ideal_gas)
-      p.density = g.density;
-    else
-      p.density = g.density * (1 + absolute / g.bulk_modulus);
-    if (g.eos == EosKind::ideal_gas)
-      p.energy = IdealGas{g.heat_ratio}.energy(g.start_pressure + above_surface, g.density);
+    const EosStart start = g.eos->start(g, pressure(x), scene.surface_pressure);
+    p.density = start.density;
+    p.energy = start.specific_energy;
     if (g.kind == GroupKind::wall) {
       p.velocity = g.wall_velocity;
     } else if (scene.start.velocity == InitialVelocity::uniform) {

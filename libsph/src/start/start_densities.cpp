@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sph/eos/law.hpp"
 #include "sph/error.hpp"
 #include "sph/findings.hpp"
 
@@ -16,9 +17,7 @@ bool is_near(double value, double usual) { return value <= most * usual && value
 
 std::string advice(const Group& g, double density) {
   if (density > 0) return fmt::format("it must be within 1e-6 to 1e6 of the group's {:.6g}", g.density);
-  if (g.eos == EosKind::bubbly)
-    return "without pressure bubbly magma is all gas: raise domain.surface_pressure";
-  return "raise the group's bulk_modulus or sound_speed, or the least pressure of the start";
+  return std::string(g.eos->remedy);
 }
 
 }  // namespace
@@ -33,7 +32,7 @@ void check_start_densities(const decomp::Comm& comm, const Scene& scene, const P
     const Group& g = scene.groups[particles.data<Field::group>()[i]];
     const std::uint64_t id = particles.data<Field::id>()[i];
     const double usual = g.density * volume;
-    const bool summed = g.eos == EosKind::ideal_gas;  // the density of a gas: later
+    const bool summed = g.eos->kind == EosKind::ideal_gas;  // the density of a gas: later
     if ((summed || is_near(density[i], g.density)) && is_near(mass[i], usual)) continue;
     found.add(id, [&] {
       const std::string who = fmt::format("start: particle {} of group {} would have a ", id, g.name);

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "sph/eos/law.hpp"
+
 namespace sph {
 namespace {
 
@@ -77,7 +79,8 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
     fail_row(rows, k, fmt::format("mass is {}; it must be positive", rows.mass[k]));
   if (!rows.gas.empty() && !(rows.gas[k] >= 0 && rows.gas[k] < 1))
     fail_row(rows, k, fmt::format("m is {}; it must be at least 0 and below 1", rows.gas[k]));
-  if (!rows.energy.empty() && scene.groups[rows.group[k]].eos == EosKind::ideal_gas && !(rows.energy[k] > 0))
+  if (!rows.energy.empty() && scene.groups[rows.group[k]].eos->kind == EosKind::ideal_gas &&
+      !(rows.energy[k] > 0))
     fail_row(rows, k, fmt::format("u is {}; it must be positive", rows.energy[k]));
   check_radius(rows, k, scene.groups[rows.group[k]]);
   // Far outside, the coordinate in quanta would overflow.

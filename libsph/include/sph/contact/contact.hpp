@@ -1,7 +1,10 @@
 // What a contact law sees of two touching spheres, or of a sphere and a wall, and what it answers. Oriented
-// from i to j; every law is exactly odd under the exchange of i and j (forces, torques and history change
-// sign, bit for bit), so both owners of a pair across ranks compute the same contact.
+// from i to j; every law is exactly odd under the exchange of i and j (forces and torques change sign, bit
+// for bit, and a history by its parity), so both owners of a pair across ranks compute the same contact.
 #pragma once
+
+#include <array>
+#include <cstdint>
 
 namespace sph {
 
@@ -21,9 +24,9 @@ struct Contact {
 /// Constants of a pair of materials; which of them mean what is said by the laws.
 template <class V>
 struct ContactConstants {
-  V stiffness;         ///< linear: k_n [N/m]; Hertz: E* [Pa]
+  V stiffness;         ///< linear: k_n [N/m]; Hertz: E* [Pa]; Walton-Braun: k_2 [N/m]
   V shear_stiffness;   ///< linear: k_t [N/m]; Hertz: G* [Pa]
-  V damping;           ///< dimensionless, from the restitution; LinearRate: gamma_n [1/s]
+  V damping;           ///< of the normal law, by which it loses energy: see there
   V shear_damping;     ///< of the normal dashpot, 0 to 1
   V friction;          ///< mu
   V rolling_friction;  ///< mu_r
@@ -46,5 +49,19 @@ struct NormalForce {
   V shear_change;     ///< k_t (and k_r) now / a step ago where it fell, else 1
   V dashpot;          ///< coefficient of the normal dashpot [kg/s]
 };
+
+/// What a component of a contact's history becomes when its partners are exchanged: forces and torques turn
+/// their sign (springs, as they act on their carrier), scalars of the contact do not (a largest overlap).
+enum class Parity : std::int8_t { odd = -1, even = 1 };
+
+/// The answer of a normal law, with its history where it has one.
+template <class Law, class V>
+[[gnu::always_inline]] inline NormalForce<V> normal_force(const Contact<V>& c, const ContactConstants<V>& k,
+                                                          V* history) {
+  if constexpr (Law::history.empty())
+    return Law::force(c, k);
+  else
+    return Law::force(c, k, history);
+}
 
 }  // namespace sph

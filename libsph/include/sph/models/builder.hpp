@@ -45,6 +45,7 @@ class Builder {
     append(plan_.drift, local_stage(std::move(name), std::move(update)));
     plan_.drift.back().stages.front().moves = std::move(moves);
   }
+  void add_kick(Stage stage) { append(plan_.kick, std::move(stage)); }
   template <class Update>
   void add_kick(std::string name, Update update, std::function<double(const GlobalState&)> moves = {}) {
     append(plan_.kick, local_stage(std::move(name), std::move(update)));

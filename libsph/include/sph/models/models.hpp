@@ -37,6 +37,11 @@ void add_kick(Builder& builder);
 void add_pressures(Builder& builder);
 /// Bubbly particles with too much gas become spray.
 void add_fragmentation(Builder& builder);
+/// Terms that are switched on by a number (added_term.hpp): forces, and what moves particles after the kick.
+void add_accelerations(Builder& builder);
+void add_drifts(Builder& builder);
+/// The largest speed of sound where it grows with the pressure.
+void add_sound(Builder& builder);
 /// Running averages for output.
 void add_averages(Builder& builder);
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "sph/eos.hpp"
 #include "sph/pass_context.hpp"
 #include "sph/plan/stage.hpp"
 #include "sph/scene.hpp"
@@ -27,7 +26,6 @@ struct SphConstants {
   PositionScale scale;
   Wrap wrap;
   GroupTable groups;
-  std::vector<BubblyEos> bubbly;  ///< by group; used where the group's eos says so
   RowScale row_scale{};
   TermConstants<double> terms{};
   double gradient_factor = 0, force_factor = 0, diffusion_factor = 0;  ///< as PassContext has them

@@ -1,11 +1,8 @@
-// Equations of state. Pressures here are absolute; the momentum equation uses them less the surface pressure.
-//   linear  p = K (rho/rho_0 - 1)                                     Ida (2009) eq. (10), p_0 = 0
-//   ideal_gas  p = (gamma - 1) rho u
-//   bubbly  rho = rho_l / (1 + xi (rho_l/rho_g - 1)) where m > m_d    Ida eqs. (12)-(15)
-// SPH supplies rho; the bubbly pressure is the unique root of v(p) = (1-xi)/rho_l + xi RT/p - 1/rho.
+// Bubbly magma  rho = rho_l / (1 + xi (rho_l/rho_g - 1)) where m > m_d         Ida (2009) eqs. (12)-(15)
+// SPH supplies rho; the pressure is the unique root of v(p) = (1-xi)/rho_l + xi RT/p - 1/rho.
 #pragma once
 
-#include "sph/scene.hpp"
+#include "sph/eos/law.hpp"
 
 namespace sph {
 
@@ -38,28 +35,37 @@ class BubblyEos {
   double p_sat_, rho_sat_;
 };
 
-/// A gas whose internal energy u follows from du = -p dv + heat.
-struct IdealGas {
-  double heat_ratio;  ///< gamma
-  [[nodiscard]] double pressure(double density, double energy) const {
-    return (heat_ratio - 1) * density * energy;
-  }
-  [[nodiscard]] double energy(double pressure, double density) const {
-    return pressure / ((heat_ratio - 1) * density);
-  }
-  [[nodiscard]] double sound_speed(double energy) const;  ///< sqrt(gamma p / rho)
-  /// u once the density is `ratio` times what it was, the work being that of the mean of p before and after:
-  /// second order in the step, whatever gamma, and as much as the kicks before and after it give to the
-  /// motion.
-  [[nodiscard]] double compressed(double energy, double ratio) const {
-    const double g = 0.5 * (heat_ratio - 1);
-    return energy * ((1 - g * (1 / ratio - 1)) / (1 + g * (1 - ratio)));
-  }
-};
-
 /// The equation of state of a bubbly group with this gas content m.
 [[nodiscard]] inline BubblyEos bubbly_eos(const Group& g, double gas_content) {
   return {g.density, g.bulk_modulus, gas_content, g.gas_rt, g.solubility_pressure, g.solubility_exponent};
 }
+
+struct BubblyMagma : EosLaw {
+  static constexpr std::string_view word = "bubbly";
+  static constexpr EosKind kind = EosKind::bubbly;
+  static constexpr bool constant_sound = false, needs_pressure = true;
+  static constexpr std::string_view remedy =
+      "without pressure bubbly magma is all gas: raise domain.surface_pressure";
+
+  static void check(const Group& g) { (void)bubbly_eos(g, g.gas_content); }
+  static void derive(const Group& g, const EosRows& rows, std::size_t first, std::size_t last) {
+    const BubblyEos usual = bubbly_eos(g, g.gas_content);
+    for (std::size_t i = first; i < last; ++i) {
+      const double gas = rows.gas_content[i];
+      const BubblyEos eos = gas == g.gas_content ? usual : bubbly_eos(g, gas);
+      const double absolute = eos.pressure(rows.density[i]);
+      rows.pressure[i] = absolute - rows.surface_pressure;
+      if (rows.sound_speed != nullptr) rows.sound_speed[i] = eos.sound_speed(absolute);
+      if (rows.void_fraction != nullptr) rows.void_fraction[i] = eos.void_fraction(absolute);
+    }
+  }
+  static EosStart start(const Group& g, double above_surface, double surface_pressure) {
+    return {density(g, above_surface + surface_pressure)};
+  }
+  static double density(const Group& g, double pressure) {
+    return bubbly_eos(g, g.gas_content).density(pressure);
+  }
+  static double energy(const Group&, double /*density*/) { return 0; }  // not followed
+};
 
 }  // namespace sph
