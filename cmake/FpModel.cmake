@@ -5,6 +5,10 @@ add_library(Peperite::fp ALIAS peperite_fp)
 set_target_properties(peperite_fp PROPERTIES EXPORT_NAME fp)
 target_compile_options(peperite_fp INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math
   -Wno-psabi)  # vectors never cross a translation unit, so how they are passed does not matter
+# Laws of a project downstream are compiled into passes of its own, whose vectors are those of the library.
+if(PEPERITE_ARCH)
+  target_compile_options(peperite_fp INTERFACE $<INSTALL_INTERFACE:-march=${PEPERITE_ARCH}>)
+endif()
 target_compile_definitions(peperite_fp INTERFACE EIGEN_DONT_VECTORIZE OMPI_SKIP_MPICXX)
 target_compile_features(peperite_fp INTERFACE cxx_std_20)
 

@@ -1,21 +1,56 @@
-// The least a program needs: a scene, five steps, the fingerprint.
+// What a program needs that runs scenes: a scene, some steps, the fingerprint. This one brings a contact law,
+// an equation of state and a pair term of its own, from its own tree.
 #include <mpi.h>
 
 #include <cstdio>
+#include <exception>
+#include <stdexcept>
 
 #include "decomp/comm.hpp"
+#include "friction_of_flow.hpp"
 #include "sph/scene.hpp"
 #include "sph/simulation.hpp"
+#include "stiffening.hpp"
+#include "tait.hpp"
+
+namespace {
+
+/// Once a scene has been read, what its words mean stays.
+bool is_too_late() {
+  try {
+    sph::register_equation_of_state<Tait>();
+  } catch (const std::logic_error&) {
+    return true;
+  }
+  return false;
+}
+
+void run(const char* path) {
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  sph::Simulation simulation(comm, sph::read_scene(path, {}));
+  if (!is_too_late()) throw std::runtime_error("a law was registered after a scene had been read");
+  while (simulation.global().step < simulation.scene().time.steps) simulation.step();
+  const std::string print = simulation.fingerprint();
+  if (comm.rank() == 0)
+    std::printf("fingerprint %s step %lld\n", print.c_str(),
+                static_cast<long long>(simulation.global().step));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
+  sph::register_contact_law<Stiffening>();
+  sph::register_equation_of_state<Tait>();
+  sph::register_term<FlowFriction>();
   MPI_Init(&argc, &argv);
-  {
-    const decomp::Comm comm(MPI_COMM_WORLD);
-    sph::Simulation simulation(comm, sph::read_scene(argv[1], {}));
-    for (int step = 0; step < 5; ++step) simulation.step();
-    std::printf("fingerprint %s step %lld\n", simulation.fingerprint().c_str(),
-                static_cast<long long>(simulation.global().step));
+  int status = 0;
+  try {
+    run(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    status = 2;
   }
   MPI_Finalize();
+  return status;
 }

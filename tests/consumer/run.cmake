@@ -1,4 +1,5 @@
-# cmake -DBUILD=<build tree> -DSOURCE=<this folder> -DSCENE=<file> -DCOMPILER=<c++> -DWORK=<scratch> -P run.cmake
+# cmake -DBUILD=<build tree> -DSOURCE=<this folder> -DCOMPILER=<c++> -DMPIEXEC=<mpirun> -DWORK=<scratch> -P run.cmake
+# The consumer's laws give the same bits on 2 ranks as on 1.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
   if(NOT status EQUAL 0)
@@ -12,8 +13,16 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/consumer ${SCENE})
-if(NOT out MATCHES "fingerprint ([0-9a-f]+) step 5\n")
-  message(FATAL_ERROR "the consumer printed:\n${out}")
-endif()
-message("fingerprint ${CMAKE_MATCH_1}")
+foreach(scene fluid grains)
+  foreach(ranks 1 2)
+    run(${MPIEXEC} -n ${ranks} ${WORK}/build/consumer ${SOURCE}/${scene}.toml)
+    if(NOT out MATCHES "^fingerprint ([0-9a-f]+) step [0-9]+\n$")
+      message(FATAL_ERROR "the consumer printed:\n${out}")
+    endif()
+    set(on_${ranks} ${CMAKE_MATCH_1})
+  endforeach()
+  message("${scene}: fingerprint ${on_1} on 1 rank, ${on_2} on 2")
+  if(NOT on_1 STREQUAL on_2)
+    message(FATAL_ERROR "other bits on 2 ranks")
+  endif()
+endforeach()

@@ -22,7 +22,7 @@
 #include "../system/saved_state.hpp"
 #include "../system/shuffled_start.hpp"
 #include "agreed.hpp"
-#include "scene/scene_keys.hpp"
+#include "scene/toml_reader.hpp"
 #include "sph/checkpoint.hpp"
 
 namespace {
@@ -206,7 +206,7 @@ class Bench {
 
 void print_keys() {
   for (const sph::KeyTable& table : sph::scene_keys::all)
-    for (const std::string_view key : table.keys)
+    for (const std::string& key : sph::keys_of(table))
       std::cout << table.name << (table.name.empty() ? "" : ".") << key << '\n';
 }
 

@@ -24,6 +24,7 @@ class Maker:
         self.contact_time = math.pi * math.sqrt(self.mass / (2 * self.stiffness))
         self.steps = d.whole("steps", 10, 120)
         self.damped = not self.hertz and d.chance("one damping", 0.2)
+        self.latched = not self.hertz and not self.damped and d.chance("latched", 0.3)
 
     def scene(self):
         d = self.d
@@ -92,7 +93,7 @@ class Maker:
             if d.chance("kt", 0.3):
                 out["tangential_stiffness"] = out["normal_stiffness"] * d.log("kt value", 0.1, 1)
         if not self.damped:
-            out["restitution"] = d.one("e", [1.0, 0.9, 0.5, 0.2])
+            out["restitution"] = d.one("latch", [1.0, 0.9, 0.7]) if self.latched else d.one("e", [1.0, 0.9, 0.5, 0.2])
         if self.rough and d.chance("rough", 0.9):
             out["friction"] = d.one("mu", [0.1, 0.5, 0.9, 2.0])
         if self.rolls and d.chance("rolls", 0.9):
@@ -126,7 +127,7 @@ class Maker:
 
     def contact(self):
         d = self.d
-        out = {"law": "hertz" if self.hertz else "linear"}
+        out = {"law": "hertz" if self.hertz else "walton_braun" if self.latched else "linear"}
         if self.damped:
             out["normal_damping"] = d.real("damping", 0, 0.5) / self.contact_time
         if d.chance("tangential", 0.4):

@@ -129,7 +129,9 @@ class Maker(Terms, FromFile):
             if d.part("fluid", k).chance("bubbly", 0.25):
                 out += self.bubbly(d.part("bubbly", k), group, rho)
                 continue
-            if g.chance("say eos", 0.2):
+            if g.chance("stiffening", 0.15):
+                group |= {"eos": "birch_murnaghan", "bulk_modulus_derivative": g.one("K'", [4, 3.5, 7])}
+            elif g.chance("say eos", 0.2):
                 group["eos"] = "linear"
             group |= self.stiffness(g, rho)
             self.viscosities(g, group)

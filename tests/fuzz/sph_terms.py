@@ -39,6 +39,8 @@ class Terms:
             out["shifting"] = True
         elif d.chance("say unshifted", 0.1):
             out["shifting"] = False
+        if d.chance("xsph", 0.25):
+            out["xsph"] = d.one("eps", [0.1, 0.5, 1.0])
         if quintic and not self.pulled and d.chance("weighted", 0.3):
             out["pressure_weights"] = "density"
         elif d.chance("say volume", 0.1):

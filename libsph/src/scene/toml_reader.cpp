@@ -30,7 +30,20 @@ std::string join_path(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-/// The keys of a table, with those that laws and terms have brought (law_key.hpp, added_term.hpp).
+/// Where a misplaced key belongs, or the nearest key of its own table.
+std::string key_advice(const std::string& key, const KeyTable& own) {
+  const std::vector<std::string> words = keys_of(own);
+  const std::string near = nearest(key, words);
+  if (near.empty())
+    for (const KeyTable& other : scene_keys::all)
+      if (std::ranges::count(keys_of(other), key) > 0)
+        return other.name.empty() ? std::string("it belongs above the first table")
+                                  : fmt::format("it belongs to [{}]", other.name);
+  return suggestion(key, words);
+}
+
+}  // namespace
+
 std::vector<std::string> keys_of(const KeyTable& table) {
   std::vector<std::string> keys(table.keys.begin(), table.keys.end());
   const auto add = [&](std::span<const LawKey> own) {
@@ -45,20 +58,6 @@ std::vector<std::string> keys_of(const KeyTable& table) {
     for (const AddedTerm* t : added_terms()) keys.emplace_back(t->word);
   return keys;
 }
-
-/// Where a misplaced key belongs, or the nearest key of its own table.
-std::string key_advice(const std::string& key, const KeyTable& own) {
-  const std::vector<std::string> words = keys_of(own);
-  const std::string near = nearest(key, words);
-  if (near.empty())
-    for (const KeyTable& other : scene_keys::all)
-      if (std::ranges::count(keys_of(other), key) > 0)
-        return other.name.empty() ? std::string("it belongs above the first table")
-                                  : fmt::format("it belongs to [{}]", other.name);
-  return suggestion(key, words);
-}
-
-}  // namespace
 
 TableReader::TableReader(const Node& node, std::string path, const KeyTable& keys)
     : node_(&node), path_(std::move(path)), keys_(keys) {

@@ -21,6 +21,9 @@
 
 namespace sph {
 
+/// The keys of a table, with those that laws and terms have brought (law_key.hpp, added_term.hpp).
+[[nodiscard]] std::vector<std::string> keys_of(const KeyTable& table);
+
 enum class Bound { any, positive, not_negative };
 
 /// The words a key may have and what they stand for.
