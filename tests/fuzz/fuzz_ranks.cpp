@@ -22,7 +22,7 @@
 #include "../system/saved_state.hpp"
 #include "../system/shuffled_start.hpp"
 #include "agreed.hpp"
-#include "scene/scene_keys.hpp"
+#include "scene/keys/all_keys.hpp"
 #include "sph/checkpoint.hpp"
 
 namespace {
@@ -205,9 +205,9 @@ class Bench {
 };
 
 void print_keys() {
-  for (const sph::KeyTable& table : sph::scene_keys::all)
-    for (const std::string_view key : table.keys)
-      std::cout << table.name << (table.name.empty() ? "" : ".") << key << '\n';
+  for (const sph::keys::KeyTable* table : sph::keys::all)
+    for (const sph::keys::Key& key : table->keys)
+      std::cout << table->name << (table->name.empty() ? "" : ".") << key.name << '\n';
 }
 
 }  // namespace

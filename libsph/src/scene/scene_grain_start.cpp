@@ -7,12 +7,12 @@
 
 namespace sph {
 
-void read_grain_velocity(const TableReader& table, Start& start) {
+void read_grain_velocity(const StartReader& table, Start& start) {
   const toml_tree::Node* value = table.find("velocity");
   if (value == nullptr) return;
   if (value->array() != nullptr) {
     start.velocity = InitialVelocity::uniform;
-    start.uniform_velocity = *table.vector("velocity", dimension::speed, 3);
+    start.uniform_velocity = *table.vector("velocity", dimension::speed);
   } else if (const auto* word = std::get_if<std::string>(&value->value); word == nullptr || *word != "rest") {
     table.fail("velocity",
                word == nullptr ? fmt::format("is {}", type_name(*value)) : fmt::format("is \"{}\"", *word),
@@ -20,16 +20,13 @@ void read_grain_velocity(const TableReader& table, Start& start) {
   }
 }
 
-Tile read_tile(const TableReader& start, const Scene& scene) {
+Tile read_tile(const StartReader& start) {
   constexpr std::array axis_names{"x", "y", "z"};
   constexpr std::int64_t most_copies = 1'000'000;  // along one axis
   Tile tile;
-  if (!start.has("tile")) return tile;
-  const TableReader table = start.table("tile", scene_keys::tile);
-  (void)table.required_text("file");
-  tile.file = table.file_path("file", scene.file);
+  const auto table = start.table<keys::tile>();
+  table.read(tile);
   const toml_tree::Node* value = table.find("repeat");
-  if (value == nullptr) table.fail_missing("repeat", "give the copies along each axis, like [4, 4, 1]");
   const toml_tree::Array* counts = value->array();
   if (counts == nullptr || counts->size() != tile.repeat.size())
     table.fail("repeat", "must be an array of three whole numbers", "for example [4, 4, 1]");
