@@ -120,31 +120,40 @@ TEST(Keys, EveryKeyIsReadAndItsTypeChecked) {
     if (!checked.contains(name)) ADD_FAILURE() << name << " is not refused as a date";
 }
 
+template <class T>
+bool fits(const keys::Kind& kind, T at) {
+  using sph::Double3;
+  const auto is_one_of = [&]<class... Kind>(const Kind&...) {
+    return (std::holds_alternative<Kind>(kind) || ...);
+  };
+  if constexpr (std::is_same_v<T, keys::Enumerator>)
+    return is_one_of(keys::Words{}) && std::get<keys::Words>(kind).words.front().of == at.of;
+  else if constexpr (std::is_same_v<T, double*> || std::is_same_v<T, std::optional<double>*>)
+    return is_one_of(keys::Number{});
+  else if constexpr (std::is_same_v<T, Double3*> || std::is_same_v<T, std::optional<Double3>*>)
+    return is_one_of(keys::Vector{});
+  else if constexpr (std::is_same_v<T, bool*> || std::is_same_v<T, std::optional<bool>*>)
+    return is_one_of(keys::Flag{});
+  else if constexpr (std::is_same_v<T, std::array<bool, 3>*>)
+    return is_one_of(keys::Flags{});
+  else if constexpr (std::is_same_v<T, std::array<int, 2>*>)
+    return is_one_of(keys::TwoGroups{});
+  else if constexpr (std::is_same_v<T, std::array<std::int64_t, 3>*>)
+    return is_one_of(keys::Copies{});
+  else if constexpr (std::is_same_v<T, std::string*>)
+    return is_one_of(keys::Text{}, keys::File{});
+  else if constexpr (std::is_same_v<T, keys::Named>)
+    return is_one_of(keys::NameOf{});
+  else
+    return is_one_of(keys::Whole{});
+}
+
 TEST(Keys, MembersAreOfTheirKind) {
   for (const keys::KeyTable* table : keys::all)
     for (const keys::Key& key : table->keys) {
       if (key.member.in == nullptr) continue;
-      const bool good = std::visit(
-          [&]<class T>(const T&) {
-            using sph::Double3;
-            const auto is = [&]<class Kind>(Kind*) { return std::holds_alternative<Kind>(key.kind); };
-            if constexpr (std::is_same_v<T, keys::Enumerator>)
-              return is((keys::Words*)nullptr);
-            else if constexpr (std::is_same_v<T, double*> || std::is_same_v<T, std::optional<double>*>)
-              return is((keys::Number*)nullptr);
-            else if constexpr (std::is_same_v<T, Double3*> || std::is_same_v<T, std::optional<Double3>*>)
-              return is((keys::Vector*)nullptr);
-            else if constexpr (std::is_same_v<T, bool*> || std::is_same_v<T, std::optional<bool>*>)
-              return is((keys::Flag*)nullptr);
-            else if constexpr (std::is_same_v<T, std::array<bool, 3>*>)
-              return is((keys::Flags*)nullptr);
-            else if constexpr (std::is_same_v<T, std::string*>)
-              return is((keys::Text*)nullptr) || is((keys::File*)nullptr);
-            else
-              return is((keys::Whole*)nullptr);
-          },
-          key.member.standard());
-      EXPECT_TRUE(good) << full_name(*table, key.name);
+      EXPECT_TRUE(std::visit([&](const auto& at) { return fits(key.kind, at); }, key.member.standard()))
+          << full_name(*table, key.name);
     }
 }
 

@@ -10,10 +10,9 @@
 namespace sph {
 namespace {
 
-ContactPair read_pair(const Reader<keys::contact_pair>& table, const Scene& scene) {
+ContactPair read_pair(const Reader<keys::contact_pair>& table) {
   ContactPair pair;
   table.read(pair);
-  pair.groups = read_two_groups(table, "groups", scene.groups);
   std::sort(pair.groups.begin(), pair.groups.end());
   if (!pair.friction && !pair.rolling_friction && !pair.restitution)
     table.fail_missing("friction", "give it, rolling_friction or restitution: the pair says nothing else");
@@ -29,10 +28,10 @@ ContactControl read_contact_law(const Reader<keys::contact>& table) {
   return contact;
 }
 
-std::vector<ContactPair> read_contact_pairs(const Reader<keys::contact>& table, const Scene& scene) {
+std::vector<ContactPair> read_contact_pairs(const Reader<keys::contact>& table) {
   std::vector<ContactPair> pairs;
   for (const auto& t : table.tables<keys::contact_pair>()) {
-    const ContactPair pair = read_pair(t, scene);
+    const ContactPair pair = read_pair(t);
     for (const ContactPair& other : pairs)
       if (other.groups == pair.groups)
         t.fail("groups", "names a pair that an earlier [[contact.pair]] has",

@@ -39,7 +39,7 @@ void check_ideal_gas(const TopReader& top, const DomainReader& domain, const Sta
       if (g.kind == GroupKind::solid) groups[k].fail("kind", "is \"solid\" beside an ideal gas", right);
       groups[k].fail("eos",
                      fmt::format("is \"{}\" beside an ideal gas",
-                                 keys::word_of(keys::one_of<EosKind>, static_cast<int>(g.eos))),
+                                 keys::Words{keys::eos_kind_words}.text_of(static_cast<int>(g.eos))),
                      right);
     }
   if (scene.formulation == Formulation::ida)

@@ -66,10 +66,9 @@ void read_material(const GroupReader& table, Group& group, const Group* like) {
 }
 
 /// The solid that a wall is bonded to, -1 for other groups.
-int read_clamps(const GroupReader& table, GroupKind kind, const std::vector<Group>& groups) {
-  if (kind != GroupKind::wall) return -1;
-  const int solid = read_group_name(table, "clamps", groups);
-  if (solid < 0) return -1;
+int read_clamps(const GroupReader& table, const Group& group, const std::vector<Group>& groups) {
+  if (group.kind != GroupKind::wall || !table.has("clamps")) return -1;
+  const int solid = *table.index("clamps");
   table.only_if(false, "velocity", "a clamp holds its solid at rest");
   table.only_if(false, "slip", "a clamp holds its solid at rest");
   if (const Group& g = groups[static_cast<std::size_t>(solid)]; g.lagrangian != Lagrangian::total)
@@ -119,7 +118,6 @@ void read_fragmentation(const GroupReader& table, std::size_t self, std::vector<
   if (!table.has("fragmentation")) return;
   const auto inner = table.table<keys::fragmentation>();
   inner.read(group);
-  group.fragments_to = read_group_name(inner, "group", groups);
   if (group.fragments_to == static_cast<int>(self))
     inner.fail("group", "names the group itself", "fragments join another group");
   check_target(inner, group, groups[static_cast<std::size_t>(group.fragments_to)]);
@@ -163,8 +161,8 @@ void read_groups(const TopReader& top, Scene& scene) {
     for (std::size_t k = 0; k < tables.size(); ++k) {
       Group& group = groups[k];
       if (group.kind != pass) continue;
-      group.clamps = read_clamps(tables[k], pass, groups);
-      const Group* like = group.clamps >= 0         ? &groups[static_cast<std::size_t>(group.clamps)]
+      const int clamped = read_clamps(tables[k], group, groups);
+      const Group* like = clamped >= 0              ? &groups[static_cast<std::size_t>(clamped)]
                           : pass == GroupKind::wall ? first_fluid
                                                     : nullptr;
       read_material(tables[k], group, like);
@@ -197,36 +195,6 @@ std::string read_name(const TableReader& table, std::string_view what,
     table.fail(key, fmt::format("\"{}\" is taken by an earlier {}", name, what),
                fmt::format("give each {} its own name", what));
   return name;
-}
-
-int group_of_name(const TableReader& table, const Key& key, const std::string& name,
-                  const std::vector<Group>& groups) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    if (groups[k].name == name) return static_cast<int>(k);
-    names.push_back(groups[k].name);
-  }
-  table.fail(key, fmt::format("names the unknown group \"{}\"", name), suggestion(name, names));
-}
-
-int read_group_name(const TableReader& table, std::string_view key, const std::vector<Group>& groups) {
-  const std::optional<std::string> name = table.text(table.key(key));
-  return name ? group_of_name(table, table.key(key), *name, groups) : -1;
-}
-
-std::array<int, 2> read_two_groups(const TableReader& table, std::string_view name,
-                                   const std::vector<Group>& groups) {
-  const Key& key = table.key(name);
-  const toml_tree::Array* names = table.find(key)->array();
-  const std::string right = "give " + keys::text_of(key.kind);
-  if (names == nullptr || names->size() != 2) table.fail(key, "is no array of two names", right);
-  std::array<int, 2> out{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto* group = std::get_if<std::string>(&(*names)[k].value);
-    if (group == nullptr) table.fail(key, fmt::format("holds {}", type_name((*names)[k])), right);
-    out[k] = group_of_name(table, key, *group, groups);
-  }
-  return out;
 }
 
 }  // namespace sph

@@ -31,19 +31,6 @@ void read_groups(const TopReader& top, Scene& scene);
 /// Those of grains, which depend on the contact law.
 void read_grain_groups(const TopReader& top, Scene& scene);
 
-/// The index of the group called `name`, which stands in the value of `key`.
-[[nodiscard]] int group_of_name(const TableReader& table, const Key& key, const std::string& name,
-                                const std::vector<Group>& groups);
-/// The index of the group that `key` names, -1 if the key is absent.
-[[nodiscard]] int read_group_name(const TableReader& table, std::string_view key,
-                                  const std::vector<Group>& groups);
-/// Two names of groups in an array, the value of `key`.
-[[nodiscard]] std::array<int, 2> read_two_groups(const TableReader& table, std::string_view key,
-                                                 const std::vector<Group>& groups);
-/// The index of the wall that `key` names.
-[[nodiscard]] int read_wall_name(const TableReader& table, std::string_view key,
-                                 const std::vector<Wall>& walls);
-
 /// The `name` of an element: a letter followed by letters, digits, _ or -; none of those before it has it.
 /// `what` it is ("group") for the message.
 [[nodiscard]] std::string read_name(const TableReader& table, std::string_view what,
@@ -52,8 +39,7 @@ void read_grain_groups(const TopReader& top, Scene& scene);
 /// [contact] but for its pairs, which name groups.
 [[nodiscard]] ContactControl read_contact_law(const Reader<keys::contact>& table);
 /// [[contact.pair]], once groups and contact law of `scene` are known. Ends the table.
-[[nodiscard]] std::vector<ContactPair> read_contact_pairs(const Reader<keys::contact>& table,
-                                                          const Scene& scene);
+[[nodiscard]] std::vector<ContactPair> read_contact_pairs(const Reader<keys::contact>& table);
 
 /// [[wall]] and [[stage]], once domain and groups are known; stages name walls of `scene`.
 [[nodiscard]] std::vector<Wall> read_walls(const TopReader& top, const Scene& scene);
@@ -61,10 +47,6 @@ void read_grain_groups(const TopReader& top, Scene& scene);
 
 /// [start], once dimension, domain, groups and spacing of `scene` are known.
 void read_start(const StartReader& table, Scene& scene);
-/// start.tile, and start.velocity of grains.
-[[nodiscard]] Tile read_tile(const StartReader& start);
-void read_grain_velocity(const StartReader& table, Start& start);
-
 /// [terms], once the groups are known.
 void read_terms(const TermsReader& table, Scene& scene);
 void check_implicit_viscosity(const TermsReader& terms, const Scene& scene);

@@ -75,7 +75,7 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
                "give \"particle\", \"group\", \"energy\" or \"momentum\"");
   Monitor monitor;
   table.read(monitor);
-  if (!table.has("name")) monitor.name = keys::word_of(keys::one_of<MonitorKind>, static_cast<int>(*kind));
+  if (!table.has("name")) monitor.name = *table.text("kind");
   check_monitor_name(table, monitor.name, earlier);
   if (*kind == MonitorKind::particle) {
     table.not_both("id", "nearest_to");
@@ -86,8 +86,6 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
         table.fail("nearest_to", fmt::format("lies outside the domain in {}", axis_names[a]),
                    "name a point between domain.lower and domain.upper");
   }
-  if (*kind == MonitorKind::group) monitor.group = read_group_name(table, "group", scene.groups);
-  if (*kind == MonitorKind::wall) monitor.wall = read_wall_name(table, "wall", scene.walls);
   table.finish();
   return monitor;
 }

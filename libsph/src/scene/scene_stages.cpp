@@ -18,7 +18,6 @@ WallChange read_change(const Reader<keys::stage_wall>& table, const std::vector<
                        Course& course) {
   WallChange change;
   table.read(change);
-  change.wall = read_wall_name(table, "name", walls);
   const auto k = static_cast<std::size_t>(change.wall);
   if (course.removed[k])
     table.fail("name", fmt::format("names \"{}\", which an earlier stage removed", walls[k].name),

@@ -15,22 +15,15 @@ namespace {
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr double most_lattice_points = 1e12;
 
-int read_painted_group(const Reader<keys::region>& table, const Scene& scene) {
-  if (table.text("group") == "none") return -1;
-  const int group = read_group_name(table, "group", scene.groups);
-  if (const Group& g = scene.groups[static_cast<std::size_t>(group)];
-      g.kind == GroupKind::grain && !(g.grain.largest_radius > 0))
-    table.fail("group", fmt::format("names \"{}\", a material without diameter", g.name),
-               "give that [[group]] the diameter of its grains");
-  return group;
-}
-
 bool can_move(const Group& group) { return group.kind != GroupKind::wall && !group.grain.fixed; }
 
 Region read_region(const Reader<keys::region>& table, const Scene& scene) {
   Region region;
   table.read(region);
-  region.group = read_painted_group(table, scene);
+  if (const Group* g = region.group < 0 ? nullptr : &scene.groups[static_cast<std::size_t>(region.group)];
+      g != nullptr && g->kind == GroupKind::grain && !(g->grain.largest_radius > 0))
+    table.fail("group", fmt::format("names \"{}\", a material without diameter", g->name),
+               "give that [[group]] the diameter of its grains");
   const Start& start = scene.start;
   bool outside = false;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
@@ -117,9 +110,12 @@ void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
     start.uniform_velocity = *table.vector("velocity", dimension::speed);
   } else if (value != nullptr) {
     const auto* word = std::get_if<std::string>(&value->value);
+    const std::string what =
+        word == nullptr ? fmt::format("is {}", type_name(*value)) : fmt::format("is \"{}\"", *word);
+    if (scene.of_grains() && (word == nullptr || *word != "rest"))
+      table.fail("velocity", what, "grains start with \"rest\" or an array of speeds");
     if (word == nullptr)
-      table.fail("velocity", fmt::format("is {}", type_name(*value)),
-                 "it must be \"rest\", \"taylor_green\" or an array of speeds");
+      table.fail("velocity", what, "it must be \"rest\", \"taylor_green\" or an array of speeds");
     if (*word == "taylor_green")
       start.velocity = InitialVelocity::taylor_green;
     else if (*word != "rest")
@@ -142,7 +138,6 @@ std::vector<Layer> read_layers(const StartReader& table, const Scene& scene) {
   for (const auto& t : table.tables<keys::layer>()) {
     Layer layer;
     t.read(layer);
-    layer.group = read_group_name(t, "group", scene.groups);
     if (scene.groups[static_cast<std::size_t>(layer.group)].kind == GroupKind::wall)
       t.fail("group", "names a wall", "the layers are what lies on top of each other");
     if (!layers.empty() && layer.top >= layers.back().top)
@@ -189,7 +184,11 @@ void read_start(const StartReader& table, Scene& scene) {
   Start& start = scene.start;
   const bool tile = scene.of_grains() && table.has("tile");
   const bool from_file = tile || table.has("file");
-  if (tile) start.tile = read_tile(table);
+  if (tile) {
+    const auto inner = table.table<keys::tile>();
+    inner.read(start.tile);
+    inner.finish();
+  }
   if (!from_file) {
     start.lower = scene.lower;
     start.upper = scene.upper;
@@ -203,13 +202,9 @@ void read_start(const StartReader& table, Scene& scene) {
   table.not_both("file", "tile");
   table.only_if(table.has("file"), "free_surface", "it is for start.file; of a lattice it is known");
   if (!from_file) read_lattice(table, scene);
-  if (scene.of_grains()) {
-    if (from_file) table.only_if(false, "velocity", "the velocities come from the file");
-    read_grain_velocity(table, start);
-  } else {
-    read_velocity(table, scene, start);
-    read_pressure(table, scene, start);
-  }
+  if (scene.of_grains() && from_file) table.only_if(false, "velocity", "the velocities come from the file");
+  read_velocity(table, scene, start);
+  if (!scene.of_grains()) read_pressure(table, scene, start);
   table.finish();
 }
 

@@ -14,7 +14,6 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
                                       const std::vector<Group>& groups) {
   InterfaceTension tension;
   table.read(tension);
-  tension.between = read_two_groups(table, "between", groups);
   for (const int k : tension.between)
     if (const Group& g = groups[static_cast<std::size_t>(k)]; g.kind != GroupKind::fluid)
       table.fail("between", fmt::format("names \"{}\", which is no fluid", g.name),

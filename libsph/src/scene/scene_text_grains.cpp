@@ -8,14 +8,6 @@
 namespace sph {
 namespace {
 
-void write_contact(SceneWriter& out, const Scene& scene) {
-  out.table(keys::contact, scene.contact);
-  for (const ContactPair& pair : scene.contact.pairs) {
-    out.table(keys::contact_pair, pair);
-    out.raw("groups", fmt::format("[{}, {}]", out.name_of(pair.groups[0]), out.name_of(pair.groups[1])));
-  }
-}
-
 /// A radius is half the diameter that was read, and twice that is the diameter, both exactly.
 void write_material(SceneWriter& out, const Group& group, ContactLaw law) {
   out.table(keys::group, group);
@@ -31,27 +23,24 @@ void write_material(SceneWriter& out, const Group& group, ContactLaw law) {
 /// A box comes back as its planes.
 void write_wall(SceneWriter& out, const Wall& wall) {
   out.table(keys::wall, wall);
-  out.group("material", wall.group);
   out.text("shape", "plane");
   if (!wall.force) out.vector("velocity", wall.velocity);
-}
-
-void write_stage(SceneWriter& out, const Scene& scene, const WallStage& stage) {
-  out.table(keys::stage, stage);
-  for (const WallChange& change : stage.walls) {
-    out.table(keys::stage_wall, change);
-    out.text("name", scene.walls[static_cast<std::size_t>(change.wall)].name);
-    if (change.remove) out.raw("remove", "true");
-  }
 }
 
 }  // namespace
 
 void write_grains(SceneWriter& out, const Scene& scene) {
-  write_contact(out, scene);
+  out.table(keys::contact, scene.contact);
+  for (const ContactPair& pair : scene.contact.pairs) out.table(keys::contact_pair, pair);
   for (const Group& g : scene.groups) write_material(out, g, scene.contact.law);
   for (const Wall& wall : scene.walls) write_wall(out, wall);
-  for (const WallStage& stage : scene.stages) write_stage(out, scene, stage);
+  for (const WallStage& stage : scene.stages) {
+    out.table(keys::stage, stage);
+    for (const WallChange& change : stage.walls) {
+      out.table(keys::stage_wall, change);
+      if (change.remove) out.raw("remove", "true");
+    }
+  }
 }
 
 }  // namespace sph

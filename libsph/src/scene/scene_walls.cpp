@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 
-#include "scene/nearest.hpp"
 #include "scene/scene_resolve.hpp"
 
 namespace sph {
@@ -122,7 +121,6 @@ std::vector<Wall> read_walls(const TopReader& top, const Scene& scene) {
     Wall wall;
     table.read(wall);
     (void)read_name(table, "wall", names);
-    wall.group = read_group_name(table, "material", scene.groups);
     if (table.choice<keys::WallShape>("shape") == keys::WallShape::box) {
       for (const Wall& side : read_box(table, scene, wall)) {
         if (std::find(names.begin(), names.end(), side.name) != names.end())
@@ -138,18 +136,6 @@ std::vector<Wall> read_walls(const TopReader& top, const Scene& scene) {
     table.finish();
   }
   return walls;
-}
-
-int read_wall_name(const TableReader& table, std::string_view key_name, const std::vector<Wall>& walls) {
-  const Key& key = table.key(key_name);
-  const std::string name = table.required_text(key);
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < walls.size(); ++k) {
-    if (walls[k].name == name) return static_cast<int>(k);
-    names.push_back(walls[k].name);
-  }
-  table.fail(key, fmt::format("names the unknown wall \"{}\"", name),
-             names.empty() ? "describe it in a [[wall]] table" : suggestion(name, names));
 }
 
 }  // namespace sph

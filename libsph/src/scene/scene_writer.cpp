@@ -17,7 +17,7 @@ bool applies(const keys::KeyTable& table, const keys::Key& key, const Scene& sce
   if (selector.member.in != nullptr) {
     const keys::Value value = selector.member.in(owner);
     const auto& at = std::get<keys::Enumerator>(value);
-    word = keys::word_of(words, at.get(at.at));
+    word = words.text_of(at.get(at.at));
   }
   return (word == key.where.word) == key.where.but.empty();
 }
@@ -42,6 +42,10 @@ void SceneWriter::put(const keys::Key& key, const keys::Value& value) {
       vector(key.name, x);
     } else if constexpr (std::is_same_v<T, std::string>) {
       if (!x.empty() || !std::holds_alternative<keys::File>(key.kind)) text(key.name, x);
+    } else if constexpr (std::is_same_v<T, std::array<int, 2>>) {
+      raw(key.name, fmt::format("[{}, {}]", name_of(x[0]), name_of(x[1])));
+    } else if constexpr (std::is_same_v<T, std::array<std::int64_t, 3>>) {
+      raw(key.name, fmt::format("[{}]", fmt::join(x, ", ")));
     } else if constexpr (std::is_same_v<T, std::array<bool, 3>>) {
       const std::span axes(x.begin(), static_cast<std::size_t>(scene_->dim));
       raw(key.name, fmt::format("[{}]", fmt::join(axes, ", ")));
@@ -52,13 +56,24 @@ void SceneWriter::put(const keys::Key& key, const keys::Value& value) {
   std::visit(
       [&]<class T>(const T& at) {
         if constexpr (std::is_same_v<T, keys::Enumerator>)
-          text(key.name, keys::word_of(std::get<keys::Words>(key.kind), at.get(at.at)));
+          text(key.name, std::get<keys::Words>(key.kind).text_of(at.get(at.at)));
+        else if constexpr (std::is_same_v<T, keys::Named>)
+          index(key, *at.index);
         else if constexpr (requires { at->has_value(); })
           at->has_value() ? one(**at) : void();
         else
           one(*at);
       },
       value);
+}
+
+void SceneWriter::index(const keys::Key& key, int k) {
+  const auto& name = std::get<keys::NameOf>(key.kind);
+  if (k < 0 && !name.or_none) return;
+  if (name.what == "group")
+    raw(key.name, name_of(k));
+  else
+    text(key.name, scene_->walls[static_cast<std::size_t>(k)].name);
 }
 
 void SceneWriter::vector(std::string_view key, const Double3& x) {

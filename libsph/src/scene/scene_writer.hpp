@@ -31,7 +31,6 @@ class SceneWriter {
   void text(std::string_view key, std::string_view value) { raw(key, quoted(value)); }
   void number(std::string_view key, double x) { raw(key, real(x)); }
   void vector(std::string_view key, const Double3& x);
-  void group(std::string_view key, int index) { raw(key, name_of(index)); }
   [[nodiscard]] std::string take() { return std::move(out_); }
 
   [[nodiscard]] static std::string quoted(std::string_view text);
@@ -43,6 +42,7 @@ class SceneWriter {
  private:
   void write(const keys::KeyTable& table, void* owner);
   void put(const keys::Key& key, const keys::Value& value);
+  void index(const keys::Key& key, int k);
 
   const Scene* scene_;
   std::string out_;

@@ -129,6 +129,8 @@ void TableReader::put(const Key& key, const keys::Value& to) const {
       [&]<class T>(T at) {
         if constexpr (std::is_same_v<T, keys::Enumerator>) {
           if (const std::optional<int> n = choice(key)) at.set(at.at, *n);
+        } else if constexpr (std::is_same_v<T, keys::Named>) {
+          set(*at.index, index(key));
         } else if constexpr (std::is_same_v<T, double*> || std::is_same_v<T, std::optional<double>*>) {
           set(*at, number(key));
         } else if constexpr (std::is_same_v<T, Double3*> || std::is_same_v<T, std::optional<Double3>*>) {
@@ -137,6 +139,10 @@ void TableReader::put(const Key& key, const keys::Value& to) const {
           set(*at, flag(key));
         } else if constexpr (std::is_same_v<T, std::array<bool, 3>*>) {
           set(*at, flags(key));
+        } else if constexpr (std::is_same_v<T, std::array<int, 2>*>) {
+          set(*at, two_groups(key));
+        } else if constexpr (std::is_same_v<T, std::array<std::int64_t, 3>*>) {
+          set(*at, copies(key));
         } else if constexpr (std::is_same_v<T, std::string*>) {
           set(*at, std::holds_alternative<keys::File>(key.kind) ? file(key) : text(key));
         } else if (const std::optional<std::int64_t> n = whole(key)) {
@@ -146,12 +152,32 @@ void TableReader::put(const Key& key, const keys::Value& to) const {
       to);
 }
 
+template <class T>
+const T* TableReader::value(const Key& key, std::string_view wanted) const {
+  const Node* node = find(key);
+  if (node == nullptr) return nullptr;
+  const T* found = std::get_if<T>(&node->value);
+  if (found == nullptr) fail(key, fmt::format("is {}", type_name(*node)), wanted);
+  return found;
+}
+
+const toml_tree::Array* TableReader::array(const Key& key, std::size_t size, std::string_view wanted) const {
+  const auto* found = value<toml_tree::Array>(key, wanted);
+  if (found != nullptr && found->size() != size)
+    fail(key, fmt::format("has {} values", found->size()), wanted);
+  return found;
+}
+
+template <class T>
+const T& TableReader::item(const Key& key, const Node& node, std::string_view wanted) const {
+  const T* found = std::get_if<T>(&node.value);
+  if (found == nullptr) fail(key, fmt::format("holds {}", type_name(node)), wanted);
+  return *found;
+}
+
 std::optional<std::string> TableReader::text(const Key& key) const {
-  const Node* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  const auto* words = std::get_if<std::string>(&value->value);
-  if (words == nullptr) fail(key, fmt::format("is {}", type_name(*value)), "it must be a text in quotes");
-  return *words;
+  const auto* words = value<std::string>(key, "it must be a text in quotes");
+  return words == nullptr ? std::nullopt : std::optional(*words);
 }
 
 std::string TableReader::required_text(const Key& key) const {
@@ -160,29 +186,18 @@ std::string TableReader::required_text(const Key& key) const {
 }
 
 std::optional<bool> TableReader::flag(const Key& key) const {
-  const Node* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  const auto* on = std::get_if<bool>(&value->value);
-  if (on == nullptr)
-    fail(key, fmt::format("is {}", type_name(*value)), "it must be true or false, without quotes");
-  return *on;
+  const auto* on = value<bool>(key, "it must be true or false, without quotes");
+  return on == nullptr ? std::nullopt : std::optional(*on);
 }
 
 std::optional<std::array<bool, 3>> TableReader::flags(const Key& key) const {
-  const Node* value = find(key);
-  if (value == nullptr) return std::nullopt;
   const auto axes = static_cast<std::size_t>(scene_->dim);
   const std::string wanted =
       fmt::format("it must be an array of {} true or false (dimension = {})", axes, axes);
-  const toml_tree::Array* array = value->array();
-  if (array == nullptr) fail(key, fmt::format("is {}", type_name(*value)), wanted);
-  if (array->size() != axes) fail(key, fmt::format("has {} values", array->size()), wanted);
+  const toml_tree::Array* values = array(key, axes, wanted);
+  if (values == nullptr) return std::nullopt;
   std::array<bool, 3> out{};
-  for (std::size_t a = 0; a < axes; ++a) {
-    const auto* on = std::get_if<bool>(&(*array)[a].value);
-    if (on == nullptr) fail(key, fmt::format("holds {}", type_name((*array)[a])), wanted);
-    out[a] = *on;
-  }
+  for (std::size_t a = 0; a < axes; ++a) out[a] = item<bool>(key, (*values)[a], wanted);
   return out;
 }
 
@@ -195,6 +210,50 @@ std::optional<int> TableReader::choice(const Key& key) const {
     words.emplace_back(w.text);
   }
   fail_word(key, *word, words);
+}
+
+int TableReader::index_of(const Key& key, const std::string& name, std::string_view what) const {
+  std::vector<std::string> names;
+  if (what == "group")
+    for (const Group& group : scene_->groups) names.push_back(group.name);
+  else
+    for (const Wall& wall : scene_->walls) names.push_back(wall.name);
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end())
+    fail(key, fmt::format("names the unknown {} \"{}\"", what, name),
+         names.empty() ? fmt::format("describe it in a [[{}]] table", what) : suggestion(name, names));
+  return static_cast<int>(at - names.begin());
+}
+
+std::optional<int> TableReader::index(const Key& key) const {
+  const std::optional<std::string> name = text(key);
+  if (!name) return std::nullopt;
+  const auto& [what, or_none] = std::get<keys::NameOf>(key.kind);
+  return or_none && *name == "none" ? -1 : index_of(key, *name, what);
+}
+
+std::optional<std::array<int, 2>> TableReader::two_groups(const Key& key) const {
+  const std::string wanted = "give " + keys::text_of(key.kind);
+  const toml_tree::Array* names = array(key, 2, wanted);
+  if (names == nullptr) return std::nullopt;
+  std::array<int, 2> out{};
+  for (std::size_t k = 0; k < 2; ++k)
+    out[k] = index_of(key, item<std::string>(key, (*names)[k], wanted), "group");
+  return out;
+}
+
+std::optional<std::array<std::int64_t, 3>> TableReader::copies(const Key& key) const {
+  constexpr std::int64_t most = 1'000'000;  // along one axis
+  const std::string_view wanted = "it must be an array of three whole numbers, like [4, 4, 1]";
+  const toml_tree::Array* counts = array(key, 3, wanted);
+  if (counts == nullptr) return std::nullopt;
+  std::array<std::int64_t, 3> out{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    out[a] = item<std::int64_t>(key, (*counts)[a], wanted);
+    if (out[a] < 1 || out[a] > most)
+      fail(key, fmt::format("is {} in {}", out[a], "xyz"[a]), fmt::format("it must be 1 to {}", most));
+  }
+  return out;
 }
 
 std::optional<std::int64_t> TableReader::whole(const Key& key) const {
@@ -256,16 +315,12 @@ std::optional<double> TableReader::number(const Key& key) const {
 }
 
 std::optional<Double3> TableReader::vector(const Key& key, Dimension dim) const {
-  const Node* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  const std::string wanted =
-      fmt::format("it must be an array of {} numbers (dimension = {})", scene_->dim, scene_->dim);
-  const toml_tree::Array* array = value->array();
-  if (array == nullptr) fail(key, fmt::format("is {}", type_name(*value)), wanted);
-  if (static_cast<int>(array->size()) != scene_->dim)
-    fail(key, fmt::format("has {} values", array->size()), wanted);
+  const auto axes = static_cast<std::size_t>(scene_->dim);
+  const toml_tree::Array* values =
+      array(key, axes, fmt::format("it must be an array of {} numbers (dimension = {})", axes, axes));
+  if (values == nullptr) return std::nullopt;
   Double3 out{};
-  for (std::size_t a = 0; a < array->size(); ++a) out[a] = to_number((*array)[a], key, dim);
+  for (std::size_t a = 0; a < axes; ++a) out[a] = to_number((*values)[a], key, dim);
   return out;
 }
 
@@ -289,11 +344,8 @@ TableReader::Part TableReader::part(const keys::KeyTable& inner) const {
 std::vector<TableReader::Part> TableReader::parts(const keys::KeyTable& inner) const {
   const Key& key = (*keys_)[inner.own_name()];
   std::vector<Part> out;
-  const Node* value = find(key);
-  if (value == nullptr) return out;
-  const toml_tree::Array* array = value->array();
-  if (array == nullptr)
-    fail(key, fmt::format("is {}", type_name(*value)), fmt::format("write it as {}", keys::header(inner)));
+  const auto* array = value<toml_tree::Array>(key, "write it as " + keys::header(inner));
+  if (array == nullptr) return out;
   for (std::size_t k = 0; k < array->size(); ++k) {
     const Node* name = (*array)[k].find("name");
     const auto* words = name == nullptr ? nullptr : std::get_if<std::string>(&name->value);

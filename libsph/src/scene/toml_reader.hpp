@@ -57,6 +57,10 @@ class TableReader {
   [[nodiscard]] std::optional<double> number(const Key& key) const;
   [[nodiscard]] std::optional<Double3> vector(const Key& key, Dimension dim) const;
   [[nodiscard]] std::optional<int> choice(const Key& key) const;
+  /// Of the group or wall that is named.
+  [[nodiscard]] std::optional<int> index(const Key& key) const;
+  [[nodiscard]] std::optional<std::array<int, 2>> two_groups(const Key& key) const;
+  [[nodiscard]] std::optional<std::array<std::int64_t, 3>> copies(const Key& key) const;
   /// A path: from the file, relative to its folder; from the command line, to the working one.
   [[nodiscard]] std::optional<std::string> file(const Key& key) const;
   void read(void* owner) const;
@@ -78,6 +82,14 @@ class TableReader {
   [[nodiscard]] std::string path_of(const Key& key) const;
   [[nodiscard]] bool applies(const Key& key) const;  ///< refuses it where it has no meaning
   void put(const Key& key, const keys::Value& to) const;
+  // nullptr where the key is absent; what is of another type or length is refused.
+  template <class T>
+  [[nodiscard]] const T* value(const Key& key, std::string_view wanted) const;
+  [[nodiscard]] const toml_tree::Array* array(const Key& key, std::size_t size,
+                                              std::string_view wanted) const;
+  template <class T>
+  [[nodiscard]] const T& item(const Key& key, const toml_tree::Node& node, std::string_view wanted) const;
+  [[nodiscard]] int index_of(const Key& key, const std::string& name, std::string_view what) const;
 
   const toml_tree::Node* node_;
   std::string path_;
@@ -104,7 +116,7 @@ class Reader : public TableReader {
   template <class E>
   struct WordOf : Name<keys::Words> {
     consteval WordOf(const char* name) : Name<keys::Words>(name) {
-      if (std::get<keys::Words>(this->key.kind).of != &keys::type_mark<E>)
+      if (!std::get<keys::Words>(this->key.kind).template are_of<E>())
         throw std::logic_error("the words of the key are of another enumeration");
     }
   };
@@ -132,7 +144,8 @@ class Reader : public TableReader {
   }
   void not_both(Name<> a, Name<> b) const { TableReader::not_both(a, b); }
   void require(Name<> key) const { TableReader::require(key); }
-  [[nodiscard]] std::optional<std::string> text(Name<keys::Text, keys::NameOf, keys::Words> key) const {
+  [[nodiscard]] std::optional<int> index(Name<keys::NameOf> key) const { return TableReader::index(key); }
+  [[nodiscard]] std::optional<std::string> text(Name<keys::Text, keys::Words> key) const {
     return TableReader::text(key);
   }
   [[nodiscard]] std::optional<bool> flag(Name<keys::Flag> key) const { return TableReader::flag(key); }

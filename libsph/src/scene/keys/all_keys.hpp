@@ -13,11 +13,11 @@ namespace sph::keys {
 inline constexpr auto top_keys = std::to_array<Key>({
     {"title", Text{}, "Name of the run.", at<&Scene::name>, Default{"the file's name"}},
     {"dimension", Whole{2, 3}, "Grains are spheres, in 3.", at<&Scene::dim>, Default{"2; of grains 3"}},
-    {"formulation", one_of<Formulation>,
+    {"formulation", Words{formulation_words},
      "\"conservative\": quiet, conserves momentum; \"ida\": the equations of Ida's paper to the letter, "
      "for comparison.",
      at<&Scene::formulation>, sph_only("it is of SPH; grains follow from [contact]")},
-    {"precision", one_of<Precision>, "Arithmetic of pairs: \"mixed\" is single, on double state.",
+    {"precision", Words{precision_words}, "Arithmetic of pairs: \"mixed\" is single, on double state.",
      at<&Scene::precision>, sph_only("contacts are always computed in double")},
     {"domain", Inner{&domain}, "Where everything happens.", Default{"required"}},
     {"kernel", Inner{&kernel}, "Of fluids and solids.",

@@ -6,7 +6,7 @@
 namespace sph::keys {
 
 inline constexpr auto kernel_keys = std::to_array<Key>({
-    {"shape", one_of<KernelShape>, "The quintic has a radius of 3 h, the other two of 2 h.",
+    {"shape", Words{kernel_shape_words}, "The quintic has a radius of 3 h, the other two of 2 h.",
      at<&Scene::kernel>},
     {"h_over_dx", Number{dimension::none, positive},
      "Smoothing length h in spacings, 0.5 to 4; 1.0 to 1.2 is usual for the quintic.",

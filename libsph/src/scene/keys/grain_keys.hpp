@@ -6,7 +6,8 @@
 namespace sph::keys {
 
 inline constexpr auto pair_keys = std::to_array<Key>({
-    {"groups", two_names("the names of two groups"), "Both names may be the same.", required},
+    {"groups", TwoGroups{R"(the names of two groups, like ["sand", "glass"])"}, "Both names may be the same.",
+     at<&ContactPair::groups>, required},
     {"friction", Number{dimension::none, not_negative}, "Coulomb's mu between the two.",
      at<&ContactPair::friction>, Default{"the smaller of the two"}},
     {"rolling_friction", Number{dimension::none, not_negative}, "mu_r between the two.",
@@ -19,7 +20,7 @@ inline constexpr Table<ContactPair> contact_pair{
      pair_keys}};
 
 inline constexpr auto contact_keys = std::to_array<Key>({
-    {"law", one_of<ContactLaw>, "\"linear\": springs; \"hertz\": Hertz and Mindlin, elastic spheres.",
+    {"law", Words{contact_law_words}, "\"linear\": springs; \"hertz\": Hertz and Mindlin, elastic spheres.",
      at<&ContactControl::law>, required},
     {"normal_damping", Number{dimension::rate, not_negative}, "gamma_n of the linear law, for all contacts.",
      at<&ContactControl::normal_damping>,
@@ -48,8 +49,9 @@ inline constexpr Where unless_box =
 
 inline constexpr auto wall_keys = std::to_array<Key>({
     {"name", Text{}, "A letter, then letters, digits, _ or -.", at<&Wall::name>, required},
-    {"material", NameOf{"group"}, "A group of grains, with or without diameter.", required},
-    {"shape", one_of<WallShape>,
+    {"material", NameOf{"group"}, "A group of grains, with or without diameter.", index_at<&Wall::group>,
+     required},
+    {"shape", Words{wall_shape_words},
      "\"box\": a plane on each side without period, facing inwards, called box_x0, box_x1, box_y0, ... of "
      "a wall \"box\". It rests."},
     {"point", Vector{dimension::length}, "Any point of the plane.", at<&Wall::point>, of_planes, required},
@@ -75,7 +77,7 @@ inline constexpr Table<Wall> wall{
     {"wall", true, "Planes; grains stay on the side to which the normal points.", wall_keys}};
 
 inline constexpr auto stage_wall_keys = std::to_array<Key>({
-    {"name", NameOf{"wall"}, "The wall that changes.", required},
+    {"name", NameOf{"wall"}, "The wall that changes.", index_at<&WallChange::wall>, required},
     {"velocity", Vector{dimension::speed}, "Its velocity from now on.", at<&WallChange::velocity>},
     {"force", Number{dimension::force, positive}, "Of a wall with servo_gain: it is a servo from now on.",
      at<&WallChange::force>},

@@ -10,7 +10,8 @@ inline constexpr auto fragmentation_keys = std::to_array<Key>({
      Number{dimension::none, {.least = 0, .most = 1, .above_least = true, .below_most = true}},
      "Above this volume fraction of gas a particle joins the other group for good.",
      at<&Group::fragmentation_void_fraction>, required},
-    {"group", NameOf{"group"}, "The group that it joins, a fluid with the same equation of state.", required},
+    {"group", NameOf{"group"}, "The group that it joins, a fluid with the same equation of state.",
+     index_at<&Group::fragments_to>, required},
 });
 inline constexpr Table<Group> fragmentation{
     {"group.fragmentation", false, "Bubbly fluid breaks.", fragmentation_keys}};
@@ -22,10 +23,10 @@ inline constexpr Where elastic = unless("eos", "ideal_gas", "an ideal gas has he
 
 inline constexpr auto group_keys = std::to_array<Key>({
     {"name", Text{}, "A letter, then letters, digits, _ or -.", at<&Group::name>, required},
-    {"kind", one_of<GroupKind>,
+    {"kind", Words{group_kind_words},
      "At least one group is a fluid or a solid; in a scene of grains all groups are \"grain\".",
      at<&Group::kind>, required},
-    {"eos", one_of<EosKind>,
+    {"eos", Words{eos_kind_words},
      "\"linear\": p = K (rho/rho_0 - 1). Fluids only: \"bubbly\", Ida eqs. (12)-(15), and \"ideal_gas\": p "
      "= (gamma - 1) rho u, with an energy equation; beside it there is no other matter but walls, which "
      "its heat does not enter, kernel \"quintic\", not \"ida\".",
@@ -60,7 +61,7 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "nu, above -1. Of a solid below 0.5: mu = 3 K (1 - 2 nu) / (2 (1 + nu)). Of grains with Hertz's law "
      "at most 0.5.",
      Default{"required of solids, or shear_modulus; required by Hertz's law"}},
-    {"lagrangian", one_of<Lagrangian>,
+    {"lagrangian", Words{lagrangian_words},
      "Of a solid. \"updated\": stress follows the rate of strain (Jaumann), and bodies may meet fluids. "
      "\"total\": stress is a function of the deformation since the start (neo-Hooke), for bodies that do "
      "not break; conserves energy; beside walls and other bodies of the kind alone, which it touches "
@@ -85,7 +86,7 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"clamps", NameOf{"group"},
      "A wall holds this total-Lagrangian solid: its particles are bonded to those of the solid, whose "
      "material it has.",
-     of_sph, walls},
+     index_at<&Group::clamps>, of_sph, walls},
     {"velocity", Vector{dimension::speed},
      "Of the material of a wall, which slides in its own plane and stays where it is, or of fixed grains, "
      "which drag what touches them as a belt does.",

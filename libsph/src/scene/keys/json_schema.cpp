@@ -23,8 +23,8 @@ Json schema_of(const Number& n) {
   if (std::isfinite(r.most)) out[r.below_most ? "exclusiveMaximum" : "maximum"] = r.most;
   return out;
 }
-Json array_of(const Json& item) {
-  return {{"type", "array"}, {"minItems", 2}, {"maxItems", 3}, {"items", item}};
+Json array_of(const Json& item, int least = 2, int most = 3) {
+  return {{"type", "array"}, {"minItems", least}, {"maxItems", most}, {"items", item}};
 }
 Json schema_of(const Vector&) { return array_of(quantity()); }
 Json schema_of(const Whole& w) {
@@ -37,6 +37,8 @@ Json schema_of(const Flags&) { return array_of({{"type", "boolean"}}); }
 Json schema_of(const Text&) { return {{"type", "string"}}; }
 Json schema_of(const File&) { return {{"type", "string"}}; }
 Json schema_of(const NameOf&) { return {{"type", "string"}}; }
+Json schema_of(const TwoGroups&) { return array_of({{"type", "string"}}, 2, 2); }
+Json schema_of(const Copies&) { return array_of({{"type", "integer"}, {"minimum", 1}}, 3, 3); }
 Json schema_of(const Words& w) {
   Json words = Json::array();
   for (const Word& word : w.words) words.push_back(word.text);

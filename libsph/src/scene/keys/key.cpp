@@ -61,6 +61,8 @@ std::string text_of(const Kind& kind) {
                  [](const File&) { return std::string("the path of a file"); },
                  [](const Words& w) { return list(w); },
                  [](const NameOf& n) { return fmt::format("the name of a {}", n.what); },
+                 [](const TwoGroups& t) { return std::string(t.is); },
+                 [](const Copies&) { return std::string("the copies along each axis, like [4, 4, 1]"); },
                  [](const Inner& t) { return std::string(t.table->array ? "tables" : "a table"); },
                  [](const Special& s) { return fmt::format("{}, like {}", s.is, s.example); }},
       kind);
@@ -69,19 +71,22 @@ std::string text_of(const Kind& kind) {
 std::string standard_of(const Key& key) {
   if (key.member.in == nullptr) return {};
   const auto list = [](const auto& x) { return fmt::format("[{}]", fmt::join(x, ", ")); };
-  return std::visit(
-      Overloaded{[&](const Enumerator& e) {
-                   return fmt::format("\"{}\"", word_of(std::get<Words>(key.kind), e.get(e.at)));
-                 },
-                 [](const std::string*) { return std::string(); },
-                 [&](const std::array<bool, 3>* x) { return list(*x); },
-                 [](const Double3* x) { return fmt::format("{}", (*x)[0]); },
-                 [&](const double* x) {
-                   return std::get<Number>(key.kind).range.holds(*x) ? fmt::format("{}", *x) : std::string();
-                 },
-                 []<class T>(const std::optional<T>*) { return std::string(); },
-                 []<class T>(const T* x) { return fmt::format("{}", *x); }},
-      key.member.standard());
+  return std::visit(Overloaded{[&](const Enumerator& e) {
+                                 return fmt::format("\"{}\"", std::get<Words>(key.kind).text_of(e.get(e.at)));
+                               },
+                               [](const std::string*) { return std::string(); },
+                               [&](const std::array<bool, 3>* x) { return list(*x); },
+                               [](const std::array<std::int64_t, 3>*) { return std::string(); },
+                               [](const std::array<int, 2>*) { return std::string(); },
+                               [](const Named&) { return std::string(); },
+                               [](const Double3* x) { return fmt::format("{}", (*x)[0]); },
+                               [&](const double* x) {
+                                 return std::get<Number>(key.kind).range.holds(*x) ? fmt::format("{}", *x)
+                                                                                   : std::string();
+                               },
+                               []<class T>(const std::optional<T>*) { return std::string(); },
+                               []<class T>(const T* x) { return fmt::format("{}", *x); }},
+                    key.member.standard());
 }
 
 std::string default_of(const Key& key) {

@@ -56,20 +56,22 @@ struct Flag {};
 struct Flags {};  ///< one for each dimension
 struct Text {};
 struct File {};
-struct NameOf {  ///< of a [[group]] or a [[wall]]
+struct NameOf {  ///< of a [[group]] or a [[wall]], kept as its index
   std::string_view what;
+  bool or_none = false;  ///< "none" is -1
 };
-struct Inner {  ///< a table, or an array of them
+struct TwoGroups {  ///< an array of their names
+  std::string_view is;
+};
+struct Copies {};  ///< whole numbers along each axis
+struct Inner {     ///< a table, or an array of them
   const KeyTable* table;
 };
 struct Special {  ///< read by code of its own: what it is, to follow "give", an example, and as a JSON schema
   std::string_view is, example, schema;
 };
-constexpr Special two_names(std::string_view is) {
-  return {is, R"(["melt", "gas"])",
-          R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "string"}})"};
-}
-using Kind = std::variant<Number, Vector, Whole, Flag, Flags, Text, File, Words, NameOf, Inner, Special>;
+using Kind = std::variant<Number, Vector, Whole, Flag, Flags, Text, File, Words, NameOf, TwoGroups, Copies,
+                          Inner, Special>;
 
 /// What a scene must be to have a key: `of` names such scenes, `why` tells others why they have none.
 struct Condition {

@@ -13,21 +13,27 @@
 
 namespace sph::keys {
 
+/// Its address stands for a type.
+template <class T>
+inline constexpr char type_mark = 0;
+
 /// An enumeration, as the number of its enumerator.
 struct Enumerator {
   void* at;
+  const void* of;  ///< type_mark of the enumeration
   int (*get)(const void*);
   void (*set)(void*, int);
 };
 
-using Value = std::variant<double*, std::optional<double>*, Double3*, std::optional<Double3>*, bool*,
-                           std::optional<bool>*, std::array<bool, 3>*, int*, std::int64_t*,
-                           std::optional<std::int64_t>*, std::uint64_t*, std::optional<std::uint64_t>*,
-                           std::string*, Enumerator>;
+/// The index of a group or a wall that a scene names.
+struct Named {
+  int* index;
+};
 
-/// Its address stands for a type.
-template <class T>
-inline constexpr char type_mark = 0;
+using Value = std::variant<double*, std::optional<double>*, Double3*, std::optional<Double3>*, bool*,
+                           std::optional<bool>*, std::array<bool, 3>*, std::array<std::int64_t, 3>*,
+                           std::array<int, 2>*, int*, std::int64_t*, std::optional<std::int64_t>*,
+                           std::uint64_t*, std::optional<std::uint64_t>*, std::string*, Enumerator, Named>;
 
 struct Member {
   Value (*in)(void* owner) = nullptr;  ///< nullptr: code of its own reads and writes the key
@@ -38,7 +44,8 @@ struct Member {
 template <class T>
 Value value_of(T& at) {
   if constexpr (std::is_enum_v<T>)
-    return Enumerator{&at, [](const void* p) { return static_cast<int>(*static_cast<const T*>(p)); },
+    return Enumerator{&at, &type_mark<T>,
+                      [](const void* p) { return static_cast<int>(*static_cast<const T*>(p)); },
                       [](void* p, int n) { *static_cast<T*>(p) = static_cast<T>(n); }};
   else
     return &at;
@@ -46,22 +53,41 @@ Value value_of(T& at) {
 
 template <class Class, class T>
 Class class_of(T Class::*);
+template <auto first>
+using OwnerOf = decltype(class_of(first));
+
+template <auto first, auto... rest>
+auto& inside(auto& object) {
+  if constexpr (sizeof...(rest) == 0)
+    return object.*first;
+  else
+    return inside<rest...>(object.*first);
+}
 
 template <auto first, auto... rest>
 Value value_in(void* owner) {
-  using Owner = decltype(class_of(first));
-  return value_of(((static_cast<Owner*>(owner)->*first).*....*rest));
+  return value_of(inside<first, rest...>(*static_cast<OwnerOf<first>*>(owner)));
 }
 
 template <auto first, auto... rest>
+Value index_in(void* owner) {
+  return Named{&inside<first, rest...>(*static_cast<OwnerOf<first>*>(owner))};
+}
+
+template <class Owner, Value (*in)(void*)>
 Value standard_value() {
-  static decltype(class_of(first)) owner;
-  return value_in<first, rest...>(&owner);
+  static Owner owner;
+  return in(&owner);
 }
 
-/// The member `first` of a struct, or a member of that.
+template <class Owner, Value (*in)(void*)>
+inline constexpr Member member{in, standard_value<Owner, in>, &type_mark<Owner>};
+
+/// A member of a struct, or a member of that.
 template <auto first, auto... rest>
-inline constexpr Member at{value_in<first, rest...>, standard_value<first, rest...>,
-                           &type_mark<decltype(class_of(first))>};
+inline constexpr Member at = member<OwnerOf<first>, value_in<first, rest...>>;
+/// The same where it is the index of what the key names.
+template <auto first, auto... rest>
+inline constexpr Member index_at = member<OwnerOf<first>, index_in<first, rest...>>;
 
 }  // namespace sph::keys

@@ -91,6 +91,8 @@ std::string example(const Key& key) {
   if (const auto* words = std::get_if<Words>(&key.kind))
     return fmt::format("\"{}\"", words->words.front().text);
   if (const auto* special = std::get_if<Special>(&key.kind)) return std::string(special->example);
+  if (std::holds_alternative<TwoGroups>(key.kind)) return R"(["melt", "gas"])";
+  if (std::holds_alternative<Copies>(key.kind)) return "[4, 4, 1]";
   return std::holds_alternative<Flag>(key.kind) ? "false" : fmt::format("\"{}\"", key.name);
 }
 

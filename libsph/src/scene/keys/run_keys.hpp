@@ -24,12 +24,12 @@ inline constexpr auto decomposition_keys = std::to_array<Key>({
      "0: lists are rebuilt when a particle may leave the skin; n: also every n steps.",
      at<&Decomposition::rebuild_every>},
     {"overlap", Flag{}, "Compute while messages travel.", at<&Decomposition::overlap>},
-    {"balance", one_of<CutRule>,
+    {"balance", Words{cut_rule_words},
      "Where the cuts lie. \"quasi_newton\": follow the measured cost; \"hybrid\": the best cuts for a "
      "fitted cost of each cell; \"literal\": the rule of Furuichi and Nishiura as printed; \"fixed\": "
      "stay; \"chaos\": random at every rebuild (for tests); \"replay\": as recorded.",
      at<&Decomposition::cuts>},
-    {"cost", one_of<CostSource>, "What is balanced: measured time, or counts of particles and pairs.",
+    {"cost", Words{cost_source_words}, "What is balanced: measured time, or counts of particles and pairs.",
      at<&Decomposition::cost>},
     {"chaos_seed", Whole{}, "Of balance = \"chaos\".", at<&Decomposition::chaos_seed>},
     {"slow_rank", count, "For tests of the balance: this rank takes longer.", at<&Decomposition::slow_rank>},
@@ -65,7 +65,7 @@ inline constexpr Table<OutputControl> output{{"output", false, "When files are w
 
 inline constexpr auto monitor_keys = std::to_array<Key>({
     {"name", Text{}, "Letters, digits, _ and -.", at<&Monitor::name>, Default{"the kind"}},
-    {"kind", one_of<MonitorKind>,
+    {"kind", Words{monitor_kind_words},
      "\"group\": averages over it. Of grains: \"wall\": its place, its velocity and the force of the "
      "grains on it; \"contacts\": their number and largest overlap.",
      at<&Monitor::kind>, required},
@@ -74,8 +74,10 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
     {"nearest_to", Vector{dimension::length},
      "The particle nearest to this point at the start, lowest id on ties.", at<&Monitor::nearest_to>,
      where("kind", "particle"), Default{"required of a particle, or id"}},
-    {"group", NameOf{"group"}, "The group that is averaged.", where("kind", "group"), required},
-    {"wall", NameOf{"wall"}, "The wall that is watched.", where("kind", "wall"), required},
+    {"group", NameOf{"group"}, "The group that is averaged.", index_at<&Monitor::group>,
+     where("kind", "group"), required},
+    {"wall", NameOf{"wall"}, "The wall that is watched.", index_at<&Monitor::wall>, where("kind", "wall"),
+     required},
 });
 inline constexpr Table<Monitor> monitor{{"monitor", true, "Columns of series.csv.", monitor_keys}};
 

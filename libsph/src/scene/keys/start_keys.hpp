@@ -6,8 +6,9 @@
 namespace sph::keys {
 
 inline constexpr auto region_keys = std::to_array<Key>({
-    {"group", NameOf{"group"}, "What it paints; \"none\" leaves it empty.", required},
-    {"shape", one_of<RegionShape>, "What it covers.", at<&Region::shape>},
+    {"group", NameOf{"group", true}, "What it paints; \"none\" leaves it empty.", index_at<&Region::group>,
+     required},
+    {"shape", Words{region_shape_words}, "What it covers.", at<&Region::shape>},
     {"lower", Vector{dimension::length}, "Of a box: lower <= x < upper.", at<&Region::lower>,
      where("shape", "box"), required},
     {"upper", Vector{dimension::length}, "Of a box.", at<&Region::upper>, where("shape", "box"), required},
@@ -20,7 +21,7 @@ inline constexpr Table<Region> region{
     {"start.region", true, "A lattice point belongs to the last region that contains it.", region_keys}};
 
 inline constexpr auto layer_keys = std::to_array<Key>({
-    {"group", NameOf{"group"}, "What lies there.", required},
+    {"group", NameOf{"group"}, "What lies there.", index_at<&Layer::group>, required},
     {"top", Number{dimension::length},
      "Height of its top against gravity, of the first that of zero pressure.", at<&Layer::top>, required},
 });
@@ -30,13 +31,10 @@ inline constexpr Table<Layer> layer{
 
 inline constexpr auto tile_keys = std::to_array<Key>({
     {"file", File{}, "A snapshot of a run of grains, or a particle file.", at<&Tile::file>, required},
-    {"repeat",
-     Special{
-         "the copies along each axis", "[4, 4, 1]",
-         R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "integer", "minimum": 1}})"},
+    {"repeat", Copies{},
      "Copies along each axis, like [4, 2, 1]; where there are several, a copy is as long as its share of "
      "the domain.",
-     required},
+     at<&Tile::repeat>, required},
 });
 inline constexpr Table<Tile> tile{
     {"start.tile", false, "A settled packing of grains side by side.", tile_keys}};
@@ -50,7 +48,7 @@ inline constexpr auto start_keys = std::to_array<Key>({
      "with an attribute components = \"xx yy zz xy yz xz\", as in snapshots.",
      at<&Start::file>},
     {"tile", Inner{&tile}, "Instead of a lattice: a settled packing of grains side by side.", of_grains},
-    {"lattice", one_of<LatticeKind>, "\"square\" is cubic in 3D; \"hexagonal\" is of 2D.",
+    {"lattice", Words{lattice_kind_words}, "\"square\" is cubic in 3D; \"hexagonal\" is of 2D.",
      at<&Start::lattice>, of_lattices},
     {"origin", Vector{dimension::length}, "A corner of a lattice cell: particles sit at its centre.",
      at<&Start::lattice_origin>, of_lattices, Default{"lower"}},
@@ -76,8 +74,8 @@ inline constexpr auto start_keys = std::to_array<Key>({
      at<&Start::flow_speed>, of_fluids},
     {"flow_length", Number{dimension::length, positive}, "Of \"taylor_green\": its period L.",
      at<&Start::flow_length>, of_fluids},
-    {"pressure", one_of<InitialPressure>, "\"taylor_green\" goes with that velocity.", at<&Start::pressure>,
-     of_fluids},
+    {"pressure", Words{initial_pressure_words}, "\"taylor_green\" goes with that velocity.",
+     at<&Start::pressure>, of_fluids},
     {"surface_height", Number{dimension::length},
      "Hydrostatic: height of zero pressure, against gravity, under the first fluid.", of_fluids,
      Default{"required there, or layers"}},

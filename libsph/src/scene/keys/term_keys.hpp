@@ -6,11 +6,11 @@
 namespace sph::keys {
 
 inline constexpr auto surface_tension_keys = std::to_array<Key>({
-    {"between", two_names("the names of two groups of fluid"),
-     "Two groups of fluid; both with what they fragment into.", required},
+    {"between", TwoGroups{R"(the names of two groups of fluid, like ["melt", "gas"])"},
+     "Two groups of fluid; both with what they fragment into.", at<&InterfaceTension::between>, required},
     {"coefficient", Number{dimension::stiffness, not_negative}, "sigma.", at<&InterfaceTension::coefficient>,
      required},
-    {"form", one_of<TensionForm>,
+    {"form", Words{tension_form_words},
      "\"stress\": in a layer as thick as the kernel, momentum is conserved pair by pair. \"jump\": of the "
      "pressure, from the curvature, for thin fluids (Oh < 0.1 or so), in which the stress stirs the "
      "interface; two fluids alone.",
@@ -39,7 +39,7 @@ inline constexpr auto terms_keys = std::to_array<Key>({
      "how fast neighbours part, up to c/10 and to how much all velocities differ: the same in every frame, "
      "and 0 in rigid motion and at rest. It still stirs disordered fluids that come to rest.",
      at<&Terms::shifting>},
-    {"viscosity", one_of<ViscosityForm>,
+    {"viscosity", Words{viscosity_form_words},
      "How viscous forces are summed. \"laplacian\": the more accurate inside; \"symmetric\": right where "
      "viscosity jumps and at free surfaces, where the other damps waves at half their rate.",
      at<&Terms::viscosity>, of_viscous_forms,
@@ -54,7 +54,7 @@ inline constexpr auto terms_keys = std::to_array<Key>({
      "Of implicit viscosity: stop when the error is this share of the forces; in mixed precision 1e-6 at "
      "least.",
      at<&Terms::viscosity_tolerance>},
-    {"pressure_weights", one_of<PressureWeights>,
+    {"pressure_weights", Words{pressure_weights_words},
      "For scenes without solids. \"density\" weighs each pressure by the other's density: quiet interfaces "
      "between fluids of different density.",
      at<&Terms::pressure_weights>, of_flows},
