@@ -111,13 +111,13 @@ bool TableReader::applies(const Key& key) const {
 }
 
 void TableReader::read(void* owner) const {
+  // What is out of place says more than what is missing. Words stand before the keys that depend on them.
+  for (const Key& key : keys_->keys)
+    if (applies(key) && std::holds_alternative<keys::Words>(key.kind)) (void)choice(key);
   for (const Key& key : keys_->keys) {
     if (!applies(key)) continue;
     if (key.required) require(key);
-    if (key.member.in != nullptr)
-      put(key, key.member.in(owner));
-    else if (std::holds_alternative<keys::Words>(key.kind))
-      (void)choice(key);  // others may depend on its word
+    if (key.member.in != nullptr) put(key, key.member.in(owner));
   }
 }
 
