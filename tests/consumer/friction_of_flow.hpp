@@ -6,6 +6,7 @@
 struct FlowFriction {
   static constexpr std::string_view name = "FlowFriction", word = "flow_friction";
   static constexpr double most = 100;
+  static constexpr std::string_view sentence = "Brakes every flow.";
   static constexpr sph::Effect effect = sph::Effect::acceleration;
   static constexpr sph::ValueSet reads{sph::Value::velocity, sph::Value::volume};
   static constexpr sph::Field writes = sph::Field::added;

@@ -132,7 +132,7 @@ def write(case, folder):
 
 
 def keys(table, path=""):
-    """Every key of a scene, with its table as scene_keys.hpp names it."""
+    """Every key of a scene, with its table as scene/keys names it."""
     for key, value in table.items():
         yield f"{path}{key}"
         inner = value if isinstance(value, list) else [value]

@@ -22,7 +22,8 @@
 #include "../system/saved_state.hpp"
 #include "../system/shuffled_start.hpp"
 #include "agreed.hpp"
-#include "scene/toml_reader.hpp"
+#include "scene/keys/all_keys.hpp"
+#include "scene/keys/law_keys.hpp"
 #include "sph/checkpoint.hpp"
 
 namespace {
@@ -205,9 +206,10 @@ class Bench {
 };
 
 void print_keys() {
-  for (const sph::KeyTable& table : sph::scene_keys::all)
-    for (const std::string& key : sph::keys_of(table))
-      std::cout << table.name << (table.name.empty() ? "" : ".") << key << '\n';
+  for (const sph::keys::KeyTable* table : sph::keys::all)
+    for (const auto& keys : {table->keys, sph::keys::more_keys(*table)})
+      for (const sph::keys::Key& key : keys)
+        std::cout << table->name << (table->name.empty() ? "" : ".") << key.name << '\n';
 }
 
 }  // namespace

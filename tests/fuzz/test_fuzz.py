@@ -17,7 +17,7 @@ NOT_VARIED = {
     "decomposition.replay": "fuzz_ranks names the file of every row with cuts = replay",
     "decomposition.chaos_seed": "fuzz_ranks draws it for every row with cuts = chaos",
 }
-# As scene_keys.hpp names the tables, without the words of a start file, which cases add when they are written.
+# As the key table names them, without the words of a start file, which cases add when they are written.
 ADDED = {"start.file", "start.tile", "start.tile.file", "start.tile.repeat"}
 CASES = 4000
 

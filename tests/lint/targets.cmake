@@ -4,7 +4,7 @@ add_test(NAME lint COMMAND ${PYTHON} -B ${lint})
 add_test(NAME lint.self_test COMMAND ${PYTHON} -B ${lint} --self-test)
 
 file(GLOB private_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/libdecomp/src/*.hpp
-  ${PROJECT_SOURCE_DIR}/libsph/src/*/*.hpp)
+  ${PROJECT_SOURCE_DIR}/libsph/src/*/*.hpp ${PROJECT_SOURCE_DIR}/libsph/src/*/*/*.hpp)
 set(stubs)
 foreach(header ${private_headers})
   get_filename_component(name ${header} NAME_WE)

@@ -314,7 +314,7 @@ TEST(GrainScene, RulesNameTheReason) {
        "reduce the grains or decomposition.skin"},
       {{"wall.floor.normal=[0, 0, -1]"}, "leaves the whole domain behind the wall"},
       {{"start.lattice=hexagonal"}, "exists in 2D only"},
-      {{"decomposition.skin=3"}, "it is a fraction of the largest diameter"},
+      {{"decomposition.skin=3"}, "of grains: the largest diameter"},
   };
   for (const auto& [options, expected] : cases) {
     const std::string message = message_of(small, options);

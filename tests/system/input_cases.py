@@ -9,6 +9,7 @@ import re
 import resource
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 import h5py
@@ -226,10 +227,22 @@ until = 1
         self.refused("check", self.file("fluid.toml", self.FLUID), "--set", "start.region=", "--set",
                      "start.file=same.csv", says="line 3: the particle lies at exactly the point of that in line 2")
 
-    def test_references(self):
-        """The reference scenes are scenes."""
-        for scene in ("scene_reference.toml", "grain_scene_reference.toml"):
-            self.run.run(2, "peperite", "run", self.pour.parents[2] / "apps" / scene, "--steps", 100, "--out", scene)
+    def test_every_key(self):
+        """The scenes that show every key run."""
+        scenes = sorted((self.source / "tests" / "every_key").glob("*.toml"))
+        assert len(scenes) > 5
+        for scene in scenes:
+            self.run.run(2, "peperite", "run", scene, "--set", "decomposition.record=", "--steps", 100, "--out", scene.stem)
+
+    def test_keys(self):
+        """Every form of the reference, and one at a time."""
+        forms = {"": "\n[[group]]  A material", "--markdown": "\n| `density` | number [kg/m3], positive |",
+                 "--toml": "\n#density = \"1 kg/m3\"\n", "--json-schema": "\"$schema\": "}
+        for form, text in forms.items():
+            assert text in self.run.run(1, "peperite", "keys", *form.split()).out, form
+        tomllib.loads(self.run.run(3, "peperite", "keys", "--toml").out)
+        for wrong in (["--toml", "--markdown"], ["density"], ["--jsn-schema"]):
+            self.refused("keys", *wrong, says="--help", ranks=(1,))
 
     # ---- programs -------------------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 // Field::added, and says besides:
 //
 //   static constexpr std::string_view word = "my_term";   // of [terms]: its strength, 0 where it is not given
+//   static constexpr std::string_view sentence = "What it does.";   // of the reference of keys
 //   static constexpr double most = 1;                      // no strength is larger
 //   static constexpr Effect effect = Effect::acceleration;
 //
@@ -20,7 +21,7 @@ namespace sph {
 
 /// A term as code knows it that is not compiled for it.
 struct AddedTerm {
-  std::string_view word;
+  std::string_view word, sentence;
   double most;
   Effect effect;
   Term term;
@@ -30,7 +31,7 @@ struct AddedTerm {
 template <class T>
 const AddedTerm& added_term() {
   static_assert(T::writes == Field::added);
-  static const AddedTerm entry{T::word, T::most, T::effect, term<T>, fusions_of<T>()};
+  static const AddedTerm entry{T::word, T::sentence, T::most, T::effect, term<T>, fusions_of<T>()};
   return entry;
 }
 

@@ -22,6 +22,7 @@ struct LawKey {
   double most = std::numeric_limits<double>::infinity();
   /// The default, of the values of the keys before; without it the key is required.
   double (*otherwise)(const LawConstants& before) = nullptr;
+  std::string_view sentence{}, default_text{};  ///< of the reference (peperite keys)
 };
 
 }  // namespace sph

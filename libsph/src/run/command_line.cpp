@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "decomp/memory.hpp"
+#include "scene/keys/reference.hpp"
 #include "scene/units.hpp"
 #include "sph/report.hpp"
 #include "sph/run.hpp"
@@ -111,6 +112,21 @@ struct Arguments {
   }
 };
 
+using Reference = std::string();
+
+/// Ways to print the keys of a scene; without any of them `reference` stays as it is.
+void add_forms(CLI::App& app, Reference*& reference) {
+  CLI::App& forms = *app.add_option_group("form");
+  forms.require_option(0, 1);
+  const auto add = [&](const char* name, const char* what, Reference* form) {
+    forms.add_flag_callback(
+        name, [&reference, form] { reference = form; }, what);
+  };
+  add("--markdown", "as tables (apps/keys.md)", keys::reference_markdown);
+  add("--toml", "as a scene with all keys commented out", keys::reference_toml);
+  add("--json-schema", "for editors (apps/scene.schema.json)", keys::reference_json_schema);
+}
+
 /// The exit code if the command line says all there is to do (--help, --version); throws InputError if it is
 /// wrong.
 std::optional<int> parse(CLI::App& app, int argc, char** argv, const decomp::Comm& comm) {
@@ -206,10 +222,18 @@ int tool_main(int argc, char** argv) {
     CLI::App& diff = *app.add_subcommand("diff", "compare two states bit by bit; exits 1 if they differ");
     diff.add_option("a", arguments.first, "snapshot, checkpoint or run directory")->required();
     diff.add_option("b", arguments.second, "another")->required();
+    CLI::App& explain = *app.add_subcommand("keys", "explain every key of a scene");
+    Reference* reference = keys::reference_text;
+    add_forms(explain, reference);
     if (const auto code = parse(app, argc, argv, comm)) return *code;
 
     if (!run.parsed() && !resume.parsed()) restore_signal_handlers();
     if (check.parsed()) return check_case(arguments.run, comm);
+    if (explain.parsed())
+      return on_one_rank(comm, [&] {
+        fmt::print("{}", reference());
+        return exit_done;
+      });
     if (info.parsed())
       return on_one_rank(comm, [&] {
         fmt::print("{}\n", describe(arguments.first));

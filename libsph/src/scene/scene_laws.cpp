@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 
+#include "scene/keys/law_keys.hpp"
 #include "scene/scene_resolve.hpp"
 #include "sph/added_term.hpp"
 
@@ -23,15 +23,17 @@ std::string names_of(std::span<const LawKey> keys) {
   return text.empty() ? "none" : text;
 }
 
-void refuse_keys_of_others(const TableReader& table, std::string_view choice, const LawWord& law,
+void refuse_keys_of_others(const GroupReader& group, std::string_view choice, const LawWord& law,
                            const std::vector<LawWord>& all) {
+  const TableReader& table = group;
   for (const LawWord& other : all)
     for (const LawKey& key : other.keys) {
-      if (has(law, key.name) || !table.has(key.name)) continue;
+      const Key& given = *keys::find_key(keys::group, key.name);
+      if (has(law, key.name) || !table.has(given)) continue;
       std::vector<std::string> owners;
       for (const LawWord& owner : all)
         if (has(owner, key.name)) owners.emplace_back(owner.word);
-      table.only_if(false, key.name,
+      table.only_if(false, given,
                     fmt::format("it is of {} = {}; \"{}\" takes {}", choice, either(owners), law.word,
                                 names_of(law.keys)));
     }
@@ -46,36 +48,32 @@ std::string either(const std::vector<std::string>& words) {
   return text;
 }
 
-LawConstants read_law_constants(const TableReader& table, std::string_view choice, const LawWord& law,
+LawConstants read_law_constants(const GroupReader& group, std::string_view choice, const LawWord& law,
                                 const std::vector<LawWord>& all) {
-  refuse_keys_of_others(table, choice, law, all);
+  refuse_keys_of_others(group, choice, law, all);
+  const TableReader& table = group;
   LawConstants values{};
   for (std::size_t k = 0; k < law.keys.size(); ++k) {
     const LawKey& key = law.keys[k];
-    const Bound bound = key.above == 0 ? Bound::positive : Bound::any;
-    std::optional<double> value = table.number(key.name, key.dimension, bound);
-    if (!value && key.otherwise == nullptr) value = table.required_number(key.name, key.dimension, bound);
+    const Key& given = *keys::find_key(keys::group, key.name);
+    if (key.otherwise == nullptr) table.require(given);
+    const std::optional<double> value = table.number(given);
     values[k] = value ? *value : key.otherwise(values);
     if (values[k] > key.above && values[k] <= key.most) continue;
-    if (!value) table.fail(law.keys[0].name, "is below the range of numbers", "check its unit");
-    table.fail(key.name, fmt::format("is {}", values[k]),
-               std::isinf(key.most) ? fmt::format("it must be above {}", key.above)
-                                    : fmt::format("it must be above {} and at most {}", key.above, key.most));
+    if (!value)
+      table.fail(*keys::find_key(keys::group, law.keys[0].name), "is below the range of numbers",
+                 "check its unit");
+    const keys::Range range{.least = key.above, .most = key.most, .above_least = true};
+    table.fail(given, fmt::format("is {}", values[k]), keys::wanted(range, values[k]));
   }
   return values;
 }
 
-void read_added_terms(const TableReader& table, Scene& scene) {
-  const bool has_them = scene.formulation == Formulation::conservative && !scene.total_lagrangian() &&
-                        !scene.has_eos(EosKind::ideal_gas);
-  for (const AddedTerm* t : added_terms()) {
-    table.only_if(has_them, t->word, "it is of liquids and updated-Lagrangian solids");
-    const double strength = table.number(t->word, dimension::none, Bound::not_negative).value_or(0);
-    if (strength > t->most)
-      table.fail(t->word, fmt::format("is {}", strength), fmt::format("it must be 0 to {}", t->most));
-    scene.terms.added.push_back(strength);
-  }
-  if (std::ranges::all_of(scene.terms.added, [](double x) { return x == 0; })) scene.terms.added.clear();
+void read_added_terms(const TermsReader& reader, Terms& terms) {
+  const TableReader& table = reader;
+  for (const AddedTerm* t : added_terms())
+    terms.added.push_back(table.number(*keys::find_key(keys::terms, t->word)).value_or(0));
+  if (std::ranges::all_of(terms.added, [](double x) { return x == 0; })) terms.added.clear();
 }
 
 }  // namespace sph

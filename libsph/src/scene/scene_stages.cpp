@@ -14,9 +14,10 @@ struct Course {
   std::vector<bool> removed, driven_by_force;
 };
 
-WallChange read_change(const TableReader& table, const std::vector<Wall>& walls, Course& course) {
+WallChange read_change(const Reader<keys::stage_wall>& table, const std::vector<Wall>& walls,
+                       Course& course) {
   WallChange change;
-  change.wall = read_wall_name(table, "name", walls);
+  table.read(change);
   const auto k = static_cast<std::size_t>(change.wall);
   if (course.removed[k])
     table.fail("name", fmt::format("names \"{}\", which an earlier stage removed", walls[k].name),
@@ -24,8 +25,6 @@ WallChange read_change(const TableReader& table, const std::vector<Wall>& walls,
   table.not_both("velocity", "force");
   table.not_both("velocity", "remove");
   table.not_both("force", "remove");
-  change.velocity = table.vector("velocity", dimension::speed, 3);
-  change.force = table.number("force", dimension::force, Bound::positive);
   if (change.force && walls[k].servo_gain == 0)
     table.fail("force", fmt::format("is given, but the wall \"{}\" is no servo", walls[k].name),
                "give that [[wall]] servo_gain and largest_speed");
@@ -38,10 +37,10 @@ WallChange read_change(const TableReader& table, const std::vector<Wall>& walls,
   return change;
 }
 
-WallStage read_stage(const TableReader& table, const Scene& scene, Course& course) {
+WallStage read_stage(const Reader<keys::stage>& table, const Scene& scene, Course& course) {
   WallStage stage;
-  stage.begin = table.required_number("begin", dimension::time, Bound::not_negative);
-  for (const TableReader& t : table.tables("wall", scene_keys::stage_wall)) {
+  table.read(stage);
+  for (const auto& t : table.tables<keys::stage_wall>()) {
     const WallChange change = read_change(t, scene.walls, course);
     for (const WallChange& other : stage.walls)
       if (other.wall == change.wall)
@@ -55,8 +54,8 @@ WallStage read_stage(const TableReader& table, const Scene& scene, Course& cours
 }
 
 /// A servo that nothing ever sets a force for.
-void check_servos(const TableReader& top, const Scene& scene, const Course& course) {
-  for (const TableReader& table : top.tables("wall", scene_keys::wall))
+void check_servos(const TopReader& top, const Scene& scene, const Course& course) {
+  for (const auto& table : top.tables<keys::wall>())
     for (std::size_t k = 0; k < scene.walls.size(); ++k)
       if (scene.walls[k].name == table.text("name") && scene.walls[k].servo_gain > 0 &&
           !scene.walls[k].force && !course.driven_by_force[k])
@@ -65,14 +64,13 @@ void check_servos(const TableReader& top, const Scene& scene, const Course& cour
 
 }  // namespace
 
-std::vector<WallStage> read_stages(const TableReader& top, const Scene& scene) {
+std::vector<WallStage> read_stages(const TopReader& top, const Scene& scene) {
   std::vector<WallStage> stages;
   std::vector<std::string> names;
   Course course{std::vector<bool>(scene.walls.size()), std::vector<bool>(scene.walls.size())};
-  for (const TableReader& table : top.tables("stage", scene_keys::stage)) {
+  for (const auto& table : top.tables<keys::stage>()) {
     names.push_back(read_name(table, "stage", names));
     WallStage stage = read_stage(table, scene, course);
-    stage.name = names.back();
     if (!stages.empty() && !(stages.back().begin < stage.begin))
       table.fail("begin", fmt::format("is {}, not after the stage before it", stage.begin),
                  "write stages in the order of their times");

@@ -15,45 +15,25 @@ namespace {
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr double most_lattice_points = 1e12;
 
-int read_painted_group(const TableReader& table, const Scene& scene) {
-  const std::string name = table.required_text("group");
-  if (name == "none") return -1;
-  const int group = read_group_name(table, "group", scene.groups);
-  if (const Group& g = scene.groups[static_cast<std::size_t>(group)];
-      g.kind == GroupKind::grain && !(g.grain.largest_radius > 0))
-    table.fail("group", fmt::format("names \"{}\", a material without diameter", name),
-               "give that [[group]] the diameter of its grains");
-  return group;
-}
-
 bool can_move(const Group& group) { return group.kind != GroupKind::wall && !group.grain.fixed; }
 
-Region read_region(const TableReader& table, const Scene& scene, const Start& start) {
+Region read_region(const Reader<keys::region>& table, const Scene& scene) {
   Region region;
-  region.group = read_painted_group(table, scene);
-  region.shape = table.choice("shape", region_words()).value_or(RegionShape::everywhere);
-  const bool box = region.shape == RegionShape::box;
-  const bool ball = region.shape == RegionShape::ball;
-  for (const std::string_view key : {"lower", "upper"})
-    table.only_if(box, key, "only shape = \"box\" has it");
-  for (const std::string_view key : {"centre", "radius"})
-    table.only_if(ball, key, "only shape = \"ball\" has it");
+  table.read(region);
+  if (const Group* g = region.group < 0 ? nullptr : &scene.groups[static_cast<std::size_t>(region.group)];
+      g != nullptr && g->kind == GroupKind::grain && !(g->grain.largest_radius > 0))
+    table.fail("group", fmt::format("names \"{}\", a material without diameter", g->name),
+               "give that [[group]] the diameter of its grains");
+  const Start& start = scene.start;
   bool outside = false;
-  if (box) {
-    region.lower = table.required_vector("lower", dimension::length, scene.dim);
-    region.upper = table.required_vector("upper", dimension::length, scene.dim);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
-      if (!(region.lower[a] < region.upper[a]))
-        table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
-      outside = outside || region.upper[a] <= start.lower[a] || region.lower[a] >= start.upper[a];
-    }
-  }
-  if (ball) {
-    region.centre = table.required_vector("centre", dimension::length, scene.dim);
-    region.radius = table.required_number("radius", dimension::length, Bound::positive);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-      outside = outside || region.centre[a] + region.radius <= start.lower[a] ||
-                region.centre[a] - region.radius >= start.upper[a];
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    const bool box = region.shape == RegionShape::box;
+    if (box && !(region.lower[a] < region.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+    if (region.shape == RegionShape::everywhere) continue;
+    const double least = box ? region.lower[a] : region.centre[a] - region.radius;
+    const double most = box ? region.upper[a] : region.centre[a] + region.radius;
+    outside = outside || most <= start.lower[a] || least >= start.upper[a];
   }
   if (outside)
     table.fail("shape", "lies outside the filled lattice", "move it between start.lower and start.upper");
@@ -61,7 +41,8 @@ Region read_region(const TableReader& table, const Scene& scene, const Start& st
   return region;
 }
 
-void check_fill(const TableReader& table, const Scene& scene, const Start& start) {
+void check_fill(const StartReader& table, const Scene& scene) {
+  const Start& start = scene.start;
   double points = 1;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     if (!(start.lower[a] < start.upper[a]))
@@ -83,7 +64,8 @@ void check_fill(const TableReader& table, const Scene& scene, const Start& start
 }
 
 /// A filled period must hold whole cells of the lattice, or its seam would be wider or narrower than dx.
-void check_seam(const TableReader& table, const Scene& scene, const Start& start) {
+void check_seam(const StartReader& table, const Scene& scene) {
+  const Start& start = scene.start;
   const std::size_t axes = start.lattice == LatticeKind::square ? static_cast<std::size_t>(scene.dim) : 1;
   for (std::size_t a = 0; a < axes; ++a) {
     const bool filled = start.lower[a] == scene.lower[a] && start.upper[a] == scene.upper[a];
@@ -99,23 +81,18 @@ void check_seam(const TableReader& table, const Scene& scene, const Start& start
   }
 }
 
-void read_lattice(const TableReader& table, const Scene& scene, Start& start) {
-  start.lattice = table.choice("lattice", lattice_words()).value_or(LatticeKind::square);
+void read_lattice(const StartReader& table, Scene& scene) {
+  Start& start = scene.start;
   if (start.lattice == LatticeKind::hexagonal && scene.dim != 2)
     table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\"");
-  start.lower = table.vector("lower", dimension::length, scene.dim).value_or(scene.lower);
-  start.upper = table.vector("upper", dimension::length, scene.dim).value_or(scene.upper);
-  start.lattice_origin = table.vector("origin", dimension::length, scene.dim).value_or(start.lower);
-  check_fill(table, scene, start);
-  check_seam(table, scene, start);
-  start.jitter = table.number("jitter", dimension::none, Bound::not_negative).value_or(0);
-  if (start.jitter >= 0.5)
-    table.fail("jitter", fmt::format("is {}", start.jitter), "it is in spacings and must be below 0.5");
-  const std::vector<TableReader> regions = table.tables("region", scene_keys::region);
+  if (!table.has("origin")) start.lattice_origin = start.lower;
+  check_fill(table, scene);
+  check_seam(table, scene);
+  const std::vector<Reader<keys::region>> regions = table.tables<keys::region>();
   if (regions.empty()) table.fail_missing("region", "paint groups with [[start.region]], or give start.file");
   bool matter = false;
-  for (const TableReader& r : regions) {
-    start.regions.push_back(read_region(r, scene, start));
+  for (const auto& r : regions) {
+    start.regions.push_back(read_region(r, scene));
     const int group = start.regions.back().group;
     matter = matter || (group >= 0 && can_move(scene.groups[static_cast<std::size_t>(group)]));
   }
@@ -126,21 +103,24 @@ void read_lattice(const TableReader& table, const Scene& scene, Start& start) {
         "paint at least one");
 }
 
-void read_velocity(const TableReader& table, const Scene& scene, Start& start) {
+void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
   const toml_tree::Node* value = table.find("velocity");
   if (value != nullptr && value->array() != nullptr) {
     start.velocity = InitialVelocity::uniform;
-    start.uniform_velocity = *table.vector("velocity", dimension::speed, scene.dim);
+    start.uniform_velocity = *table.vector("velocity", dimension::speed);
   } else if (value != nullptr) {
-    if (std::get_if<std::string>(&value->value) == nullptr)
-      table.fail("velocity", fmt::format("is {}", type_name(*value)),
-                 "it must be \"rest\", \"taylor_green\" or an array of speeds");
-    const Choices<InitialVelocity> words{{"rest", InitialVelocity::rest},
-                                         {"taylor_green", InitialVelocity::taylor_green}};
-    start.velocity = *table.choice("velocity", words);
+    const auto* word = std::get_if<std::string>(&value->value);
+    const std::string what =
+        word == nullptr ? fmt::format("is {}", type_name(*value)) : fmt::format("is \"{}\"", *word);
+    if (scene.of_grains() && (word == nullptr || *word != "rest"))
+      table.fail("velocity", what, "grains start with \"rest\" or an array of speeds");
+    if (word == nullptr)
+      table.fail("velocity", what, "it must be \"rest\", \"taylor_green\" or an array of speeds");
+    if (*word == "taylor_green")
+      start.velocity = InitialVelocity::taylor_green;
+    else if (*word != "rest")
+      table.fail_word(keys::start["velocity"], *word, {"rest", "taylor_green"});
   }
-  start.flow_speed = table.number("flow_speed", dimension::speed, Bound::positive).value_or(1);
-  start.flow_length = table.number("flow_length", dimension::length, Bound::positive).value_or(1);
   if (start.velocity != InitialVelocity::taylor_green) return;
   for (std::size_t a = 0; a < 2; ++a) {
     const double periods = (scene.upper[a] - scene.lower[a]) / start.flow_length;
@@ -152,24 +132,21 @@ void read_velocity(const TableReader& table, const Scene& scene, Start& start) {
 }
 
 /// surface_height is short for one layer of the first fluid, or of the first solid where there is none.
-std::vector<Layer> read_layers(const TableReader& table, const Scene& scene,
-                               const std::optional<double>& surface_height) {
+std::vector<Layer> read_layers(const StartReader& table, const Scene& scene) {
   table.not_both("surface_height", "layer");
   std::vector<Layer> layers;
-  for (const TableReader& t : table.tables("layer", scene_keys::layer)) {
-    (void)t.required_text("group");
+  for (const auto& t : table.tables<keys::layer>()) {
     Layer layer;
-    layer.group = read_group_name(t, "group", scene.groups);
+    t.read(layer);
     if (scene.groups[static_cast<std::size_t>(layer.group)].kind == GroupKind::wall)
       t.fail("group", "names a wall", "the layers are what lies on top of each other");
-    layer.top = t.required_number("top", dimension::length, Bound::any);
     if (!layers.empty() && layer.top >= layers.back().top)
       t.fail("top", fmt::format("is {}, not below that of the layer before", layer.top),
              "give the layers from the surface downwards");
     t.finish();
     layers.push_back(layer);
   }
-  if (surface_height) {
+  if (const std::optional<double> surface_height = table.number("surface_height")) {
     const auto first = [&](GroupKind kind) {
       return std::find_if(scene.groups.begin(), scene.groups.end(),
                           [&](const Group& g) { return g.kind == kind; });
@@ -181,13 +158,8 @@ std::vector<Layer> read_layers(const TableReader& table, const Scene& scene,
   return layers;
 }
 
-void read_pressure(const TableReader& table, const Scene& scene, Start& start) {
-  const Choices<InitialPressure> words{{"zero", InitialPressure::zero},
-                                       {"hydrostatic", InitialPressure::hydrostatic},
-                                       {"taylor_green", InitialPressure::taylor_green}};
-  start.pressure = table.choice("pressure", words).value_or(InitialPressure::zero);
-  const std::optional<double> height = table.number("surface_height", dimension::length, Bound::any);
-  start.layers = read_layers(table, scene, height);
+void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
+  start.layers = read_layers(table, scene);
   if (start.pressure == InitialPressure::taylor_green && start.velocity != InitialVelocity::taylor_green)
     table.fail("pressure", "is \"taylor_green\" without that velocity",
                "set velocity = \"taylor_green\" too");
@@ -208,32 +180,32 @@ void read_pressure(const TableReader& table, const Scene& scene, Start& start) {
 
 }  // namespace
 
-Start read_start(const TableReader& table, const Scene& scene) {
-  const bool grains = scene.of_grains();
-  Start start;
-  start.file = table.file_path("file", scene.file);
-  start.tile = read_tile(table, scene);
+void read_start(const StartReader& table, Scene& scene) {
+  Start& start = scene.start;
+  const bool tile = scene.of_grains() && table.has("tile");
+  const bool from_file = tile || table.has("file");
+  if (tile) {
+    const auto inner = table.table<keys::tile>();
+    inner.read(start.tile);
+    inner.finish();
+  }
+  if (!from_file) {
+    start.lower = scene.lower;
+    start.upper = scene.upper;
+  }
+  using Name = StartReader::Name<>;
+  for (const Name key :
+       {Name("lattice"), Name("origin"), Name("lower"), Name("upper"), Name("region"), Name("jitter")})
+    table.only_if(!from_file, key,
+                  fmt::format("the particles come from start.{}", table.has("file") ? "file" : "tile"));
+  table.read(start);
   table.not_both("file", "tile");
-  const bool from_file = table.has("file") || table.has("tile");
-  if (from_file) {
-    if (!grains && table.has("file")) start.free_surface = table.flag("free_surface");
-    for (const std::string_view key : {"lattice", "origin", "lower", "upper", "region", "jitter"})
-      table.only_if(false, key,
-                    fmt::format("the particles come from start.{}", table.has("file") ? "file" : "tile"));
-    if (grains) table.only_if(false, "velocity", "the velocities come from the file");
-  } else {
-    read_lattice(table, scene, start);
-  }
-  table.only_if(start.free_surface.has_value(), "free_surface",
-                "it is for start.file; of a lattice it is known");
-  start.seed = static_cast<std::uint64_t>(table.whole("seed", 0).value_or(0));
-  if (grains) {
-    read_grain_velocity(table, start);
-  } else {
-    read_velocity(table, scene, start);
-    read_pressure(table, scene, start);
-  }
-  return start;
+  table.only_if(table.has("file"), "free_surface", "it is for start.file; of a lattice it is known");
+  if (!from_file) read_lattice(table, scene);
+  if (scene.of_grains() && from_file) table.only_if(false, "velocity", "the velocities come from the file");
+  read_velocity(table, scene, start);
+  if (!scene.of_grains()) read_pressure(table, scene, start);
+  table.finish();
 }
 
 }  // namespace sph

@@ -7,18 +7,18 @@
 #include <limits>
 #include <optional>
 
-#include "scene/nearest.hpp"
 #include "scene/scene_resolve.hpp"
 
 namespace sph {
 namespace {
 
+using WallReader = Reader<keys::wall>;
+
 constexpr std::array axis_names{"x", "y", "z"};
 
 /// Unit vectors stay as they are, so that a scene that is written out and read back keeps its bits.
-Double3 read_normal(const TableReader& table) {
+Double3 unit_normal(const WallReader& table, Double3 n) {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  Double3 n = table.required_vector("normal", dimension::none, 3);
   const auto square = [&] { return n[0] * n[0] + n[1] * n[1] + n[2] * n[2]; };
   if (std::fabs(square() - 1) <= rounding) return n;
   const double largest = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
@@ -30,7 +30,7 @@ Double3 read_normal(const TableReader& table) {
 }
 
 /// The corner of the domain furthest along the normal must be in front of the plane.
-void check_plane(const TableReader& table, const Scene& scene, const Wall& wall) {
+void check_plane(const WallReader& table, const Scene& scene, const Wall& wall) {
   double room = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     if (scene.periodic[a] && wall.normal[a] != 0)
@@ -44,32 +44,25 @@ void check_plane(const TableReader& table, const Scene& scene, const Wall& wall)
 }
 
 /// Prescribed velocity or servo. Gain and largest speed alone are for a servo that a stage begins.
-void read_drive(const TableReader& table, Wall& wall) {
+void read_drive(const WallReader& table, Wall& wall) {
   table.not_both("velocity", "force");
-  wall.velocity = table.vector("velocity", dimension::speed, 3).value_or(Double3{});
-  wall.force = table.number("force", dimension::force, Bound::positive);
-  const auto gain = table.number("servo_gain", dimension::speed_per_force, Bound::positive);
-  const auto speed = table.number("largest_speed", dimension::speed, Bound::positive);
+  wall.velocity = table.vector("velocity").value_or(Double3{});
+  const bool gain = wall.servo_gain > 0, speed = wall.largest_speed > 0;
   const bool servo = wall.force || gain || speed;
   if (servo && !gain)
     table.fail_missing("servo_gain", "a servo needs it: speed of the wall per excess of force, in m/s/N");
   if (servo && !speed) table.fail_missing("largest_speed", "a servo needs it, in m/s");
-  wall.servo_gain = gain.value_or(0);
-  wall.largest_speed = speed.value_or(0);
 }
 
-Wall read_plane(const TableReader& table, const Scene& scene, Wall wall) {
-  for (const std::string_view key : {"lower", "upper", "open"})
-    table.only_if(false, key, "only shape = \"box\" has it");
-  wall.point = table.required_vector("point", dimension::length, 3);
-  wall.normal = read_normal(table);
+Wall read_plane(const WallReader& table, const Scene& scene, Wall wall) {
+  wall.normal = unit_normal(table, wall.normal);
   check_plane(table, scene, wall);
   read_drive(table, wall);
   return wall;
 }
 
 /// `open` as a bit per side: x0, x1, y0, ...
-unsigned read_open(const TableReader& table, const std::vector<std::string>& sides) {
+unsigned read_open(const WallReader& table, const std::vector<std::string>& sides) {
   const toml_tree::Node* value = table.find("open");
   if (value == nullptr) return 0;
   const toml_tree::Array* names = value->array();
@@ -89,20 +82,15 @@ unsigned read_open(const TableReader& table, const std::vector<std::string>& sid
   return open;
 }
 
-std::vector<Wall> read_box(const TableReader& table, const Scene& scene, const Wall& like) {
-  for (const std::string_view key : {"point", "normal"})
-    table.only_if(false, key, "only shape = \"plane\" has it; a box has lower and upper");
-  for (const std::string_view key : {"velocity", "force", "servo_gain", "largest_speed"})
-    table.only_if(false, key, "a box rests; leave a side open and give it a [[wall]] of its own");
-  const Double3 lower = table.required_vector("lower", dimension::length, 3);
-  const Double3 upper = table.required_vector("upper", dimension::length, 3);
+std::vector<Wall> read_box(const WallReader& table, const Scene& scene, const Wall& like) {
+  const Double3 lower = *table.vector("lower"), upper = *table.vector("upper");
   std::vector<std::string> sides;
   std::vector<Wall> planes;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!(lower[a] < upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
     if (lower[a] < scene.lower[a] || upper[a] > scene.upper[a])
-      table.fail(lower[a] < scene.lower[a] ? "lower" : "upper",
+      table.fail(lower[a] < scene.lower[a] ? WallReader::Name<>("lower") : WallReader::Name<>("upper"),
                  fmt::format("lies outside the domain in {}", axis_names[a]),
                  "a box must lie between domain.lower and domain.upper");
     if (scene.periodic[a]) continue;
@@ -124,21 +112,16 @@ std::vector<Wall> read_box(const TableReader& table, const Scene& scene, const W
   return closed;
 }
 
-enum class WallShape { plane, box };
-
 }  // namespace
 
-std::vector<Wall> read_walls(const TableReader& top, const Scene& scene) {
-  const Choices<WallShape> shapes{{"plane", WallShape::plane}, {"box", WallShape::box}};
+std::vector<Wall> read_walls(const TopReader& top, const Scene& scene) {
   std::vector<Wall> walls;
   std::vector<std::string> names;
-  for (const TableReader& table : top.tables("wall", scene_keys::wall)) {
+  for (const WallReader& table : top.tables<keys::wall>()) {
     Wall wall;
-    wall.name = read_name(table, "wall", names);
-    (void)table.required_text("material");
-    wall.group = read_group_name(table, "material", scene.groups);
-    const bool box = table.choice("shape", shapes).value_or(WallShape::plane) == WallShape::box;
-    if (box) {
+    table.read(wall);
+    (void)read_name(table, "wall", names);
+    if (table.choice<keys::WallShape>("shape") == keys::WallShape::box) {
       for (const Wall& side : read_box(table, scene, wall)) {
         if (std::find(names.begin(), names.end(), side.name) != names.end())
           table.fail("name", fmt::format("makes a side \"{}\", the name of an earlier wall", side.name),
@@ -153,17 +136,6 @@ std::vector<Wall> read_walls(const TableReader& top, const Scene& scene) {
     table.finish();
   }
   return walls;
-}
-
-int read_wall_name(const TableReader& table, std::string_view key, const std::vector<Wall>& walls) {
-  const std::string name = table.required_text(key);
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < walls.size(); ++k) {
-    if (walls[k].name == name) return static_cast<int>(k);
-    names.push_back(walls[k].name);
-  }
-  table.fail(key, fmt::format("names the unknown wall \"{}\"", name),
-             names.empty() ? "describe it in a [[wall]] table" : suggestion(name, names));
 }
 
 }  // namespace sph

@@ -80,6 +80,7 @@ constexpr std::array named{
     NamedDimension{dimension::speed_per_force, "a speed per force", "m/s/N"},
     NamedDimension{energy, "an energy", "J"},
     NamedDimension{dimension::rate, "a rate", "1/s"},
+    NamedDimension{dimension::rate_squared, "a rate squared", "1/s2"},
     NamedDimension{Dimension{0, 2, -1}, "a diffusivity", "m2/s"},
 };
 

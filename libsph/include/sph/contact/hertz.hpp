@@ -15,8 +15,11 @@ namespace sph {
 
 struct HertzNormal : NormalLaw {
   static constexpr std::string_view word = "hertz", name = "Hertz";
-  static constexpr std::array keys{LawKey{"young_modulus", dimension::pressure},
-                                   LawKey{"poisson_ratio", dimension::none, -1, 0.5}};
+  static constexpr std::array keys{
+      LawKey{.name = "young_modulus",
+             .dimension = dimension::pressure,
+             .sentence = "1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2."},
+      LawKey{.name = "poisson_ratio", .above = -1, .most = 0.5, .sentence = "nu."}};
   static constexpr ReducedImpact impact{5.0 / 6.0, 8.0 / 15.0, 2.0 / 3.0,
                                         [](double x) { return std::sqrt(x); }, 0.2};
 

@@ -29,10 +29,16 @@ NormalForce<V> linear_force(const Contact<V>& c, const ContactConstants<V>& k, V
 struct Springs : NormalLaw {
   static constexpr std::string_view word = "linear", name = "linear";
   // 2/7: both springs of an impact then swing back together.
-  static constexpr std::array keys{LawKey{"normal_stiffness", dimension::stiffness},
-                                   LawKey{.name = "tangential_stiffness",
-                                          .dimension = dimension::stiffness,
-                                          .otherwise = [](const LawConstants& k) { return 2 * (k[0] / 7); }}};
+  static constexpr std::array keys{
+      LawKey{.name = "normal_stiffness",
+             .dimension = dimension::stiffness,
+             .sentence = "k_n of two grains of this material. Between materials the harmonic mean 2 k_1 k_2 / "
+                         "(k_1 + k_2)."},
+      LawKey{.name = "tangential_stiffness",
+             .dimension = dimension::stiffness,
+             .otherwise = [](const LawConstants& k) { return 2 * (k[0] / 7); },
+             .sentence = "k_t, between materials alike.",
+             .default_text = "2/7 normal_stiffness"}};
   /// k_n and k_t, in series.
   static std::array<double, 2> springs(const MaterialPair& p) {
     return {in_series(p.a[0], p.b[0]), in_series(p.a[1], p.b[1])};

@@ -11,6 +11,8 @@ namespace sph {
 struct Xsph {
   static constexpr std::string_view name = "Xsph", word = "xsph";
   static constexpr double most = 1;
+  static constexpr std::string_view sentence =
+      "eps of XSPH: particles drift with a part eps of how their neighbours' velocity differs from theirs.";
   static constexpr Effect effect = Effect::drift;
   static constexpr ValueSet reads{Value::velocity, Value::volume, Value::density, Value::mover};
   static constexpr Field writes = Field::added;

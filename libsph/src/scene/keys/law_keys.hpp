@@ -1,0 +1,42 @@
+// Words and keys that laws and terms bring with their headers (sph/registry.hpp): ours, and those of the program
+// that reads the scene.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "scene/keys/key.hpp"
+#include "sph/contact/law.hpp"
+#include "sph/eos/law.hpp"
+
+namespace sph::keys {
+
+template <>
+inline std::span<const ContactLaw* const> laws_of() {
+  return contact_laws();
+}
+template <>
+inline std::span<const EquationOfState* const> laws_of() {
+  return equations_of_state();
+}
+
+template <class Law>
+std::span<const Word> words_of() {
+  static const std::vector<Word> words = [] {
+    std::vector<Word> all;
+    for (const Law* law : laws_of<Law>())
+      all.emplace_back(law->word, static_cast<int>(all.size()), &type_mark<Law>);
+    return all;
+  }();
+  return words;
+}
+template <class Law>
+inline constexpr Words law_words{{}, words_of<Law>};
+
+/// Besides those in its list.
+[[nodiscard]] std::span<const Key> more_keys(const KeyTable& table);
+/// In either; nullptr if there is none.
+[[nodiscard]] const Key* find_key(const KeyTable& table, std::string_view name);
+
+}  // namespace sph::keys
