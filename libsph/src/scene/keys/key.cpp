@@ -12,6 +12,8 @@ template <class... Of>
 struct Overloaded : Of... {
   using Of::operator()...;
 };
+template <class... Of>
+Overloaded(Of...) -> Overloaded<Of...>;
 
 std::string list(const Words& words) {
   std::string out;
