@@ -207,9 +207,8 @@ class Bench {
 
 void print_keys() {
   for (const sph::keys::KeyTable* table : sph::keys::all)
-    for (const auto& keys : {table->keys, sph::keys::more_keys(*table)})
-      for (const sph::keys::Key& key : keys)
-        std::cout << table->name << (table->name.empty() ? "" : ".") << key.name << '\n';
+    for (const sph::keys::Key& key : sph::keys::keys_of(*table))
+      std::cout << table->name << (table->name.empty() ? "" : ".") << key.name << '\n';
 }
 
 }  // namespace

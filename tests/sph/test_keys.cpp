@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/keys/all_keys.hpp"
+#include "scene/keys/law_keys.hpp"
 #include "scene/keys/reference.hpp"
 #include "scene/toml_tree.hpp"
 #include "sph/scene.hpp"
@@ -44,7 +45,7 @@ std::string full_name(const keys::KeyTable& table, std::string_view key) {
 std::set<std::string> names_of_table() {
   std::set<std::string> names;
   for (const keys::KeyTable* table : keys::all)
-    for (const keys::Key& key : table->keys) names.insert(full_name(*table, key.name));
+    for (const keys::Key& key : keys::keys_of(*table)) names.insert(full_name(*table, key.name));
   return names;
 }
 
@@ -82,7 +83,7 @@ TEST(Keys, EveryReferenceHasEveryKey) {
   EXPECT_EQ(found, names_of_table());
   const std::string text = keys::reference_text(), markdown = keys::reference_markdown();
   for (const keys::KeyTable* table : keys::all)
-    for (const keys::Key& key : table->keys) {
+    for (const keys::Key& key : keys::keys_of(*table)) {
       EXPECT_NE(text.find("\n  " + std::string(key.name) + ": "), std::string::npos) << key.name;
       EXPECT_NE(markdown.find("\n| `" + std::string(key.name) + "` | "), std::string::npos) << key.name;
     }
@@ -127,7 +128,7 @@ bool fits(const keys::Kind& kind, T at) {
     return (std::holds_alternative<Kind>(kind) || ...);
   };
   if constexpr (std::is_same_v<T, keys::Enumerator>)
-    return is_one_of(keys::Words{}) && std::get<keys::Words>(kind).words.front().of == at.of;
+    return is_one_of(keys::Words{}) && std::get<keys::Words>(kind).all().front().of == at.of;
   else if constexpr (std::is_same_v<T, double*> || std::is_same_v<T, std::optional<double>*>)
     return is_one_of(keys::Number{});
   else if constexpr (std::is_same_v<T, Double3*> || std::is_same_v<T, std::optional<Double3>*>)

@@ -1,3 +1,4 @@
+// A sum that several models take of the velocity gradient: its trace, div v.
 #pragma once
 
 #include <cstddef>

@@ -26,9 +26,9 @@ void read_stiffness(const GroupReader& table, Group& group) {
     table.fail_missing("bulk_modulus", "give it in Pa, or sound_speed in m/s");
   const std::string_view beyond = "makes a modulus beyond the range of numbers";
   if (!(group.bulk_modulus > 0 && std::isfinite(group.bulk_modulus)))
-    table.fail(speed                             ? Name("sound_speed")
+    table.fail(speed                                   ? Name("sound_speed")
                : group.eos->kind == EosKind::ideal_gas ? Name("start_pressure")
-                                                 : Name("bulk_modulus"),
+                                                       : Name("bulk_modulus"),
                beyond, "check its unit");
 
   const bool solid = group.kind == GroupKind::solid;

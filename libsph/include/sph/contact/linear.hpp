@@ -32,8 +32,9 @@ struct Springs : NormalLaw {
   static constexpr std::array keys{
       LawKey{.name = "normal_stiffness",
              .dimension = dimension::stiffness,
-             .sentence = "k_n of two grains of this material. Between materials the harmonic mean 2 k_1 k_2 / "
-                         "(k_1 + k_2)."},
+             .sentence =
+                 "k_n of two grains of this material. Between materials the harmonic mean 2 k_1 k_2 / "
+                 "(k_1 + k_2)."},
       LawKey{.name = "tangential_stiffness",
              .dimension = dimension::stiffness,
              .otherwise = [](const LawConstants& k) { return 2 * (k[0] / 7); },

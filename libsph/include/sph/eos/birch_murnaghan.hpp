@@ -15,7 +15,8 @@ namespace sph {
 struct BirchMurnaghan : BarotropicLaw {
   static constexpr std::string_view word = "birch_murnaghan";
   // Below 3 the law softens from twice the density on.
-  static constexpr std::array keys{LawKey{.name = "bulk_modulus_derivative", .above = 3, .most = 12, .sentence = "K' = dK/dp at no pressure."}};
+  static constexpr std::array keys{LawKey{
+      .name = "bulk_modulus_derivative", .above = 3, .most = 12, .sentence = "K' = dK/dp at no pressure."}};
 
   static double pressure(const Group& g, double density) {
     const double x = density / g.density, y = exact_pow(x, 1.0 / 3), a = 0.75 * (g.eos_constants[0] - 4);

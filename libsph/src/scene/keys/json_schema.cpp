@@ -64,7 +64,7 @@ std::string description(const Key& key) {
 
 Json object(const KeyTable& table) {
   Json properties = Json::object(), required = Json::array();
-  const auto add = [&](const Key& key) {
+  for (const Key& key : keys_of(table)) {
     Json schema = std::visit([](const auto& kind) { return schema_of(kind); }, key.kind);
     if (!schema.contains("description")) schema["description"] = description(key);
     if (const std::string standard = standard_of(key);
@@ -73,9 +73,7 @@ Json object(const KeyTable& table) {
     properties[std::string(key.name)] = std::move(schema);
     const bool everywhere = key.scenes.holds == nullptr && key.where.key.empty();
     if (everywhere && default_of(key) == "required") required.push_back(key.name);
-  };
-  for (const Key& key : table.keys) add(key);
-  for (const Key& key : more_keys(table)) add(key);
+  }
   Json out{{"type", "object"},
            {"description", table.sentence},
            {"additionalProperties", false},

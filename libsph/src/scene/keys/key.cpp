@@ -19,11 +19,7 @@ std::string list(const Words& words) {
   std::string out;
   const std::span<const Word> all = words.all();
   for (std::size_t k = 0; k < all.size(); ++k)
-    out += fmt::format("{}\"{}\"",
-                       k == 0                        ? ""
-                       : k + 1 == all.size() ? " or "
-                                                     : ", ",
-                       all[k].text);
+    out += fmt::format("{}\"{}\"", k == 0 ? "" : k + 1 == all.size() ? " or " : ", ", all[k].text);
   return out;
 }
 

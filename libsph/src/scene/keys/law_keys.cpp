@@ -60,6 +60,12 @@ std::span<const Key> more_keys(const KeyTable& table) {
   return {};
 }
 
+std::vector<Key> keys_of(const KeyTable& table) {
+  std::vector<Key> keys(table.keys.begin(), table.keys.end());
+  keys.insert(keys.end(), more_keys(table).begin(), more_keys(table).end());
+  return keys;
+}
+
 const Key* find_key(const KeyTable& table, std::string_view name) {
   if (const Key* key = table.find(name)) return key;
   for (const Key& key : more_keys(table))

@@ -36,7 +36,9 @@ inline constexpr Words law_words{{}, words_of<Law>};
 
 /// Besides those in its list.
 [[nodiscard]] std::span<const Key> more_keys(const KeyTable& table);
-/// In either; nullptr if there is none.
+/// All together.
+[[nodiscard]] std::vector<Key> keys_of(const KeyTable& table);
+/// The one of this name; nullptr if there is none.
 [[nodiscard]] const Key* find_key(const KeyTable& table, std::string_view name);
 
 }  // namespace sph::keys

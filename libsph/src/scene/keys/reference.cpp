@@ -105,12 +105,6 @@ std::string cell(std::string_view text) {
   return out;
 }
 
-std::vector<Key> keys_of(const KeyTable& table) {
-  std::vector<Key> all(table.keys.begin(), table.keys.end());
-  all.insert(all.end(), more_keys(table).begin(), more_keys(table).end());
-  return all;
-}
-
 }  // namespace
 
 std::string reference_text() {
