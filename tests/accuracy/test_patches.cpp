@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/bodies.hpp"
+#include "accuracy/pinned.hpp"
 #include "sph/snapshot.hpp"
 
 namespace {
@@ -74,9 +75,9 @@ TEST(Solids, UpdatedPatchInRotation) {
   const double before = 0.25 * 9, after = 0.25 * (xx - yy) * (xx - yy) + xy * xy;
   std::printf("quarter turn, updated: s_xx %.4f (-1), s_yy %.4f (2), s_xy %.4f (0), invariant %+.1e\n", xx,
               yy, xy, after / before - 1);
-  EXPECT_NEAR(xx, -1, 0.002);
-  EXPECT_NEAR(yy, 2, 0.002);
-  EXPECT_NEAR(xy, 0, 0.003);
+  EXPECT_NEAR(PINNED(xx), -1, 0.002);
+  EXPECT_NEAR(PINNED(yy), 2, 0.002);
+  EXPECT_NEAR(PINNED(xy), 0, 0.003);
   EXPECT_NEAR(after / before, 1, 2e-12);
 }
 
@@ -103,9 +104,9 @@ TEST(Solids, UpdatedPatchInSimpleShear) {
   }
   std::printf("simple shear to 1, updated: s_xy %.4f G (0.8415), s_xx %.4f G (0.4597), s_yy %.4f G\n",
               xy / count / 1e6, xx / count / 1e6, yy / count / 1e6);
-  EXPECT_NEAR(xy / count / 1e6, 0.841471, 0.003 * 0.841471);
-  EXPECT_NEAR(xx / count / 1e6, 0.459698, 0.003 * 0.459698);
-  EXPECT_NEAR(yy / count / 1e6, -0.459698, 0.003 * 0.459698);
+  EXPECT_NEAR(PINNED(xy / count / 1e6), 0.841471, 0.003 * 0.841471);
+  EXPECT_NEAR(PINNED(xx / count / 1e6), 0.459698, 0.003 * 0.459698);
+  EXPECT_NEAR(PINNED(yy / count / 1e6), -0.459698, 0.003 * 0.459698);
 }
 
 // A strip slides through a fluid without viscosity: nothing slows it. With the shear stress of the solid
@@ -151,7 +152,7 @@ until = 0.5
   double mean = 0;
   for (const Sample& q : samples(s)) mean += q.group == 1 ? q.v[0] / (0.5 * n * n) : 0;
   std::printf("strip past fluid: velocity %.4f of the first\n", mean / 0.5);
-  EXPECT_NEAR(mean / 0.5, 1, 0.001);
+  EXPECT_NEAR(PINNED(mean / 0.5), 1, 0.001);
 }
 
 }  // namespace
