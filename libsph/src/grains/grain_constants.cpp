@@ -45,9 +45,9 @@ double stiffest_contact(const Scene& scene, double radius) {
   return stiffest;
 }
 
-// The default is the law's. The limit is that of one contact of the two lightest grains at the largest overlap, and of the springs and dashpots of friction and
-// rolling there: as if on 2/7 m of the pair (spin lightens surfaces), and on the inertia 2/5 m r^2 of a
-// grain.
+// The default is the law's. The limit is that of one contact of the two lightest grains at the largest
+// overlap, and of the springs and dashpots of friction and rolling there: as if on 2/7 m of the pair (spin
+// lightens surfaces), and on the inertia 2/5 m r^2 of a grain.
 GrainTimeSteps grain_time_steps(const Scene& scene) {
   const ContactLaw& law = contact_law(scene);
   double mass = std::numeric_limits<double>::infinity(), radius = mass;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "physics/damping_limit.hpp"
 #include "sph/grains.hpp"
 #include "sph/physics.hpp"
@@ -16,6 +18,12 @@ void check_time_step(const Scene& scene) {
           fmt::format("{}: time.dt: {:.6g} s is above the limit of a stable contact, {:.6g} s; set it "
                       "to {:.6g} s or less",
                       scene.file, *scene.time.dt, steps.limit, steps.advised));
+    if (!(steps.limit > 0 && std::isfinite(steps.advised) && grain_step(scene) > 0))
+      throw InputError(
+          fmt::format("{}: group: the stiffness of grains, over the square of their restitution where that "
+                      "makes it, leaves "
+                      "no time step ({:.6g} s); check its unit",
+                      scene.file, steps.limit));
     check_wall_speeds(scene);
     return;
   }

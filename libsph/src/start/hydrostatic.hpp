@@ -1,5 +1,6 @@
 // Pressure of still layers under their own weight: dp/dd = rho(p) g along the depth d, each layer with its
-// own equation of state. Closed form where the law has one; else a table of Runge-Kutta steps of fixed length, so that the pressure at a point depends on nothing but the scene.
+// own equation of state. Closed form where the law has one; else a table of Runge-Kutta steps of fixed
+// length, so that the pressure at a point depends on nothing but the scene.
 #pragma once
 
 #include <vector>

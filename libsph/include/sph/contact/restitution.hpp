@@ -1,4 +1,5 @@
-// The damping of a normal law with a dashpot (linear.hpp, hertz.hpp) that gives a wanted restitution e of a head-on impact.
+// The damping of a normal law with a dashpot (linear.hpp, hertz.hpp) that gives a wanted restitution e of a
+// head-on impact.
 // A linear contact is m* x'' = -k x - 2 zeta sqrt(k m*) x'. The Hertz contact with its dashpot is the same
 // oscillator in y = x^(5/4) and the time of dtau = x^(1/4) dt, with zeta = A / sqrt(5) for the reduced
 // x'' = -x^(3/2) - A x^(1/4) x', A = sqrt(3/2) damping (Antypov & Elliott 2011), and y'' = 0 where the force

@@ -3,6 +3,9 @@
 //              impact k_1/k_2 comes back, so that k_2 = k_1 / e^2 gives the restitution e at any speed.
 // With d_0 the largest of (1 - k_1/k_2) d so far, both lines are F = max(0, k_2 (d - d_0)). d_0 is the history
 // of the contact, a deformation: the same from either side. It is 0 again when the two have parted.
+// Rolling resistance follows F/d, which falls as a contact unloads; its spring does not fall with it, so that
+// rolling may gain energy there (by formula up to 1.75 times what the spring held at half its limit, e = 0.5).
+// contact.pull and contact.tangential_damping do nothing: there is no dashpot.
 // normal_stiffness is that of a material's k_1; the least restitution of a pair makes k_2.
 #pragma once
 

@@ -27,12 +27,13 @@ inline constexpr Condition of_flows{
     "fluids, not \"ida\"", "it is for scenes without solids, and formulation = \"ida\" has none: remove it"};
 inline constexpr Condition of_gases{[](const Scene& s) { return s.has_eos(EosKind::ideal_gas); },
                                     "ideal gases", "only scenes with eos = \"ideal_gas\" have it"};
-inline constexpr Condition of_added_terms{[](const Scene& s) {
-                                            return s.formulation == Formulation::conservative &&
-                                                   !s.total_lagrangian() && !s.has_eos(EosKind::ideal_gas);
-                                          },
-                                          "liquids and updated-Lagrangian solids",
-                                          "it is of liquids and updated-Lagrangian solids"};
+inline constexpr Condition of_added_terms{
+    [](const Scene& s) {
+      return s.formulation == Formulation::conservative && !s.total_lagrangian() &&
+             !s.has_eos(EosKind::ideal_gas);
+    },
+    "liquids and updated-Lagrangian solids",
+    "it is of liquids and updated-Lagrangian solids, and formulation = \"ida\" has none"};
 inline constexpr Condition of_total{[](const Scene& s) { return s.total_lagrangian(); },
                                     "total-Lagrangian solids",
                                     "only scenes of solids with lagrangian = \"total\" have it"};

@@ -30,8 +30,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"eos", law_words<EquationOfState>,
      "\"linear\": p = K (rho/rho_0 - 1). Fluids only: \"bubbly\", Ida eqs. (12)-(15), and \"ideal_gas\": p "
      "= (gamma - 1) rho u, with an energy equation; beside it there is no other matter but walls, which "
-     "its heat does not enter, kernel \"quintic\", not \"ida\"; \"birch_murnaghan\": of third order in the "
-     "strain, K with the pressure stiffening.",
+     "its heat does not enter, kernel \"quintic\", not \"ida\". \"birch_murnaghan\": of third order in the "
+     "strain, for rocks and metals under pressure, whose K rises with it.",
      at<&Group::eos>, of_sph},
     {"density", Number{dimension::density, positive},
      "rho_0, at zero pressure; of a bubbly fluid that of its liquid, of an ideal gas that at the start, of "

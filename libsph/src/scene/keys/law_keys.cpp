@@ -32,7 +32,8 @@ void add_keys_of_laws(std::vector<Key>& keys, std::string_view choice, Condition
       const Range range{.least = key.above, .most = key.most, .above_least = true};
       const std::string_view says = kept(fmt::format("With {} = {}. {}", choice, owners, key.sentence));
       if (key.otherwise == nullptr)
-        keys.emplace_back(key.name, Number{key.dimension, range}, says, scenes, where, Default{"required"});
+        keys.emplace_back(key.name, Number{key.dimension, range}, says, scenes, where,
+                          Default{kept(fmt::format("required with {} = {}", choice, owners))});
       else
         keys.emplace_back(key.name, Number{key.dimension, range}, says, scenes, where,
                           Default{key.default_text});
