@@ -14,4 +14,13 @@ TEST(BirchMurnaghan, AsPublished) {  // x = 1.5, K' = 5.2: p/K with 16 digits
   EXPECT_NEAR(BirchMurnaghan::pressure(test::fluid_of({5.2}), 4500) / 5e10, 1.170688138257503, 1e-14);
 }
 
+// Stretched it goes on to where it gives way; what no density has is 0, which a start refuses.
+TEST(BirchMurnaghan, NoDensityIsMadeUp) {
+  const Group rock = test::fluid_of({4.0});
+  const double stretched = BirchMurnaghan::density(rock, BirchMurnaghan::pressure(rock, 0.75 * rock.density));
+  EXPECT_NEAR(stretched / rock.density, 0.75, 1e-12);
+  EXPECT_EQ(BirchMurnaghan::density(rock, -rock.bulk_modulus), 0);
+  EXPECT_EQ(BirchMurnaghan::density(test::fluid_of({3.01}), 100 * rock.bulk_modulus), 0);
+}
+
 }  // namespace sph

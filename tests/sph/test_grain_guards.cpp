@@ -193,6 +193,14 @@ TEST(GrainGuards, StiffRollingIsPartOfTheLimit) {
   EXPECT_SAYS(text, "time.dt: 5e-06 s is above the limit of a stable contact");
 }
 
+TEST(GrainGuards, NoTimeStepIsRefused) {
+  const std::string text = message_of<InputError>([] {
+    check_time_step(
+        parse_scene(bare, "bare", {"contact.law=walton_braun", "group.sand.restitution=1e-160", "time.dt="}));
+  });
+  EXPECT_SAYS(text, "leaves no time step (0 s)");
+}
+
 TEST(Findings, LowestIdSpeaks) {
   Findings mine;
   EXPECT_EQ(mine.agree(world()), "");

@@ -5,12 +5,11 @@
 namespace sph {
 namespace {
 
-/// Copies the values of some rows to consecutive ones.
-void copy_rows(const decomp::Column& from, std::span<const std::uint32_t> rows, decomp::Column& to,
-               std::size_t first) {
+/// Copies the values of some rows to the first ones.
+void copy_rows(const decomp::Column& from, std::span<const std::uint32_t> rows, decomp::Column& to) {
   const std::size_t width = from.width();
   for (std::size_t k = 0; k < rows.size(); ++k)
-    std::memcpy(to.data() + (first + k) * width, from.data() + rows[k] * width, width);
+    std::memcpy(to.data() + k * width, from.data() + rows[k] * width, width);
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ void divide(const Particles& all, const Scene& scene, std::span<ParticleSet> set
       if ((scene.groups[group[i]].kind == GroupKind::grain) == set.has(Field::radius)) rows.push_back(i);
     set.table().resize(rows.size(), 0);
     for (const Field f : (set.fields() & all.fields()).list())
-      copy_rows(all.table().column(all.column(f)), rows, set.table().column(set.column(f)), 0);
+      copy_rows(all.table().column(all.column(f)), rows, set.table().column(set.column(f)));
     if (k != carrier || carried.rows() == 0) continue;
     std::vector<std::uint64_t> offset{carried.offset.front()};
     for (const std::uint32_t i : rows)

@@ -21,8 +21,7 @@ void check_time_step(const Scene& scene) {
     if (!(steps.limit > 0 && std::isfinite(steps.advised) && grain_step(scene) > 0))
       throw InputError(
           fmt::format("{}: group: the stiffness of grains, over the square of their restitution where that "
-                      "makes it, leaves "
-                      "no time step ({:.6g} s); check its unit",
+                      "makes it, leaves no time step ({:.6g} s); check its unit",
                       scene.file, steps.limit));
     check_wall_speeds(scene);
     return;
