@@ -4,7 +4,8 @@
     plain.py DIR [DIR ...] [--out DIR] [--time T] [--draw slice|side]
 
 Rows of the picture are times, the start and the end among them (--time: the snapshot nearest to T seconds alone).
-Columns are the speed and, of fluids and solids, the pressure, of grains their displacement since the first snapshot.
+Columns are the speed and, of fluids and solids, the pressure, of grains their displacement since the first snapshot, of
+grains in a fluid their share of the volume.
 The slice holds the particles within a spacing of the middle, those nearest to it on top.
 """
 
@@ -89,9 +90,18 @@ def sliced(run, snapshot, view):
     away = np.abs(position[:, view.depth] - view.middle)
     rows = np.argsort(-away, kind="stable")
     rows = rows[away[rows] < run.spacing]
-    diameter = np.cbrt(snapshot["mass"] / snapshot["density"])
-    return rows, view.flat(position)[rows], diameter[rows], {"speed": ("m/s", snapshot.speed()[rows]),
-                                                             "pressure": ("Pa", snapshot["pressure"][rows])}
+    columns = {"speed": ("m/s", snapshot.speed()[rows])}
+    density = snapshot["density"]
+    fluid = density > 0  # of grains in a fluid there is none
+    diameter = np.cbrt(snapshot["mass"] / np.where(fluid, density, 1))
+    if run.mixed:
+        diameter = np.where(fluid, diameter, 2 * snapshot["radius"])
+        columns["share of grains"] = ("%", np.where(fluid, 100 * (1 - snapshot["porosity"]), np.nan)[rows])
+        rows_last = np.argsort(~fluid[rows], kind="stable")  # over the fluid
+        return (rows[rows_last], view.flat(position)[rows][rows_last], diameter[rows][rows_last],
+                {name: (unit, values[rows_last]) for name, (unit, values) in columns.items()})
+    columns["pressure"] = ("Pa", snapshot["pressure"][rows])
+    return rows, view.flat(position)[rows], diameter[rows], columns
 
 
 def from_the_side(run, snapshot, view):
@@ -111,7 +121,9 @@ class Run(RunFolder):
         super().__init__(folder, Snapshot)
         if self.scene["dimension"] != 3:
             raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions, this draws 3: take apps/plot.py")
-        self.of_grains = "radius" in self.snapshots[-1].fields
+        fields = self.snapshots[-1].fields
+        self.mixed = "radius" in fields and "density" in fields
+        self.of_grains = "radius" in fields and not self.mixed
         self.spacing = self.scene["start"]["spacing"] if not self.of_grains else None
 
     def chosen(self, time):

@@ -3,6 +3,7 @@
 import math
 
 import boxes
+from mixture import Mixture
 from sph_rows import FromFile
 from sph_terms import Terms
 
@@ -10,14 +11,16 @@ RADIUS = {"quintic": 3, "wendland_c2": 2, "wendland_c4": 2}
 
 
 def make(d):
-    family = d.weighted("family", {"fluid": 45, "solid": 12, "ida": 12, "gas": 15, "total": 16})
+    family = d.weighted("family", {"fluid": 45, "solid": 12, "ida": 12, "gas": 15, "total": 16, "mixture": 16})
     return Maker(d, family).scene()
 
 
-class Maker(Terms, FromFile):
+class Maker(Terms, FromFile, Mixture):
     def __init__(self, d, family):
-        self.d, self.family = d, family
-        self.dim = 2 if d.chance("2D", 0.65) else 3
+        self.d, self.mixed = d, family == "mixture"
+        self.family = "fluid" if self.mixed else family
+        family = self.family
+        self.dim = 2 if not self.mixed and d.chance("2D", 0.65) else 3
         self.dx = d.one("dx", [1.0, 1.0, 1.0, 0.01, 0.37, 250.0])
         self.c = d.one("c", [1.0, 10.0, 100.0, 1480.0])
         self.rho = d.one("rho", [1.0, 1000.0, 2500.0])
@@ -62,10 +65,12 @@ class Maker(Terms, FromFile):
         if terms := self.terms(scene):
             scene["terms"] = terms
         scene["time"] = self.time()
+        if self.mixed:
+            self.add_grains(scene)
         case = {"scene": scene, "skin": self.box.skin}
         if self.box.centred:
             case |= {"reach": self.box.reach, "radius": self.box.radius}
-        if not scene["start"].get("tangled") and d.chance("file", 0.3):
+        if not self.mixed and not scene["start"].get("tangled") and d.chance("file", 0.3):
             self.from_file(case)
         return case
 

@@ -27,6 +27,7 @@ HIDDEN = {
 LAYERS = [
     (r"libsph/include/sph/terms/", r"sph/(pair_values|kernels)\.hpp|sph/(materials|terms)/\w+\.hpp"),
     (r"libsph/include/sph/eos/", r"sph/(law_key|scene|exact_math|error)\.hpp|sph/eos/\w+\.hpp"),
+    (r"libsph/include/sph/drag/", r"sph/exact_math\.hpp|sph/drag/\w+\.hpp"),
     (r"libsph/include/", r"(decomp|sph)/.*"),
     (r"libsph/src/", r"(decomp|sph|scene|start|pairs|physics|plan|models|grains|output|checkpoint|run)/.*"),
     (r"libdecomp/", r"decomp/.*"),

@@ -303,7 +303,7 @@ TEST(GrainScene, RulesNameTheReason) {
        "contact.normal_damping: has no meaning here; it is of law"},
       {{"contact.normal_damping=1"}, "group.sand.restitution: has no meaning here; contact.normal_damping"},
       {{"group.sand.restitution="}, "group.sand.restitution: is missing"},
-      {{"group.sand.kind=fluid"}, "group.sand.kind: differs from \"grain\""},
+      {{"group.sand.kind=solid"}, "group.sand.kind: is \"solid\" beside grains"},
       {{"group.glass.fixed=true"}, "group.glass.fixed: has no meaning here; a material without diameter"},
       {{"group.sand.fixed=true"}, "every group of grains; at least one group must be free"},
       {{"group.sand.diameter="}, "diameter: is missing in every group"},

@@ -78,6 +78,8 @@ const std::vector<Source>& sources() {
       // total-Lagrangian: clamped, in contact, through a periodic face
       {"bodies2d", "tests/scenes/bodies2d.toml", {}},
       {"bodies3d", "tests/scenes/bodies3d.toml", {}},
+      // two sets of particles that act on each other, with contacts that remember
+      {"mixture", "tests/scenes/grains_in_melt.toml", {}},
       {"linear", "tests/scenes/grains_pour.toml", {}},
       {"hertz",
        "tests/scenes/grains_pour.toml",
@@ -110,6 +112,18 @@ sph::Scene scene_of(const Row& row) {
   return sph::read_scene(std::string(PEPERITE_SOURCE_DIR) + "/" + std::string(source.file), overrides);
 }
 
+namespace {
+
+/// Grains that a fluid pushes.
+std::int64_t dragged_grains(const sph::Particles& particles) {
+  const double* force = particles.data<sph::Field::fluid_force>();
+  std::int64_t n = 0;
+  for (std::size_t i = 0; force != nullptr && i < particles.owned(); ++i) n += force[i * 3 + 2] != 0 ? 1 : 0;
+  return n;
+}
+
+}  // namespace
+
 Liveliness liveliness(const sph::Simulation& simulation) {
   const sph::Particles& particles = simulation.particles();
   const std::uint32_t* group = particles.data<sph::Field::group>();
@@ -122,6 +136,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
     out.contacts_ended = grains->counters().ended;
     out.histories_kept = grains->counters().carried;
     for (const sph::WallState& wall : simulation.global().walls) out.walls_moved |= wall.offset[2] != 0;
+    if (simulation.scene().is_mixture()) out.dragged = dragged_grains(particles);
     return out;
   }
   for (std::size_t i = 0; i < particles.owned(); ++i) {
@@ -139,8 +154,9 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     throw std::runtime_error(scene.name + " is too quiet for a test: " + what);
   };
   if (end.rebuilds < start.rebuilds + 2) quiet("its lists were not rebuilt twice");
-  if (scene.of_grains()) {
-    constexpr std::int64_t some = 50;
+  constexpr std::int64_t some = 50;
+  if (scene.is_mixture() && end.dragged < some) quiet("few grains are dragged");
+  if (scene.has_grains()) {
     const bool rough = sph::contact_fusion(scene).history > 0;  // smooth grains count nothing
     if (!rough && end.contacts < some) quiet("few grains touch");
     if (rough && end.contacts_begun < some) quiet("few contacts began");

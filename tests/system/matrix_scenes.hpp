@@ -22,6 +22,7 @@ struct Liveliness {
   std::int64_t contacts = 0, contacts_begun = 0, contacts_ended = 0;
   std::int64_t histories_kept = 0;  ///< over rebuilds, once each
   bool walls_moved = false;         ///< up or down
+  std::int64_t dragged = 0;         ///< grains that a fluid pushes
 };
 [[nodiscard]] Liveliness liveliness(const sph::Simulation& simulation);  ///< of this rank's particles
 

@@ -56,6 +56,11 @@ enum class Field : std::uint8_t {
   curvature_sums,
   curvature,
   added,
+  porosity,
+  liquid_density,
+  grain_pull,
+  fluid_force,
+  fluid_share,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -100,7 +105,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::position, "position", "quantum", Type::i64, Shape::vector, true, true,
      "fixed-point coordinates; metres = quanta * quantum"},
     {Field::velocity, "velocity", "m/s", Type::f64, Shape::vector, true, true, "velocity"},
-    {Field::density, "density", "kg/m^3", Type::f64, Shape::scalar, true, true, "density"},
+    {Field::density, "density", "kg/m^3", Type::f64, Shape::scalar, true, true,
+     "density; of a fluid with grains in it its mass over the volume of both"},
     {Field::mass, "mass", "kg", Type::f64, Shape::scalar, true, true, "mass (per metre of depth in 2D)"},
     {Field::group, "group", "1", Type::u32, Shape::scalar, true, true, "index into the scene's groups"},
     {Field::gas_content, "gas_content", "1", Type::f64, Shape::scalar, true, true,
@@ -186,6 +192,17 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of the interface with tension nearby, positive where its first fluid is inside; 0 far from it"},
     {Field::added, "added", "1/m", Type::f64, Shape::vector, false, false,
      "sum of a term of added_term.hpp, in the unit of the term", SumScale::gradient},
+    {Field::porosity, "porosity", "1", Type::f64, Shape::scalar, true, true,
+     "of a fluid with grains in it: its share of the volume; `density` is that of the fluid in all of the "
+     "volume"},
+    {Field::liquid_density, "liquid_density", "kg/m^3", Type::f64, Shape::scalar, false, true,
+     "of a fluid with grains in it: density over porosity"},
+    {Field::grain_pull, "grain_pull", "m/s^2", Type::f64, Shape::vector, true, false,
+     "of a fluid with grains in it: what they accelerated it by in the step before"},
+    {Field::fluid_force, "fluid_force", "N", Type::f64, Shape::vector, false, true,
+     "of the fluid on a grain in it: its stress over the grain's volume, and drag"},
+    {Field::fluid_share, "fluid_share", "1", Type::f64, Shape::scalar, false, false,
+     "of a grain: 1 over the sum of the kernel over the volumes of the fluid around it, 0 if there is none"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

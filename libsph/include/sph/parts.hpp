@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sph/grains.hpp"
+#include "sph/models/drag.hpp"
 #include "sph/physics.hpp"
 #include "sph/plan/plan.hpp"
 #include "sph/plan/reduction.hpp"
@@ -27,6 +28,7 @@ struct Parts {
   std::optional<Physics> physics;  ///< of fluids and solids, where there are any
   std::optional<SphPairs> sph_pairs;
   std::optional<Grains> grains;
+  std::optional<Drag> drag;  ///< of grains in a fluid
   std::vector<Model*> models;
   std::vector<SetPair*> pairs;
   Plan plan;

@@ -23,6 +23,8 @@ enum class GroupKind { fluid, solid, wall, grain };
 enum class EosKind { barotropic, bubbly, ideal_gas };
 struct EquationOfState;  // eos/law.hpp
 [[nodiscard]] const EquationOfState* linear_eos();
+struct DragLaw;  // drag/law.hpp
+[[nodiscard]] const DragLaw* no_drag();
 /// updated: stress follows the rate of strain; total: it is a function of the deformation since the start.
 enum class Lagrangian { updated, total };
 
@@ -81,9 +83,9 @@ struct Layer {
   friend bool operator==(const Layer&, const Layer&) = default;
 };
 
-/// Grains beside fluids: a square lattice of its own fills a box.
+/// Grains in a fluid: a cubic lattice of its own fills a box.
 struct GrainFill {
-  int group = -1;
+  int group = -1;            ///< of grains
   Double3 lower{}, upper{};  ///< points sit at lower + (k + 1/2) spacing, below upper [m]
   double spacing = 0;        ///< [m]
   friend bool operator==(const GrainFill&, const GrainFill&) = default;
@@ -128,6 +130,13 @@ struct InterfaceTension {
 enum class PressureWeights { volume, density };
 /// See sph/terms/viscosity.hpp.
 enum class ViscosityForm { laplacian, symmetric };
+
+/// How a fluid and the grains in it act on each other.
+struct DragControl {
+  const DragLaw* law = no_drag();
+  bool own_disturbance = true;  ///< what a grain itself does to the fluid around it is taken out
+  friend bool operator==(const DragControl&, const DragControl&) = default;
+};
 
 struct Terms {
   double density_diffusion = 0.1;   ///< delta
@@ -218,6 +227,7 @@ struct Scene {
   double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
   std::vector<Group> groups;
   ContactControl contact;  ///< grains only, as are walls and stages
+  DragControl drag;        ///< of grains in a fluid
   std::vector<Wall> walls;
   std::vector<WallStage> stages;
   Start start;
@@ -228,6 +238,8 @@ struct Scene {
   Decomposition decomposition;
   OutputControl output;
 
+  /// Fluids, and grains that act on them.
+  [[nodiscard]] bool is_mixture() const { return has_grains() && has_matter(); }
   /// Of grains alone.
   [[nodiscard]] bool of_grains() const { return has_grains() && !has_matter(); }
   [[nodiscard]] bool has_grains() const { return has_kind(GroupKind::grain); }

@@ -25,15 +25,19 @@ struct ListSetting {
   RowRanges& ranges;        ///< of the owned rows
   const GlobalState& global;
   decomp::Timers& timers;
+  const Particles* other;  ///< of a pair of two sets: the other one, with its halo
 };
 
 class SetPair {
  public:
-  explicit SetPair(std::size_t set) : set_(set) {}
+  explicit SetPair(std::size_t set) : SetPair(set, set) {}
+  SetPair(std::size_t set, std::size_t other) : set_(set), other_(other) {}
   virtual ~SetPair() = default;
 
   /// Index of the set with whose rows travels what pairs carry, and whose rows lists are of.
   [[nodiscard]] std::size_t set() const { return set_; }
+  /// ... of the set that the partners of its rows are of.
+  [[nodiscard]] std::size_t other() const { return other_; }
 
   /// What lists are made of, and what changes only when rows move: sent to the halo after they have.
   [[nodiscard]] virtual FieldSet constants() const = 0;
@@ -50,7 +54,7 @@ class SetPair {
   virtual void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const = 0;
 
  private:
-  std::size_t set_;
+  std::size_t set_, other_;
 };
 
 /// Shares `entries` of a block among its rows [first, last).

@@ -77,8 +77,9 @@ class Simulation {
   void begin();  ///< common end of both constructors
   void kick_half_a_step();
   void rebuild();
+  void settle();
   void widen_kernels();
-  [[nodiscard]] ListSetting list_setting(std::size_t set);
+  [[nodiscard]] ListSetting list_setting(const SetPair& pair);
   /// What the stages look at for each row.
   [[nodiscard]] std::vector<std::uint32_t> pairs_of_rows(std::size_t set) const;
   [[nodiscard]] std::vector<decomp::Census> census() const;
@@ -86,7 +87,8 @@ class Simulation {
   void run(const std::vector<Entry>& entries, GlobalState& global);
   void run(const Stage& stage, StepState& state);
   [[nodiscard]] bool improve(const Entry& loop, GlobalState& global);
-  [[nodiscard]] StepState state_of(std::size_t set, GlobalState& global);
+  [[nodiscard]] StepState state_of(std::size_t set, GlobalState& global,
+                                   std::optional<std::size_t> other = std::nullopt);
   void reduce(std::int64_t request, bool left);
   void take_maxima();
   std::int64_t finish_step(std::int64_t request);

@@ -18,8 +18,14 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
                nullptr,
                nullptr,
                scene.surface_pressure};
+  if (const double* liquid = p.template get<Field::liquid_density>()) rows.density = liquid;
   double* sound = nullptr;
   if constexpr (V::writes.has(Field::sound_speed)) {
+    if (double* liquid = p.template get<Field::liquid_density>()) {
+      const double* porosity = p.template get<Field::porosity>();
+      const double* density = p.template get<Field::density>();
+      for (std::size_t i = first; i < last; ++i) liquid[i] = density[i] / porosity[i];
+    }
     sound = p.template get<Field::sound_speed>();
     rows.void_fraction = p.template get<Field::void_fraction>();
   }

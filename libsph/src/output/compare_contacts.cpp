@@ -21,7 +21,7 @@ std::string shown(double x) {
 std::size_t entry_width(const StateFile& file) {
   try {
     const Scene scene = parse_scene(file.summary().scene_toml, file.summary().path.string(), {});
-    return scene.of_grains() ? 8 * (1 + static_cast<std::size_t>(contact_fusion(scene).history)) : 0;
+    return scene.has_grains() ? 8 * (1 + static_cast<std::size_t>(contact_fusion(scene).history)) : 0;
   } catch (const InputError&) {
     return 0;  // of another version: entries can still be compared as bytes
   }

@@ -9,9 +9,11 @@ double elastic_energy(const Scene& scene, const ParticleValues& of, std::size_t 
   const Particles& p = of.particles();
   const auto d = static_cast<std::size_t>(p.dim());
   const Group& g = scene.groups[of.group(row)];
+  if (g.kind == GroupKind::grain) return 0;  // in its contacts
   const double m = of.mass(row), rho = p.data<Field::density>()[row];
+  const double* liquid = p.data<Field::liquid_density>();
   if (const double* strain = p.data<Field::strain_energy>()) return strain[row];
-  double energy = m * (g.bulk_modulus / g.density) * g.eos->energy(g, rho);
+  double energy = m * (g.bulk_modulus / g.density) * g.eos->energy(g, liquid != nullptr ? liquid[row] : rho);
   if (g.kind != GroupKind::solid || scene.formulation != Formulation::conservative) return energy;
   const std::size_t n = d * (d + 1) / 2;
   const double* s = p.data<Field::stress>() + row * n;

@@ -54,14 +54,14 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
     sums.back().add(elastic_energy(scene, of, row));
   if (is_held(group)) return;
   if (monitor.kind == MonitorKind::contacts) {
-    sums[2].add(1);
+    if (group.kind == GroupKind::grain) sums[2].add(1);
   } else if (monitor.kind == MonitorKind::energy) {
     std::size_t k = 0;
     sums[k++].add(kinetic_energy(of, row));
-    if (scene.of_grains()) sums[k++].add(rotational_energy(of, row));
+    if (scene.has_grains()) sums[k++].add(rotational_energy(of, row));
     sums[k++].add(potential_energy(scene, of, row));
     if (of.particles().has(Field::specific_energy)) sums[k++].add(internal_energy(of, row));
-    if (!scene.of_grains()) sums[k].add(elastic_energy(scene, of, row));
+    if (scene.has_matter()) sums[k].add(elastic_energy(scene, of, row));
   } else {
     for (std::size_t a = 0; a < sums.size(); ++a) sums[a].add(m * of.velocity(row, a));
   }
@@ -73,7 +73,7 @@ void add_contact(const Monitor& monitor, const ContactRecord& contact, std::span
 }
 
 bool looks_at_contacts(const Scene& scene, const Monitor& monitor) {
-  return scene.of_grains() && (monitor.kind == MonitorKind::contacts || monitor.kind == MonitorKind::energy);
+  return scene.has_grains() && (monitor.kind == MonitorKind::contacts || monitor.kind == MonitorKind::energy);
 }
 
 /// Place, velocity and force: the same on all ranks without a message.

@@ -1,5 +1,6 @@
 // The output quantities of one particle in SI, in the order of the columns of series.csv: x.., v.., rho, p,
-// and psi and u where the scene has them; of a grain x.., v.. and its spin w.. if it has one.
+// and psi and u where the scene has them; of a grain x.., v.. and its spin w.. if it has one. In a scene of both
+// all of these, 0 where a particle lacks one.
 #pragma once
 
 #include <array>
@@ -39,7 +40,7 @@ class ParticleValues {
     for (std::size_t a = 0; a < d_; ++a) to[k++] = velocity(row, a);
     if (const double* spin = particles_.data<Field::spin>())
       for (std::size_t a = 0; a < d_; ++a) to[k++] = spin[row * d_ + a];
-    if (particles_.has(Field::radius)) return;
+    if (!particles_.has(Field::density)) return;
     to[k++] = particles_.data<Field::density>()[row];
     to[k++] = particles_.data<Field::pressure>()[row];
     if (const double* psi = particles_.data<Field::void_fraction>()) to[k++] = psi[row];
@@ -52,7 +53,7 @@ class ParticleValues {
     for (int a = 0; a < p.dim(); ++a) out.push_back(std::string("v") + axes[static_cast<std::size_t>(a)]);
     if (p.has(Field::spin))
       for (int a = 0; a < p.dim(); ++a) out.push_back(std::string("w") + axes[static_cast<std::size_t>(a)]);
-    if (p.has(Field::radius)) return out;
+    if (!p.has(Field::density)) return out;
     out.emplace_back("rho");
     out.emplace_back("p");
     if (p.has(Field::void_fraction)) out.emplace_back("psi");

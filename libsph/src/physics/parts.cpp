@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sph/drag/law.hpp"
+
 namespace sph {
 
 Parts::Parts(const Scene& scene, const PositionScale& scale) {
@@ -11,18 +13,27 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
   if (scene.has_matter()) {
     physics.emplace(sets.size(), scene, scale);
     sph_pairs.emplace(sets.size(), *physics);
-    append(plan, physics->plan(), sets.size());
     sets.push_back({physics->fields(), stays});
     models.push_back(&*physics);
     pairs.push_back(&*sph_pairs);
   }
   if (scene.has_grains()) {
     grains.emplace(sets.size(), scene, scale);
-    append(plan, grains->plan(), sets.size());
     sets.push_back({grain_fields(scene), stays});
     models.push_back(&*grains);
     pairs.push_back(&*grains);
   }
+  if (scene.is_mixture() && scene.drag.law->resistance != nullptr) {
+    drag.emplace(physics->set(), grains->set(), scene, scale, physics->constants());
+    sets[physics->set()].fields |= Drag::of_fluid;
+    sets[grains->set()].fields |= Drag::of_grains;
+    models.push_back(&*drag);
+    pairs.push_back(&*drag);
+    append(plan, drag->porosity_plan());
+  }
+  if (physics) append(plan, physics->plan(), physics->set());
+  if (grains) append(plan, grains->plan(), grains->set());
+  if (drag) append(plan, drag->force_plan());
   for (Model* m : models) m->reserve(reduction);
 }
 

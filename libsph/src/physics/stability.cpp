@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/damping_limit.hpp"
@@ -10,22 +11,31 @@
 
 namespace sph {
 
+namespace {
+
+void check_contact_step(const Scene& scene) {
+  check_wall_speeds(scene);
+  const bool move = std::ranges::any_of(
+      scene.groups, [](const Group& g) { return g.grain.largest_radius > 0 && !g.grain.fixed; });
+  if (!move) return;
+  const GrainTimeSteps steps = grain_time_steps(scene);
+  if (scene.time.dt && *scene.time.dt > steps.limit)
+    throw InputError(
+        fmt::format("{}: time.dt: {:.6g} s is above the limit of a stable contact, {:.6g} s; set it "
+                    "to {:.6g} s or less",
+                    scene.file, *scene.time.dt, steps.limit, steps.advised));
+  if (!(steps.limit > 0 && std::isfinite(steps.advised) && grain_step(scene) > 0))
+    throw InputError(
+        fmt::format("{}: group: the stiffness of grains, over the square of their restitution where that "
+                    "makes it, leaves no time step ({:.6g} s); check its unit",
+                    scene.file, steps.limit));
+}
+
+}  // namespace
+
 void check_time_step(const Scene& scene) {
-  if (scene.of_grains()) {
-    const GrainTimeSteps steps = grain_time_steps(scene);
-    if (scene.time.dt && *scene.time.dt > steps.limit)
-      throw InputError(
-          fmt::format("{}: time.dt: {:.6g} s is above the limit of a stable contact, {:.6g} s; set it "
-                      "to {:.6g} s or less",
-                      scene.file, *scene.time.dt, steps.limit, steps.advised));
-    if (!(steps.limit > 0 && std::isfinite(steps.advised) && grain_step(scene) > 0))
-      throw InputError(
-          fmt::format("{}: group: the stiffness of grains, over the square of their restitution where that "
-                      "makes it, leaves no time step ({:.6g} s); check its unit",
-                      scene.file, steps.limit));
-    check_wall_speeds(scene);
-    return;
-  }
+  if (scene.has_grains()) check_contact_step(scene);
+  if (!scene.has_matter()) return;
   const Physics physics(0, scene, position_scale(scene));
   const double dt = physics.time_step({}), courant = physics.courant_number(dt);
   const char* key = scene.time.dt ? "time.dt" : "time.cfl";

@@ -1,5 +1,6 @@
 #include "sph/plan/plan.hpp"
 
+#include <array>
 #include <utility>
 
 namespace sph {
@@ -24,19 +25,33 @@ double longest_move(const std::vector<Entry>& entries, std::size_t set, const Gl
   return way;
 }
 
-void append(Plan& plan, Plan more, std::size_t set) {
-  for (auto part : {&Plan::drift, &Plan::sums, &Plan::kick, &Plan::start, &Plan::settle, &Plan::output})
-    for (Entry& e : more.*part) {
-      for (Stage& s : e.stages) s.set = set;
-      (plan.*part).push_back(std::move(e));
-    }
+namespace {
+constexpr std::array parts{&Plan::drift, &Plan::sums,   &Plan::kick,
+                           &Plan::start, &Plan::settle, &Plan::output};
 }
 
-std::vector<Scheduled> schedule_of(const Plan& plan, FieldSet fields) {
+void append(Plan& plan, Plan more) {
+  for (auto part : parts)
+    for (Entry& e : more.*part) (plan.*part).push_back(std::move(e));
+}
+
+void append(Plan& plan, Plan more, std::size_t set) {
+  for (auto part : parts)
+    for (Entry& e : more.*part)
+      for (Stage& s : e.stages) s.set = set;
+  append(plan, std::move(more));
+}
+
+std::vector<Scheduled> schedule_of(const Plan& plan, std::span<const FieldSet> fields) {
   std::vector<Scheduled> out;
-  Freshness halo;
+  std::vector<Freshness> halos(fields.size());
   // What a rebuild of lists brings up to date and no stage changes.
-  halo.sent(FieldSet{Field::id});
+  for (Freshness& halo : halos) halo.sent(FieldSet{Field::id});
+  const auto sent = [&](std::size_t set, FieldSet refresh) {
+    const FieldSet missing = halos[set].missing(refresh & fields[set]);
+    halos[set].sent(missing);
+    return missing;
+  };
   for (int round = 0; round < 2; ++round) {  // what the first leaves is what later ones find
     out.clear();
     for (const Entry* e : entries_of(plan)) {
@@ -44,15 +59,14 @@ std::vector<Scheduled> schedule_of(const Plan& plan, FieldSet fields) {
       for (int iteration = 0; iteration < (e->solver ? 2 : 1); ++iteration) {
         for (std::size_t k = 0; k < e->stages.size(); ++k) {
           const Stage& s = e->stages[k];
-          const FieldSet sends = halo.missing(s.refresh & fields);
+          const FieldSet sends = sent(s.set, s.refresh);
           if (iteration == 0)
-            out.push_back({e, &s, sends, {}});
+            out.push_back({e, &s, sends, {}, s.other ? sent(s.other->set, s.other->refresh) : FieldSet{}});
           else
             out[first + k].again = sends;
-          halo.sent(sends);
-          halo.changed(s.writes);
+          halos[s.set].changed(s.writes);
         }
-        if (e->solver) halo.changed(e->improves);
+        if (e->solver) halos[e->stages.front().set].changed(e->improves);
       }
     }
   }

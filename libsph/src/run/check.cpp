@@ -15,6 +15,7 @@
 #include "run/plan_text.hpp"
 #include "run/run_start.hpp"
 #include "run/speed_warnings.hpp"
+#include "sph/drag/law.hpp"
 #include "sph/grains.hpp"
 #include "sph/placement.hpp"
 #include "sph/simulation.hpp"
@@ -40,15 +41,30 @@ enum class Placed { no, rows, contacts };
 Placed worth_placing(const Scene& scene, const StartCount& count, bool fits) {
   constexpr std::int64_t few = 2'000'000;
   if (!fits) return Placed::no;
-  if (scene.of_grains() && may_overlap(scene) && count.all <= few) return Placed::contacts;
+  if (scene.has_grains() && may_overlap(scene) && count.all <= few) return Placed::contacts;
   const bool lattice = scene.start.file.empty();
-  return lattice && (scene.of_grains() || count.all > few) ? Placed::no : Placed::rows;
+  return lattice && (scene.has_grains() || count.all > few) ? Placed::no : Placed::rows;
 }
 
 /// What the particles say once they are there.
 struct Beginning {
   StartCount count;
   double speed = 0;
+
+  /// Of another set of particles.
+  void add(const Beginning& more) {
+    if (count.by_group.empty()) {
+      *this = more;
+      return;
+    }
+    count.all += more.count.all;
+    speed = std::max(speed, more.speed);
+    for (std::size_t g = 0; g < count.by_group.size(); ++g) {
+      if (more.count.by_group[g] == 0) continue;  // a group is of one set
+      count.by_group[g] = more.count.by_group[g];
+      count.heights[g] = more.count.heights[g];
+    }
+  }
 };
 
 Beginning start_of(const decomp::Comm& comm, const Scene& scene, const Particles& particles,
@@ -87,14 +103,19 @@ Beginning place(const decomp::Comm& comm, const Scene& scene, Placed how) {
     return start_of(comm, scene, simulation.particles(), simulation.scale());
   }
   const PositionScale scale = position_scale(scene);
+  const Parts parts(scene, scale);
   Distribution distribution(comm, scene, scale);
-  Particles particles(scene.dim, Parts(scene, scale).sets.front().fields);
-  place_particles(scene, scale, distribution, particles);
-  if (scene.of_grains())
-    check_start_speeds(comm, scene, particles);
-  else
-    check_start_densities(comm, scene, particles);
-  return start_of(comm, scene, particles, scale);
+  Beginning start;
+  for (const Parts::Set& set : parts.sets) {
+    Particles particles(scene.dim, set.fields);
+    place_particles(scene, scale, distribution, particles);
+    if (set.fields.has(Field::radius))
+      check_start_speeds(comm, scene, particles);
+    else
+      check_start_densities(comm, scene, particles);
+    start.add(start_of(comm, scene, particles, scale));
+  }
+  return start;
 }
 
 std::string particles_text(const Scene& scene, const StartCount& count) {
@@ -109,21 +130,27 @@ std::string unlooked_text(const Scene& scene, Placed placed) {
   std::string out;
   if (placed == Placed::no && !scene.start.file.empty())
     out += "warning: so many rows are not looked at here: a run does\n";
-  if (placed != Placed::contacts && scene.of_grains() && may_overlap(scene))
+  if (placed != Placed::contacts && scene.has_grains() && may_overlap(scene))
     out += "warning: so many grains are not looked at for overlaps here: a run does\n";
   return out;
 }
 
-std::string memory_text(const Scene& scene, const Plan& plan, FieldSet fields, const MemoryNeed& need,
+std::string memory_text(const Scene& scene, const Parts& parts, const MemoryNeed& need,
                         const MachineMemory& machine) {
   const int dim = scene.dim;
-  const FieldSet halo = halo_fields(plan, fields);
-  std::string out = fmt::format(
-      "bytes per particle: {} ({} state): {}\nbytes per halo particle: {}: {}\n"
-      "memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
-      bytes_of(fields, dim), bytes_of(state_of(fields), dim), listed(fields, dim), bytes_of(halo, dim),
-      listed(halo, dim), bytes_text(need.bytes), scene.of_grains() ? "contacts" : "lists", need.listed,
-      scene.of_grains() ? "a grain" : "neighbours", need.cells);
+  std::string out;
+  for (std::size_t set = 0; set < parts.sets.size(); ++set) {
+    const FieldSet fields = parts.sets[set].fields, halo = halo_fields(parts.plan, set, fields);
+    const std::string_view what = parts.sets.size() == 1      ? "particle"
+                                  : fields.has(Field::radius) ? "grain"
+                                                              : "fluid particle";
+    out += fmt::format("bytes per {}: {} ({} state): {}\nbytes per halo {}: {}: {}\n", what,
+                       bytes_of(fields, dim), bytes_of(state_of(fields), dim), listed(fields, dim), what,
+                       bytes_of(halo, dim), listed(halo, dim));
+  }
+  out += fmt::format("memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
+                     bytes_text(need.bytes), scene.of_grains() ? "contacts" : "lists", need.listed,
+                     scene.of_grains() ? "a grain" : "neighbours", need.cells);
   if (const std::string problem = memory_problem(need, machine); !problem.empty())
     out += "warning: " + problem + ": it would not run here\n";
   return out;
@@ -186,6 +213,22 @@ std::string contact_step_text(const Scene& scene, double dt) {
   return out;
 }
 
+std::string drag_text(const Scene& scene, const Parts& parts) {
+  if (!parts.drag) return {};
+  double largest = scene.largest_diameter(), least = largest;
+  for (const Group& g : scene.groups)
+    if (g.grain.least_radius > 0) least = std::min(least, 2 * g.grain.least_radius);
+  const double h = scene.smoothing_length;
+  std::string out = fmt::format(
+      "drag: {}, h is {:.3g} to {:.3g} diameters; in a packed bed it allows time steps up to {:.3g} s\n",
+      scene.drag.law->word, h / largest, h / least, parts.drag->bed_step());
+  if (h < 1.5 * largest)
+    out +=
+        "warning: grains as large as the kernel are seen one by one: h of two diameters or more averages "
+        "them\n";
+  return out;
+}
+
 std::string steps_text(const Scene& scene, double dt) {
   double steps = scene.time.until ? std::ceil(*scene.time.until / dt) : HUGE_VAL;
   if (scene.time.steps) steps = std::min(steps, static_cast<double>(*scene.time.steps));
@@ -212,27 +255,26 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
     check_time_step(scene);
     const PositionScale scale = position_scale(scene);
     const Parts parts(scene, scale);
-    const FieldSet fields = parts.sets.front().fields;
     const decomp::CellGrid grid = cell_grid_of(scene, scale);
     Beginning start{count_start(comm, scene)};
-    MemoryNeed need = memory_need(scene, parts, grid, start.count.all);
+    MemoryNeed need = memory_need(scene, parts, grid, start.count);
     const MachineMemory machine = machine_memory(comm);
     const Placed placed = worth_placing(scene, start.count, memory_problem(need, machine).empty());
     if (placed != Placed::no) {
       start = place(comm, scene, placed);
-      need = memory_need(scene, parts, grid, start.count.all);
+      need = memory_need(scene, parts, grid, start.count);
     }
     if (start.count.all == 0) throw InputError("start: no particle lies in any region");
     const double dt = parts.longest_step();
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
-                 unlooked_text(scene, placed), memory_text(scene, parts.plan, fields, need, machine),
-                 gas_text(scene), tension_text(scene),
-                 options.plan ? plan_text(scene, parts.plan, fields) : "",
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
+                 particles_text(scene, start.count), unlooked_text(scene, placed),
+                 memory_text(scene, parts, need, machine), gas_text(scene), tension_text(scene),
+                 options.plan ? plan_text(scene, parts) : "",
                  parts.grains ? contact_step_text(scene, dt) : "",
                  parts.physics ? courant_text(scene, dt, parts.physics->courant_number(dt)) : "",
-                 speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
-                 ranks_text(scene, grid, start.count.all));
+                 drag_text(scene, parts), speed_warnings(scene, start.count.heights, start.speed),
+                 steps_text(scene, dt), ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);
   });
 }

@@ -10,9 +10,8 @@
 namespace sph {
 namespace {
 
-/// Directed pairs of this rank that lie within the support; of grains those that touch.
+/// Directed pairs of fluid and solid particles of this rank that lie within the support.
 std::int64_t pairs_within_support(const Simulation& s) {
-  if (s.grains() != nullptr) return s.grains()->touching_pairs();
   const auto d = static_cast<std::size_t>(s.scene().dim);
   const auto lanes = static_cast<std::size_t>(s.lists().lanes());
   const double support = s.scene().kernel_radius() / s.scale().quantum;
@@ -64,48 +63,74 @@ std::size_t bytes_of(FieldSet fields, int dim) {
   return bytes;
 }
 
-FieldSet halo_fields(const Plan& plan, FieldSet fields) {
+FieldSet halo_fields(const Plan& plan, std::size_t set, FieldSet fields) {
   FieldSet read{Field::id, Field::position};
   if (fields.has(Field::radius)) read |= fields;  // a partner's everything
   for (const Entry* e : entries_of(plan))
-    for (const Stage& s : e->stages) read |= s.refresh;
+    for (const Stage& s : e->stages) {
+      if (s.set == set) read |= s.refresh;
+      if (s.other && s.other->set == set) read |= s.other->refresh;
+    }
   return read & fields;
 }
 
 Performance performance_of(Simulation& s) {
   const decomp::Comm& comm = s.comm();
-  const decomp::HaloPlan& halo = s.sets().front().halo;
   const int dim = s.scene().dim;
-  const FieldSet fields = s.particles().fields();
-  std::size_t sent = 0;
-  for (const Scheduled& stage : schedule_of(s.plan(), fields)) {
-    sent += bytes_of(stage.sends, dim);
+  std::vector<FieldSet> fields;
+  for (const ParticleSet& set : s.sets()) fields.push_back(set.particles.fields());
+  std::vector<double> sent(fields.size(), 0);  // bytes a halo row of each set is sent in a step
+  for (const Scheduled& scheduled : schedule_of(s.plan(), fields)) {
+    sent[scheduled.stage->set] += static_cast<double>(bytes_of(scheduled.sends, dim));
+    if (const auto& other = scheduled.stage->other)
+      sent[other->set] += static_cast<double>(bytes_of(scheduled.other_sends, dim));
     if (const Simulation::Counters& c = s.counters(); c.solved > 0)
-      sent += static_cast<std::size_t>(c.repeats / c.solved) * bytes_of(stage.again, dim);
+      sent[scheduled.stage->set] +=
+          static_cast<double>(c.repeats / c.solved) * static_cast<double>(bytes_of(scheduled.again, dim));
   }
 
-  const auto listed =
-      static_cast<std::int64_t>(s.grains() != nullptr ? s.grains()->lists().listed() : s.lists().pairs());
+  std::int64_t listed = 0, near = 0;
+  if (s.grains() != nullptr) {
+    listed += static_cast<std::int64_t>(s.grains()->lists().listed());
+    near += s.grains()->touching_pairs();
+  }
+  if (s.physics() != nullptr) {
+    listed += static_cast<std::int64_t>(s.lists().pairs());
+    near += pairs_within_support(s);
+  }
   Performance p;
   p.scene = s.scene().name;
   p.fingerprint = s.fingerprint();
   p.ranks = comm.size();
   p.particles = s.particle_count();
   p.end = s.global();
-  std::array<std::int64_t, 5> sums{listed, pairs_within_support(s),
-                                   static_cast<std::int64_t>(halo.rows_received() + halo.rows_copied()),
-                                   static_cast<std::int64_t>(halo.rows_sent()), s.distribution().migrated()};
+  std::vector<std::int64_t> sums{listed, near, s.distribution().migrated()};
+  for (const ParticleSet& set : s.sets()) {
+    sums.push_back(static_cast<std::int64_t>(set.halo.rows_received() + set.halo.rows_copied()));
+    sums.push_back(static_cast<std::int64_t>(set.halo.rows_sent()));
+    sums.push_back(static_cast<std::int64_t>(set.particles.owned()));
+  }
   comm.sum(std::span<std::int64_t>(sums));
+  double halo = 0, in_halo = 0;
+  for (std::size_t set = 0; set < fields.size(); ++set) {
+    const auto copies = static_cast<double>(sums[3 + 3 * set]), rows = static_cast<double>(sums[5 + 3 * set]);
+    halo += copies;
+    p.halo_bytes_per_step += static_cast<double>(sums[4 + 3 * set]) * sent[set];
+    p.state_bytes_per_particle += rows * static_cast<double>(bytes_of(state_of(fields[set]), dim));
+    p.bytes_per_particle += rows * static_cast<double>(bytes_of(fields[set], dim));
+    // Of sets of unlike particles the mean over what there is of them.
+    p.refresh_bytes += rows * sent[set];
+    in_halo += rows * static_cast<double>(bytes_of(halo_fields(s.plan(), set, fields[set]), dim));
+  }
   const auto particles = static_cast<double>(p.particles);
+  p.refresh_bytes /= particles;
+  p.state_bytes_per_particle /= particles;
+  p.bytes_per_particle /= particles;
+  p.bytes_per_halo_particle = in_halo / particles;
   p.neighbours_per_particle = static_cast<double>(sums[0]) / particles;
   p.pairs_per_particle = static_cast<double>(sums[1]) / particles;
-  p.halo_per_particle = static_cast<double>(sums[2]) / particles;
-  p.refresh_bytes = static_cast<double>(sent);
-  p.halo_bytes_per_step = static_cast<double>(sums[3]) * static_cast<double>(sent);
-  p.migrated = sums[4];
-  p.state_bytes_per_particle = static_cast<double>(bytes_of(state_of(fields), dim));
-  p.bytes_per_particle = static_cast<double>(bytes_of(fields, dim));
-  p.bytes_per_halo_particle = static_cast<double>(bytes_of(halo_fields(s.plan(), fields), dim));
+  p.halo_per_particle = halo / particles;
+  p.migrated = sums[2];
   p.rebuilds = s.counters().rebuilds;
   p.refreshes = s.refreshes();
   p.iterations = s.counters().iterations;

@@ -9,8 +9,8 @@ namespace sph {
 
 [[nodiscard]] std::size_t bytes_of(FieldSet fields, int dim);
 
-/// Fields that a halo particle needs at all: what stages read of neighbours. `fields`: those the scene has.
-[[nodiscard]] FieldSet halo_fields(const Plan& plan, FieldSet fields);
+/// Fields that a halo particle of a set needs at all: what stages read of neighbours. `fields`: those it has.
+[[nodiscard]] FieldSet halo_fields(const Plan& plan, std::size_t set, FieldSet fields);
 
 /// All but wall time, steps, names and imbalance. Collective.
 [[nodiscard]] Performance performance_of(Simulation& simulation);

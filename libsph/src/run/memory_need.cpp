@@ -13,7 +13,6 @@
 #include "pairs/occupied.hpp"
 #include "run/cost.hpp"
 #include "sph/distribution.hpp"
-#include "start/start_count.hpp"
 
 namespace sph {
 namespace {
@@ -47,28 +46,36 @@ double limit_in(const char* file) {
 }  // namespace
 
 MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::CellGrid& grid,
-                       std::int64_t particles) {
+                       const StartCount& count) {
   MemoryNeed need;
-  need.particles = static_cast<double>(particles);
+  need.particles = static_cast<double>(count.all);
   need.cells = 1;
   for (const std::int64_t n : grid.cells()) need.cells *= static_cast<double>(n);
-  need.of_particle =
-      field_factor * static_cast<double>(bytes_of(parts.sets.front().fields, scene.dim)) + bytes_of_row;
-  if (scene.of_grains()) {
-    const ContactFusion fusion = contact_fusion(scene);
-    need.listed = contacts_of_grain;
-    need.of_particle +=
-        sum_factor * (fusion.spins ? 64 : 32) + contact_factor * contacts_of_grain * (8 + 8 * fusion.history);
-  } else {
-    // Kernels of a gas are mostly as wide as at the start, and lists go by each.
-    const double range = scene.has_eos(EosKind::ideal_gas) ? scene.support() : scene.list_range();
-    need.listed = neighbours_within(scene, range + scene.support() * scene.decomposition.skin);
-    need.of_particle += bytes_of_neighbour * need.listed;
-  }
+  double grains = scene.of_grains() ? need.particles : 0;
+  for (std::size_t g = 0; scene.is_mixture() && g < scene.groups.size(); ++g)
+    if (scene.groups[g].kind == GroupKind::grain) grains += static_cast<double>(count.by_group[g]);
+  // Kernels of a gas are mostly as wide as at the start, and lists go by each.
+  const double range = scene.has_eos(EosKind::ideal_gas) ? scene.kernel_radius() : scene.list_range();
+  const double neighbours =
+      scene.has_matter() ? neighbours_within(scene, range + scene.support() * scene.decomposition.skin) : 0;
   const bool dense = 4 * need.cells < 1e18 && Occupied::dense(static_cast<std::size_t>(4 * need.cells),
-                                                              static_cast<std::size_t>(particles));
-  need.bytes = need.particles * (need.of_particle + (dense ? 0 : bytes_of_occupied)) +
-               (dense ? need.cells * bytes_of_cell : 0);
+                                                              static_cast<std::size_t>(count.all));
+  for (const Parts::Set& set : parts.sets) {
+    double of_particle = field_factor * static_cast<double>(bytes_of(set.fields, scene.dim)) + bytes_of_row +
+                         (dense ? 0 : bytes_of_occupied);
+    const bool of_grains = set.fields.has(Field::radius);
+    if (of_grains) {
+      const ContactFusion fusion = contact_fusion(scene);
+      of_particle += sum_factor * (fusion.spins ? 64 : 32) +
+                     contact_factor * contacts_of_grain * (8 + 8 * fusion.history);
+      if (parts.drag) of_particle += bytes_of_neighbour * neighbours;
+    } else {
+      of_particle += bytes_of_neighbour * neighbours;
+    }
+    need.bytes += (of_grains ? grains : need.particles - grains) * of_particle;
+  }
+  need.listed = scene.of_grains() ? contacts_of_grain : neighbours;
+  need.bytes += dense ? need.cells * bytes_of_cell : 0;
   return need;
 }
 
@@ -111,7 +118,7 @@ std::string memory_problem(const MemoryNeed& need, const MachineMemory& machine,
 void require_memory(const decomp::Comm& comm, const Scene& scene) {
   const PositionScale scale = position_scale(scene);
   const MemoryNeed need =
-      memory_need(scene, Parts(scene, scale), cell_grid_of(scene, scale), count_start(comm, scene).all);
+      memory_need(scene, Parts(scene, scale), cell_grid_of(scene, scale), count_start(comm, scene));
   constexpr double margin = 1.5;
   const std::string problem = memory_problem(need, machine_memory(comm), margin);
   if (!problem.empty())

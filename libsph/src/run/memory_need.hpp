@@ -6,17 +6,17 @@
 #include "decomp/grid.hpp"
 #include "sph/parts.hpp"
 #include "sph/scene.hpp"
+#include "start/start_count.hpp"
 
 namespace sph {
 
 struct MemoryNeed {
   double particles = 0, cells = 0;  ///< numbers
-  double listed = 0;                ///< neighbours, or contacts, a particle
-  double of_particle = 0;  ///< its fields and lists, and what a rebuild and a file take besides [bytes]
-  double bytes = 0;        ///< of all ranks together
+  double listed = 0;                ///< neighbours, of grains alone contacts, a particle
+  double bytes = 0;  ///< of all ranks together: fields and lists, what a rebuild and a file take besides
 };
 [[nodiscard]] MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::CellGrid& grid,
-                                     std::int64_t particles);
+                                     const StartCount& count);
 
 /// One machine of those that the ranks are on: the one with the largest share of ranks to memory.
 struct MachineMemory {

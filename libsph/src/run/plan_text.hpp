@@ -3,12 +3,11 @@
 
 #include <string>
 
-#include "sph/plan/plan.hpp"
+#include "sph/parts.hpp"
 #include "sph/scene.hpp"
 
 namespace sph {
 
-/// `fields`: those the scene has.
-[[nodiscard]] std::string plan_text(const Scene& scene, const Plan& plan, FieldSet fields);
+[[nodiscard]] std::string plan_text(const Scene& scene, const Parts& parts);
 
 }  // namespace sph

@@ -8,6 +8,7 @@
 #include "run/agree.hpp"
 #include "run/cost.hpp"
 #include "sph/contact/law.hpp"
+#include "sph/drag/law.hpp"
 #include "sph/monitors.hpp"
 #include "sph/report.hpp"
 
@@ -34,7 +35,10 @@ const char* name_of(Precision p) { return p == Precision::mixed ? "mixed" : "dou
 
 std::string method_of(const Scene& scene) {
   if (scene.of_grains()) return fmt::format("grains, {} contacts", scene.contact.law->name);
-  return fmt::format("{}, {} pairs", name_of(scene.formulation), name_of(scene.precision));
+  const std::string pairs = fmt::format("{}, {} pairs", name_of(scene.formulation), name_of(scene.precision));
+  if (!scene.is_mixture()) return pairs;
+  return fmt::format("{}; grains, {} contacts, {} drag", pairs, scene.contact.law->name,
+                     scene.drag.law->word);
 }
 
 void print(const decomp::Comm& comm, const std::string& text) {
@@ -109,7 +113,9 @@ void Screen::final_report(const std::filesystem::path& dir) {
   p.wall_seconds = seconds(Clock::now() - begin_);
   p.setup_seconds = setup_seconds_;
   p.steps = simulation_.global().step - first_.step;
-  p.formulation = simulation_.scene().of_grains() ? "grains" : name_of(simulation_.scene().formulation);
+  p.formulation = simulation_.scene().of_grains()    ? "grains"
+                  : simulation_.scene().is_mixture() ? "grains in a fluid"
+                                                     : name_of(simulation_.scene().formulation);
   p.precision = name_of(simulation_.scene().precision);
   const Work work = work_of(simulation_.comm(), simulation_.timers().cost());
   p.cost_seconds = work.sum;

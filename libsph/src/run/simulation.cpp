@@ -20,11 +20,12 @@ std::int64_t Simulation::step(std::int64_t request) {
   return finish_step(request);
 }
 
-StepState Simulation::state_of(std::size_t set, GlobalState& global) {
+StepState Simulation::state_of(std::size_t set, GlobalState& global, std::optional<std::size_t> other) {
   ParticleSet& of = sets_[set];
   const bool sums = parts_.sph_pairs && parts_.sph_pairs->set() == set;
   return {{of.ranges, global, maxima_, findings_},
           of.particles,
+          other ? &sets_[*other].particles : nullptr,
           sums ? &parts_.sph_pairs->lists() : nullptr,
           rows_};
 }
@@ -34,7 +35,8 @@ void Simulation::run(const std::vector<Entry>& entries, GlobalState& global) {
     int iteration = 0;
     do {
       for (const Stage& stage : entry.stages) {
-        StepState state = state_of(stage.set, global);
+        StepState state =
+            state_of(stage.set, global, stage.other ? std::optional(stage.other->set) : std::nullopt);
         state.iteration = iteration;
         run(stage, state);
       }
@@ -49,12 +51,15 @@ void Simulation::run(const Stage& stage, StepState& state) {
     const auto timing = timers_.time(stage.region);
     stage.work(state, side);
   };
-  if (stage.refresh.empty()) {
+  ParticleSet* other = stage.other ? &sets_[stage.other->set] : nullptr;
+  if (stage.refresh.empty() && other == nullptr) {
     work(Side::all);
   } else {
     set.exchange.begin(set.halo, set.particles, stage.refresh, timers_);
+    if (other != nullptr) other->exchange.begin(other->halo, other->particles, stage.other->refresh, timers_);
     work(Side::interior);
     set.exchange.end(set.halo, timers_);
+    if (other != nullptr) other->exchange.end(other->halo, timers_);
     work(Side::boundary);
   }
   if (stage.moves) moved_[stage.set] += stage.moves(state.global);
@@ -143,7 +148,7 @@ void Simulation::rebuild() {
   for (const SetPair* pair : parts_.pairs) refresh_halo(pair->constants(), pair->set());
   for (SetPair* pair : parts_.pairs) {
     const Distribution::Carried& with = carried[pair->set()];
-    pair->rebuild(particles(pair->set()), list_setting(pair->set()), with.payload, with.order);
+    pair->rebuild(particles(pair->set()), list_setting(*pair), with.payload, with.order);
   }
   moved_.assign(sets_.size(), 0);
   ++counters_.rebuilds;
@@ -156,15 +161,16 @@ std::vector<decomp::Census> Simulation::census() const {
   return out;
 }
 
-ListSetting Simulation::list_setting(std::size_t set) {
+ListSetting Simulation::list_setting(const SetPair& pair) {
   return {comm_,
           distribution_.grid(),
           distribution_.own_cells(),
           distribution_.list_radius(),
           distribution_.skin(),
-          sets_[set].ranges,
+          sets_[pair.set()].ranges,
           global_,
-          timers_};
+          timers_,
+          pair.other() == pair.set() ? nullptr : &sets_[pair.other()].particles};
 }
 
 std::vector<std::uint32_t> Simulation::pairs_of_rows(std::size_t set) const {

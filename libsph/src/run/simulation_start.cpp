@@ -46,7 +46,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   }
   begin();
   for (const Model* m : parts_.models) m->check_start(comm_, state_of(m->set(), global_));
-  if (!parts_.plan.settle.empty()) widen_kernels();
+  settle();
 }
 
 Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint)
@@ -151,6 +151,19 @@ void Simulation::derive_for_output() {
     for (const Stage& stage : entry.stages) set.changed(stage.writes);
 }
 
+// What a start cannot say of a particle alone.
+void Simulation::settle() {
+  if (parts_.plan.settle.empty()) return;
+  if (scene_.has_eos(EosKind::ideal_gas)) {
+    widen_kernels();
+    return;
+  }
+  run(parts_.plan.settle, global_);
+  findings_.stop(comm_);
+  for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
+  run(parts_.plan.start, global_);
+}
+
 // At the start neither density nor kernels of a gas are known: steps towards them until none changes any more
 // but by rounding. How many that takes follows from the scene alone: the largest change is that of all ranks.
 void Simulation::widen_kernels() {
@@ -172,7 +185,7 @@ void Simulation::widen_kernels() {
       change[0] = std::max(change[0], std::abs(h[i] / before[i] - 1));
     comm_.max(change);
     refresh_halo({Field::smoothing_length}, parts_.physics->set());
-    parts_.sph_pairs->rebuild(particles, list_setting(parts_.physics->set()), {}, {});
+    parts_.sph_pairs->rebuild(particles, list_setting(*parts_.sph_pairs), {}, {});
     if (change[0] < rounding) break;
   }
 }

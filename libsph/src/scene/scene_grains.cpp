@@ -64,8 +64,11 @@ void read_contact_material(const GroupReader& table, GrainMaterial& g, const Con
 void read_grain_groups(const TopReader& top, Scene& scene) {
   const std::vector<GroupReader> tables = top.tables<keys::group>();
   bool sized = false, mobile = false;
+  const GroupReader* first = nullptr;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     Group& group = scene.groups[k];
+    if (group.kind != GroupKind::grain) continue;
+    if (first == nullptr) first = &tables[k];
     tables[k].read(group);
     read_body(tables[k], group);
     read_contact_material(tables[k], group.grain, scene.contact);
@@ -74,11 +77,9 @@ void read_grain_groups(const TopReader& top, Scene& scene) {
     sized = sized || has_grains;
     mobile = mobile || (has_grains && !group.grain.fixed);
   }
-  if (!sized)
-    tables.front().fail("diameter", "is missing in every group", "give the size of the grains in m");
-  if (!mobile)
-    tables.front().fail("fixed", "is true in every group of grains",
-                        "at least one group must be free to move");
+  if (!sized) first->fail("diameter", "is missing in every group", "give the size of the grains in m");
+  if (!mobile && !scene.has_matter())
+    first->fail("fixed", "is true in every group of grains", "at least one group must be free to move");
 }
 
 }  // namespace sph

@@ -129,6 +129,22 @@ void read_fragmentation(const GroupReader& table, std::size_t self, std::vector<
   check_target(inner, group, groups[static_cast<std::size_t>(group.fragments_to)]);
 }
 
+/// What grains act on besides each other: fluids.
+void refuse_bad_company(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+  const auto has = [&](GroupKind k) {
+    return std::ranges::any_of(groups, [k](const Group& g) { return g.kind == k; });
+  };
+  if (!has(GroupKind::grain)) return;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    if (groups[k].kind == GroupKind::solid)
+      tables[k].fail("kind", "is \"solid\" beside grains",
+                     "grains act on fluids and on each other alone: they would pass through it");
+    if (groups[k].kind == GroupKind::wall && !has(GroupKind::fluid))
+      tables[k].fail("kind", "is \"wall\" in a scene of grains alone",
+                     "grains are held by [[wall]], whose material is a group of kind = \"grain\"");
+  }
+}
+
 }  // namespace
 
 std::vector<Group> read_group_names(const TopReader& top) {
@@ -136,26 +152,20 @@ std::vector<Group> read_group_names(const TopReader& top) {
   if (tables.empty()) top.fail_missing("group", "describe each material in a [[group]] table");
   std::vector<Group> groups;
   std::vector<std::string> names;
-  bool movers = false, grains = false;
+  bool movers = false;
   for (const GroupReader& table : tables) {
     Group& group = groups.emplace_back();
     names.push_back(read_name(table, "group", names));
     group.name = names.back();
     group.kind = table.choice<GroupKind>("kind").value_or(GroupKind::wall);
     movers = movers || group.kind != GroupKind::wall;
-    grains = grains || group.kind == GroupKind::grain;
   }
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    if (!tables[k].has("kind"))
-      tables[k].fail_missing("kind",
-                             grains ? "give \"grain\", as another group has"
-                                    : "give \"fluid\", \"solid\" or \"wall\", or \"grain\" for all groups");
-    if (grains && groups[k].kind != GroupKind::grain)
-      tables[k].fail("kind", "differs from \"grain\", which another group has",
-                     "one scene holds either grains or fluids, solids and their walls");
-  }
+  for (const GroupReader& table : tables)
+    if (!table.has("kind")) table.fail_missing("kind", "give \"fluid\", \"solid\", \"wall\" or \"grain\"");
+  refuse_bad_company(tables, groups);
   if (!movers)
-    tables.front().fail("kind", "every group is a wall", "at least one group must be a fluid or a solid");
+    tables.front().fail("kind", "every group is a wall",
+                        "at least one group must be a fluid, a solid or of grains");
   return groups;
 }
 
@@ -175,8 +185,10 @@ void read_groups(const TopReader& top, Scene& scene) {
       if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &group;
     }
   check_total_lagrangian(tables, groups);
-  for (std::size_t k = 0; k < tables.size(); ++k) read_fragmentation(tables[k], k, groups);
+  for (std::size_t k = 0; k < tables.size(); ++k)
+    if (groups[k].kind != GroupKind::grain) read_fragmentation(tables[k], k, groups);
   for (std::size_t k = 0; k < tables.size(); ++k) {
+    if (groups[k].kind == GroupKind::grain) continue;
     const int target = groups[k].fragments_to;
     if (target >= 0 && groups[static_cast<std::size_t>(target)].fragments_to >= 0)
       tables[k].fail("fragmentation", "leads to a group that fragments again",

@@ -25,7 +25,7 @@ void fit_growth(const KernelReader& kernel, Scene& scene, double cells);
 void check_ideal_gas(const TopReader& top, const DomainReader& domain, const StartReader& start,
                      const TermsReader& terms, const Scene& scene);
 
-/// Names and kinds of all [[group]]; if one is a grain, all must be.
+/// Names and kinds of all [[group]].
 [[nodiscard]] std::vector<Group> read_group_names(const TopReader& top);
 /// The materials of the groups of `scene`; walls without material values take those of the first fluid.
 void read_groups(const TopReader& top, Scene& scene);
@@ -55,6 +55,11 @@ void read_added_terms(const TermsReader& table, Terms& terms);
 [[nodiscard]] ContactControl read_contact_law(const Reader<keys::contact>& table);
 /// [[contact.pair]], once groups and contact law of `scene` are known. Ends the table.
 [[nodiscard]] std::vector<ContactPair> read_contact_pairs(const Reader<keys::contact>& table);
+
+/// [drag], and what of the scene grains in a fluid cannot be combined with.
+void read_drag(const TopReader& top, const Reader<keys::drag>& table, Scene& scene);
+/// [[start.grains]]
+[[nodiscard]] std::vector<GrainFill> read_fills(const StartReader& start, const Scene& scene);
 
 /// [[wall]] and [[stage]], once domain and groups are known; stages name walls of `scene`.
 [[nodiscard]] std::vector<Wall> read_walls(const TopReader& top, const Scene& scene);

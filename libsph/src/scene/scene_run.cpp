@@ -65,7 +65,7 @@ void check_monitor_name(const MonitorReader& table, const std::string& name,
 
 Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::vector<Monitor>& earlier) {
   const std::optional<MonitorKind> kind = table.choice<MonitorKind>("kind");
-  const bool grains = scene.of_grains();
+  const bool grains = scene.has_grains();
   if (!kind)
     table.fail_missing("kind",
                        fmt::format("give \"particle\", \"group\", \"energy\"{}",

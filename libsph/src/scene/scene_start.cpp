@@ -21,9 +21,14 @@ Region read_region(const Reader<keys::region>& table, const Scene& scene) {
   Region region;
   table.read(region);
   if (const Group* g = region.group < 0 ? nullptr : &scene.groups[static_cast<std::size_t>(region.group)];
-      g != nullptr && g->kind == GroupKind::grain && !(g->grain.largest_radius > 0))
-    table.fail("group", fmt::format("names \"{}\", a material without diameter", g->name),
-               "give that [[group]] the diameter of its grains");
+      g != nullptr && g->kind == GroupKind::grain) {
+    if (scene.is_mixture())
+      table.fail("group", fmt::format("names \"{}\", which is of grains", g->name),
+                 "this lattice is that of the fluid: place grains with [[start.grains]]");
+    if (!(g->grain.largest_radius > 0))
+      table.fail("group", fmt::format("names \"{}\", a material without diameter", g->name),
+                 "give that [[group]] the diameter of its grains");
+  }
   const Start& start = scene.start;
   bool outside = false;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
@@ -138,8 +143,10 @@ std::vector<Layer> read_layers(const StartReader& table, const Scene& scene) {
   for (const auto& t : table.tables<keys::layer>()) {
     Layer layer;
     t.read(layer);
-    if (scene.groups[static_cast<std::size_t>(layer.group)].kind == GroupKind::wall)
-      t.fail("group", "names a wall", "the layers are what lies on top of each other");
+    const GroupKind kind = scene.groups[static_cast<std::size_t>(layer.group)].kind;
+    if (kind == GroupKind::wall || kind == GroupKind::grain)
+      t.fail("group", kind == GroupKind::wall ? "names a wall" : "names grains",
+             "the layers are what lies on top of each other");
     if (!layers.empty() && layer.top >= layers.back().top)
       t.fail("top", fmt::format("is {}, not below that of the layer before", layer.top),
              "give the layers from the surface downwards");
@@ -200,11 +207,14 @@ void read_start(const StartReader& table, Scene& scene) {
                   fmt::format("the particles come from start.{}", table.has("file") ? "file" : "tile"));
   table.read(start);
   table.not_both("file", "tile");
+  if (scene.is_mixture())
+    table.only_if(false, "file", "grains in a fluid start from a lattice and [[start.grains]]");
   table.only_if(table.has("file"), "free_surface", "it is for start.file; of a lattice it is known");
   if (!from_file) read_lattice(table, scene);
   if (scene.of_grains() && from_file) table.only_if(false, "velocity", "the velocities come from the file");
   read_velocity(table, scene, start);
-  if (!scene.of_grains()) read_pressure(table, scene, start);
+  if (scene.has_matter()) read_pressure(table, scene, start);
+  start.fills = read_fills(table, scene);
   table.finish();
 }
 

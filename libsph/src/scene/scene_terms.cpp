@@ -52,8 +52,10 @@ void set_usual_terms(Scene& scene) {
     terms.quadratic_viscosity = 2;
     terms.conduction = 0.3;
   }
+  const auto first =
+      std::ranges::find_if_not(scene.groups, [](const Group& g) { return g.kind == GroupKind::grain; });
   const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
-    return g.viscosity == scene.groups.front().viscosity;
+    return g.kind == GroupKind::grain || g.viscosity == first->viscosity;
   });
   if (!(uniform || ida || total || gas)) terms.viscosity = ViscosityForm::symmetric;
 }

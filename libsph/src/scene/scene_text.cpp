@@ -33,6 +33,7 @@ void write_start(SceneWriter& out, const Scene& scene) {
   if (!s.tile.file.empty()) out.table(keys::tile, s.tile);
   for (const Layer& layer : s.layers) out.table(keys::layer, layer);
   for (const Region& region : s.regions) out.table(keys::region, region);
+  for (const GrainFill& fill : s.fills) out.table(keys::fill, fill);
 }
 
 void write_terms(SceneWriter& out, Terms terms) {
@@ -41,13 +42,6 @@ void write_terms(SceneWriter& out, Terms terms) {
   for (std::size_t k = 0; k < terms.added.size(); ++k)
     if (terms.added[k] > 0) out.number(added_terms()[k]->word, terms.added[k]);
   if (terms.surface_tension.between[0] >= 0) out.table(keys::surface_tension, terms.surface_tension);
-}
-
-void write_fluids_and_solids(SceneWriter& out, const Scene& scene) {
-  out.table(keys::kernel, scene);
-  for (const Group& g : scene.groups) write_group(out, g);
-  write_start(out, scene);
-  write_terms(out, scene.terms);
 }
 
 void write_output(SceneWriter& out, const Scene& scene) {
@@ -62,12 +56,17 @@ std::string to_toml(const Scene& scene) {
   out.keys(keys::top, scene);
   out.table(keys::domain, scene);
   if (scene.central_pull > 0) out.vector("pull_centre", scene.pull_centre);
-  if (scene.of_grains()) {
-    write_grains(out, scene);
-    write_start(out, scene);
-  } else {
-    write_fluids_and_solids(out, scene);
-  }
+  if (scene.has_matter()) out.table(keys::kernel, scene);
+  if (scene.has_grains()) write_contacts(out, scene);
+  if (scene.is_mixture()) write_drag(out, scene.drag);
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::grain)
+      write_material(out, g, *scene.contact.law);
+    else
+      write_group(out, g);
+  if (scene.has_grains()) write_walls(out, scene);
+  write_start(out, scene);
+  if (scene.has_matter()) write_terms(out, scene.terms);
   TimeControl time = scene.time;
   if (time.dt) time.cfl = 0;  // not written
   out.table(keys::time, time);

@@ -9,6 +9,15 @@
 namespace sph {
 namespace {
 
+/// A box comes back as its planes.
+void write_wall(SceneWriter& out, const Wall& wall) {
+  out.table(keys::wall, wall);
+  out.text("shape", "plane");
+  if (!wall.force) out.vector("velocity", wall.velocity);
+}
+
+}  // namespace
+
 /// A radius is half the diameter that was read, and twice that is the diameter, both exactly.
 void write_material(SceneWriter& out, const Group& group, const ContactLaw& law) {
   out.table(keys::group, group);
@@ -21,19 +30,18 @@ void write_material(SceneWriter& out, const Group& group, const ContactLaw& law)
   if (group.grain.fixed) out.vector("velocity", group.wall_velocity);
 }
 
-/// A box comes back as its planes.
-void write_wall(SceneWriter& out, const Wall& wall) {
-  out.table(keys::wall, wall);
-  out.text("shape", "plane");
-  if (!wall.force) out.vector("velocity", wall.velocity);
-}
-
-}  // namespace
-
-void write_grains(SceneWriter& out, const Scene& scene) {
+void write_contacts(SceneWriter& out, const Scene& scene) {
   out.table(keys::contact, scene.contact);
   for (const ContactPair& pair : scene.contact.pairs) out.table(keys::contact_pair, pair);
-  for (const Group& g : scene.groups) write_material(out, g, *scene.contact.law);
+}
+
+void write_drag(SceneWriter& out, DragControl drag) {
+  out.header(keys::drag);
+  out.text("law", drag.law->word);
+  if (drag.law->resistance != nullptr) out.raw("own_disturbance", fmt::format("{}", drag.own_disturbance));
+}
+
+void write_walls(SceneWriter& out, const Scene& scene) {
   for (const Wall& wall : scene.walls) write_wall(out, wall);
   for (const WallStage& stage : scene.stages) {
     out.table(keys::stage, stage);

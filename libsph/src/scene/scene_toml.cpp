@@ -34,6 +34,7 @@ struct Tables {
   Reader<keys::decomposition> decomposition;
   Reader<keys::output> output;
   Reader<keys::contact> contact;
+  Reader<keys::drag> drag;
   Tables(const toml_tree::Node& root, const Scene& scene)
       : top(root, "", scene),
         kernel(top.table<keys::kernel>()),
@@ -43,11 +44,13 @@ struct Tables {
         time(top.table<keys::time>()),
         decomposition(top.table<keys::decomposition>()),
         output(top.table<keys::output>()),
-        contact(top.table<keys::contact>()) {
+        contact(top.table<keys::contact>()),
+        drag(top.table<keys::drag>()) {
     (void)top.tables<keys::group>();
     (void)top.tables<keys::monitor>();
     (void)start.tables<keys::region>();
     (void)start.table<keys::tile>();
+    (void)start.tables<keys::fill>();
     (void)contact.tables<keys::contact_pair>();
     (void)top.tables<keys::wall>();
     for (const auto& stage : top.tables<keys::stage>()) (void)stage.tables<keys::stage_wall>();
@@ -140,14 +143,13 @@ void check_file(const TableReader& table, std::string_view name, const std::stri
 
 void read_top(const TopReader& top, Scene& scene) {
   scene.groups = read_group_names(top);
-  scene.dim = scene.of_grains() ? 3 : 2;
+  scene.dim = scene.has_grains() ? 3 : 2;
   top.read(scene);
-  if (scene.of_grains() && scene.dim != 3)
+  if (scene.has_grains() && scene.dim != 3)
     top.fail("dimension", "is 2", "grains are spheres: leave it out or give 3");
 }
 
 void read_fluids_and_solids(const Tables& tables, Scene& scene) {
-  read_domain(tables.domain, scene);
   tables.start.require("spacing");
   scene.spacing = *tables.start.number("spacing");
   check_extent(tables.domain, scene);
@@ -163,12 +165,13 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
 }
 
 void read_grains(const Tables& tables, Scene& scene) {
-  read_domain(tables.domain, scene);
   scene.contact = read_contact_law(tables.contact);
   read_grain_groups(tables.top, scene);
   scene.contact.pairs = read_contact_pairs(tables.contact);
-  scene.spacing = tables.start.number("spacing").value_or(diameters_apart * scene.support());
-  check_extent(tables.domain, scene);
+  if (!scene.is_mixture()) {
+    scene.spacing = tables.start.number("spacing").value_or(diameters_apart * scene.support());
+    check_extent(tables.domain, scene);
+  }
   scene.walls = read_walls(tables.top, scene);
   scene.stages = read_stages(tables.top, scene);
 }
@@ -193,12 +196,12 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   scene.name = std::filesystem::path(file).stem().string();
   const Tables tables(root, scene);
   read_top(tables.top, scene);
-  if (scene.of_grains())
-    read_grains(tables, scene);
-  else
-    read_fluids_and_solids(tables, scene);
+  read_domain(tables.domain, scene);
+  if (scene.has_matter()) read_fluids_and_solids(tables, scene);
+  if (scene.has_grains()) read_grains(tables, scene);
+  if (scene.is_mixture()) read_drag(tables.top, tables.drag, scene);
   read_start(tables.start, scene);
-  if (!scene.of_grains()) read_terms(tables.terms, scene);
+  if (scene.has_matter()) read_terms(tables.terms, scene);
   read_time(tables.time, scene);
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
@@ -207,7 +210,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   check_total_lagrangian(tables, scene);
   check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
   check_implicit_viscosity(tables.terms, scene);
-  scene.free_surface = !scene.of_grains() && has_free_surface(scene);
+  scene.free_surface = scene.has_matter() && has_free_surface(scene);
   scene.open = scene.terms.shifting && scene.free_surface;
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);

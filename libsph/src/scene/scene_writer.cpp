@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 
@@ -10,16 +11,18 @@ namespace {
 
 bool applies(const keys::KeyTable& table, const keys::Key& key, const Scene& scene, void* owner) {
   if (key.scenes.holds != nullptr && !key.scenes.holds(scene)) return false;
-  if (key.where.key.empty()) return true;
-  const keys::Key& selector = table[key.where.key];
-  const auto& words = std::get<keys::Words>(selector.kind);
-  std::string_view word = words.all().front().text;
-  if (selector.member.in != nullptr) {
-    const keys::Value value = selector.member.in(owner);
-    const auto& at = std::get<keys::Enumerator>(value);
-    word = words.text_of(at.get(at.at));
-  }
-  return (word == key.where.word) == key.where.but.empty();
+  return std::ranges::all_of(key.where, [&](const keys::Where& where) {
+    if (where.key.empty()) return true;
+    const keys::Key& selector = table[where.key];
+    const auto& words = std::get<keys::Words>(selector.kind);
+    std::string_view word = words.all().front().text;
+    if (selector.member.in != nullptr) {
+      const keys::Value value = selector.member.in(owner);
+      const auto& at = std::get<keys::Enumerator>(value);
+      word = words.text_of(at.get(at.at));
+    }
+    return (word == where.word) == where.but.empty();
+  });
 }
 
 }  // namespace

@@ -48,7 +48,12 @@ class SceneWriter {
   std::string out_;
 };
 
-/// [contact], [[group]], [[wall]] and [[stage]] of a scene of grains.
-void write_grains(SceneWriter& out, const Scene& scene);
+/// [contact] and its pairs.
+void write_contacts(SceneWriter& out, const Scene& scene);
+void write_drag(SceneWriter& out, DragControl drag);
+/// A [[group]] of grains.
+void write_material(SceneWriter& out, const Group& group, const ContactLaw& law);
+/// [[wall]] and [[stage]]
+void write_walls(SceneWriter& out, const Scene& scene);
 
 }  // namespace sph

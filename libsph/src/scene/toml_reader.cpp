@@ -101,15 +101,18 @@ bool TableReader::applies(const Key& key) const {
     only_if(false, key, key.scenes.why);
     return false;
   }
-  if (key.where.key.empty()) return true;
-  const Key& selector = (*keys_)[key.where.key];
-  const Node* value = node_->find(selector.name);
-  const auto* given = value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
-  const std::string_view word =
-      given == nullptr ? std::get<keys::Words>(selector.kind).all().front().text : std::string_view(*given);
-  const bool holds = (word == key.where.word) == key.where.but.empty();
-  if (!holds) only_if(false, key, keys::refusal(*keys_, key.where));
-  return holds;
+  for (const keys::Where& where : key.where) {
+    if (where.key.empty()) continue;
+    const Key& selector = (*keys_)[where.key];
+    const Node* value = node_->find(selector.name);
+    const auto* given = value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
+    const std::string_view word =
+        given == nullptr ? std::get<keys::Words>(selector.kind).all().front().text : std::string_view(*given);
+    if ((word == where.word) == where.but.empty()) continue;
+    only_if(false, key, keys::refusal(*keys_, where));
+    return false;
+  }
+  return true;
 }
 
 void TableReader::read(void* owner) const {
@@ -231,8 +234,16 @@ int TableReader::index_of(const Key& key, const std::string& name, std::string_v
 std::optional<int> TableReader::index(const Key& key) const {
   const std::optional<std::string> name = text(key);
   if (!name) return std::nullopt;
-  const auto& [what, or_none] = std::get<keys::NameOf>(key.kind);
-  return or_none && *name == "none" ? -1 : index_of(key, *name, what);
+  const auto& [what, or_none, of_grains] = std::get<keys::NameOf>(key.kind);
+  const int found = or_none && *name == "none" ? -1 : index_of(key, *name, what);
+  if (of_grains) require_grains(key, found);
+  return found;
+}
+
+void TableReader::require_grains(const Key& key, int group) const {
+  if (const Group& g = scene_->groups[static_cast<std::size_t>(group)]; g.kind != GroupKind::grain)
+    fail(key, fmt::format("names \"{}\", which is not of grains", g.name),
+         "name a group with kind = \"grain\"");
 }
 
 std::optional<std::array<int, 2>> TableReader::two_groups(const Key& key) const {
@@ -242,6 +253,8 @@ std::optional<std::array<int, 2>> TableReader::two_groups(const Key& key) const 
   std::array<int, 2> out{};
   for (std::size_t k = 0; k < 2; ++k)
     out[k] = index_of(key, item<std::string>(key, (*names)[k], wanted), "group");
+  if (std::get<keys::TwoGroups>(key.kind).of_grains)
+    for (const int group : out) require_grains(key, group);
   return out;
 }
 

@@ -59,6 +59,7 @@ class TableReader {
   [[nodiscard]] std::optional<int> choice(const Key& key) const;
   /// Of the group or wall that is named.
   [[nodiscard]] std::optional<int> index(const Key& key) const;
+  void require_grains(const Key& key, int group) const;
   [[nodiscard]] std::optional<std::array<int, 2>> two_groups(const Key& key) const;
   [[nodiscard]] std::optional<std::array<std::int64_t, 3>> copies(const Key& key) const;
   /// A path: from the file, relative to its folder; from the command line, to the working one.

@@ -112,6 +112,9 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* mean = particles.data<Field::velocity_mean>())
     for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = p.velocity[a];
   if (auto* mean = particles.data<Field::pressure_mean>()) mean[i] = 0;
+  if (auto* porosity = particles.data<Field::porosity>()) porosity[i] = 1;  // grains are not looked at yet
+  if (auto* pull = particles.data<Field::grain_pull>())
+    for (std::size_t a = 0; a < d; ++a) pull[i * d + a] = 0;
 }
 
 }  // namespace sph

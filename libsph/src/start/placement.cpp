@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "start/grain_fill.hpp"
 #include "start/initial_fields.hpp"
 #include "start/lattice.hpp"
 #include "start/placement_file.hpp"
@@ -18,12 +19,6 @@ int painted_group(const Scene& scene, const Double3& x) {
   return -1;
 }
 
-/// How many points of its lattice a fill has along an axis.
-std::int64_t points_of(const GrainFill& fill, std::size_t axis) {
-  return std::max<std::int64_t>(
-      static_cast<std::int64_t>(std::ceil((fill.upper[axis] - fill.lower[axis]) / fill.spacing - 0.5)), 0);
-}
-
 /// Ids of fills follow on those of the lattice, one fill after the other.
 std::uint64_t first_id(const Scene& scene, const GrainFill& fill) {
   const Lattice lattice(scene);
@@ -32,7 +27,7 @@ std::uint64_t first_id(const Scene& scene, const GrainFill& fill) {
     id *= static_cast<std::uint64_t>(lattice.count(a));
   for (const GrainFill& before : scene.start.fills) {
     if (&before == &fill) break;
-    id += static_cast<std::uint64_t>(points_of(before, 0) * points_of(before, 1) * points_of(before, 2));
+    id += static_cast<std::uint64_t>(count(before));
   }
   return id;
 }
@@ -46,12 +41,9 @@ void fill_with_grains(const Scene& scene, const GrainFill& fill, const PositionS
   for (k[2] = 0; k[2] < points_of(fill, 2); ++k[2])
     for (k[1] = 0; k[1] < points_of(fill, 1); ++k[1])
       for (k[0] = 0; k[0] < points_of(fill, 0); ++k[0], ++id) {
-        NewParticle p{id, {}, {}, static_cast<std::uint32_t>(fill.group), 0, 0};
+        NewParticle p{id, point(fill, k), {}, static_cast<std::uint32_t>(fill.group), 0, 0};
         decomp::Int3 q{};
-        for (std::size_t a = 0; a < 3; ++a) {
-          p.position[a] = fill.lower[a] + (static_cast<double>(k[a]) + 0.5) * fill.spacing;
-          q[a] = scale.quanta(p.position[a]);
-        }
+        for (std::size_t a = 0; a < 3; ++a) q[a] = scale.quanta(p.position[a]);
         q = distribution.grid().wrap(q);
         if (!own.contains(distribution.grid().cell_of(q))) continue;
         p.radius = random_radius(scene, p);

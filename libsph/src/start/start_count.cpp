@@ -8,6 +8,7 @@
 #include <string>
 
 #include "run/agree.hpp"
+#include "start/grain_fill.hpp"
 #include "start/lattice.hpp"
 #include "start/placement_tile.hpp"
 #include "start/start_rows.hpp"
@@ -137,6 +138,16 @@ void count_lattice(const decomp::Comm& comm, const Scene& scene, StartCount& cou
   count.heights = std::move(tally.heights);
 }
 
+void count_fills(const Scene& scene, StartCount& start) {
+  for (const GrainFill& fill : scene.start.fills) {
+    const auto group = static_cast<std::size_t>(fill.group);
+    start.by_group[group] += count(fill);
+    start.heights[group].add(scene, point(fill, {0, 0, 0}));
+    start.heights[group].add(
+        scene, point(fill, {points_of(fill, 0) - 1, points_of(fill, 1) - 1, points_of(fill, 2) - 1}));
+  }
+}
+
 std::vector<std::int64_t> count_tiles(const decomp::Comm& comm, const Scene& scene) {
   std::vector<std::int64_t> by_group(scene.groups.size(), 0);
   in_row_order(comm, scene.start.tile.file, [&] {
@@ -183,6 +194,7 @@ StartCount count_start(const decomp::Comm& comm, const Scene& scene) {
     count_lattice(comm, scene, count);
   else
     count.by_group = count_tiles(comm, scene);
+  count_fills(scene, count);
   count.all = std::accumulate(count.by_group.begin(), count.by_group.end(), std::int64_t{0});
   return count;
 }

@@ -99,6 +99,8 @@ std::array<std::string, 2> rows_of(const decomp::Comm& comm, const Scene& scene,
 
 std::string advice(const Scene& scene) {
   if (!scene.start.file.empty()) return "move them apart";
+  if (scene.is_mixture())
+    return "raise start.grains.spacing, make it divide periods, or keep [[start.grains]] apart";
   return scene.start.tile.file.empty() ? "raise start.spacing or lessen start.jitter"
                                        : "settle the tile with walls or periods where its copies meet";
 }
@@ -109,7 +111,10 @@ bool may_overlap(const Scene& scene) {
   const Start& start = scene.start;
   if (!start.file.empty() || !start.tile.file.empty()) return true;
   // Two of the largest stand deepest in each other: R + r - limit r grows with both.
-  const double allowed = (2 - scene.contact.largest_overlap) * 0.5 * scene.support();
+  const double allowed = (2 - scene.contact.largest_overlap) * 0.5 * scene.largest_diameter();
+  if (scene.is_mixture())  // a fill knows nothing of another, nor of its own image
+    return start.fills.size() > 1 || scene.periodic != std::array{false, false, false} ||
+           start.fills.front().spacing < allowed;
   const double nearest = scene.spacing * (1 - 2 * std::sqrt(3.0) * start.jitter);
   return nearest < allowed;
 }

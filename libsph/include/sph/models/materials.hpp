@@ -7,8 +7,10 @@ namespace sph {
 
 class Materials {
  public:
-  static constexpr FieldSet reads{Field::density, Field::group, Field::gas_content, Field::specific_energy};
-  static constexpr FieldSet writes{Field::pressure, Field::sound_speed, Field::void_fraction};
+  static constexpr FieldSet reads{Field::density,         Field::group,    Field::gas_content,
+                                  Field::specific_energy, Field::porosity, Field::liquid_density};
+  static constexpr FieldSet writes{Field::pressure, Field::sound_speed, Field::void_fraction,
+                                   Field::liquid_density};
 
   explicit Materials(const SphConstants& constants) : constants_(&constants) {}
   /// Of rows [first, last).

@@ -2,6 +2,7 @@
 // particles then are, velocities are kicked.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ inline void append(std::vector<Entry>& entries, Stage stage) {
 [[nodiscard]] double longest_move(const Plan& plan, std::size_t set, const GlobalState& global);
 [[nodiscard]] double longest_move(const std::vector<Entry>& entries, std::size_t set,
                                   const GlobalState& global);
-/// Adds the plan of a model whose particles are those of `set`.
+/// Adds the plan of a model.
+void append(Plan& plan, Plan more);
+/// ... whose particles are those of `set`.
 void append(Plan& plan, Plan more, std::size_t set);
 
 /// Which halo copies are up to date.
@@ -47,10 +50,11 @@ class Freshness {
 struct Scheduled {
   const Entry* entry;
   const Stage* stage;
-  FieldSet sends;  ///< to the halo before it
-  FieldSet again;  ///< ... in each further iteration of its loop
+  FieldSet sends;        ///< to the halo before it
+  FieldSet again;        ///< ... in each further iteration of its loop
+  FieldSet other_sends;  ///< to the halo of its other set
 };
-/// `fields`: those the scene has.
-[[nodiscard]] std::vector<Scheduled> schedule_of(const Plan& plan, FieldSet fields);
+/// `fields`: those that each set of particles has.
+[[nodiscard]] std::vector<Scheduled> schedule_of(const Plan& plan, std::span<const FieldSet> fields);
 
 }  // namespace sph

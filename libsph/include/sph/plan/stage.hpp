@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,6 +46,7 @@ struct Step {
 /// What the stages of a step work on: one rank's part of a scene.
 struct StepState : Step {
   Particles& particles;
+  Particles* other;                      ///< of the other set of a stage that looks at two
   const NeighbourLists* lists;           ///< of a set of fluids and solids
   decomp::LargeVector<std::byte>& rows;  ///< scratch of sums over pairs
   int iteration = 0;                     ///< of the loop that the stage is in
@@ -63,6 +65,12 @@ struct Stage {
   std::function<double(const GlobalState&)> moves{};  ///< bound on any particle's path in it [m]; empty: 0
   const Fusion* fusion = nullptr;                     ///< of a stage that sums over pairs
   std::size_t set = 0;                                ///< of particles, as an index
+  /// Another set whose neighbours it reads.
+  struct Other {
+    std::size_t set;
+    FieldSet refresh;
+  };
+  std::optional<Other> other{};
 };
 
 /// A local update: `update(view, step)` of what it declares as `reads` and `writes`.

@@ -24,6 +24,7 @@ inline constexpr auto top_keys = std::to_array<Key>({
      sph_only("grains act on each other where they touch: there is no kernel"),
      Default{"required of fluids and solids"}},
     {"contact", Inner{&contact}, "The law of contacts.", of_grains, Default{"required of grains"}},
+    {"drag", Inner{&drag}, "Of grains in a fluid.", of_mixtures, Default{"required of grains in a fluid"}},
     {"group", Inner{&group}, "The materials.", Default{"required"}},
     {"wall", Inner{&wall}, "Planes and boxes that hold grains.", of_grains},
     {"stage", Inner{&stage}, "Changes of the walls.", of_grains},
@@ -37,9 +38,9 @@ inline constexpr auto top_keys = std::to_array<Key>({
 });
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
-inline constexpr std::array<const KeyTable*, 20> all{
-    &top,   &domain,     &kernel, &group,           &fragmentation, &start,        &region,
-    &layer, &tile,       &terms,  &surface_tension, &contact,       &contact_pair, &wall,
+inline constexpr std::array<const KeyTable*, 22> all{
+    &top,   &domain,     &kernel, &group,           &fragmentation, &start,        &region, &layer,
+    &tile,  &fill,       &terms,  &surface_tension, &contact,       &contact_pair, &drag,   &wall,
     &stage, &stage_wall, &time,   &decomposition,   &output,        &monitor};
 
 }  // namespace sph::keys

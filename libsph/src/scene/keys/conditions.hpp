@@ -6,15 +6,19 @@
 
 namespace sph::keys {
 
-/// Scenes of fluids and solids; `why` those of grains have no such key.
+/// Scenes of fluids and solids; `why` those of grains alone have no such key.
 constexpr Condition sph_only(std::string_view why) {
-  return {[](const Scene& s) { return !s.of_grains(); }, "fluids and solids", why};
+  return {[](const Scene& s) { return s.has_matter(); }, "fluids and solids", why};
 }
-inline constexpr Condition of_sph = sph_only("it is of fluids and solids; grains have a contact law");
 inline constexpr Condition of_fluids = sph_only("it is of fluids");
-inline constexpr Condition of_grains{
-    [](const Scene& s) { return s.of_grains(); }, "grains",
-    "only scenes of grains have it, where every [[group]] has kind = \"grain\""};
+inline constexpr Condition of_grains{[](const Scene& s) { return s.has_grains(); }, "grains",
+                                     "only scenes of grains have it, with a [[group]] of kind = \"grain\""};
+inline constexpr Condition of_grains_alone{
+    [](const Scene& s) { return s.of_grains(); }, "grains alone",
+    "only scenes of grains alone have it, where every [[group]] has kind = \"grain\""};
+inline constexpr Condition of_mixtures{[](const Scene& s) { return s.has_grains() && s.has_matter(); },
+                                       "grains in a fluid",
+                                       "only scenes with groups of kind = \"fluid\" and \"grain\" have it"};
 inline constexpr Condition of_lattices{
     [](const Scene& s) { return s.start.file.empty() && s.start.tile.file.empty(); }, "lattices",
     "the particles come from start.file or start.tile"};

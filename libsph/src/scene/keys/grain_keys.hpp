@@ -7,8 +7,8 @@
 namespace sph::keys {
 
 inline constexpr auto pair_keys = std::to_array<Key>({
-    {"groups", TwoGroups{R"(the names of two groups, like ["sand", "glass"])"}, "Both names may be the same.",
-     at<&ContactPair::groups>, required},
+    {"groups", TwoGroups{R"(the names of two groups, like ["sand", "glass"])", true},
+     "Both names may be the same.", at<&ContactPair::groups>, required},
     {"friction", Number{dimension::none, not_negative}, "Coulomb's mu between the two.",
      at<&ContactPair::friction>, Default{"the smaller of the two"}},
     {"rolling_friction", Number{dimension::none, not_negative}, "mu_r between the two.",
@@ -43,6 +43,22 @@ inline constexpr auto contact_keys = std::to_array<Key>({
 inline constexpr Table<ContactControl> contact{
     {"contact", false, "One law for all contacts, of grains and with walls.", contact_keys}};
 
+inline constexpr auto drag_keys = std::to_array<Key>({
+    {"law", law_words<DragLaw>,
+     "\"stokes\": a sphere alone in a creeping flow; \"di_felice\": any Reynolds number and porosity; "
+     "\"gidaspow\": Ergun in beds, Wen and Yu where grains are few; \"none\": fluid and grains do not act on "
+     "each other.",
+     at<&DragControl::law>, required},
+    {"own_disturbance", Flag{},
+     "Takes out what a grain itself does to the fluid that it is dragged by, without which one grain settles "
+     "too fast.",
+     at<&DragControl::own_disturbance>},
+});
+inline constexpr Table<DragControl> drag{{"drag", false,
+                                          "Grains in a fluid, both averaged over the kernel: the force of "
+                                          "the fluid on the grains and theirs on it.",
+                                          drag_keys}};
+
 inline constexpr Where of_boxes = where("shape", "box");
 inline constexpr Where of_planes = where("shape", "plane", "; a box has lower and upper");
 inline constexpr Where unless_box =
@@ -50,8 +66,8 @@ inline constexpr Where unless_box =
 
 inline constexpr auto wall_keys = std::to_array<Key>({
     {"name", Text{}, "A letter, then letters, digits, _ or -.", at<&Wall::name>, required},
-    {"material", NameOf{"group"}, "A group of grains, with or without diameter.", index_at<&Wall::group>,
-     required},
+    {"material", NameOf{"group", false, true}, "A group of grains, with or without diameter.",
+     index_at<&Wall::group>, required},
     {"shape", Words{wall_shape_words},
      "\"box\": a plane on each side without period, facing inwards, called box_x0, box_x1, box_y0, ... of "
      "a wall \"box\". It rests."},

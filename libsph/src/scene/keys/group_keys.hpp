@@ -20,12 +20,13 @@ inline constexpr Table<Group> fragmentation{
 inline constexpr Where bubbly = where("eos", "bubbly"), gas = where("eos", "ideal_gas");
 inline constexpr Where solid = where("kind", "solid"), walls = where("kind", "wall");
 inline constexpr Where grain = where("kind", "grain");
+inline constexpr Where of_sph =
+    unless("kind", "grain", "it is of fluids and solids; grains have a contact law");
 inline constexpr Where elastic = unless("eos", "ideal_gas", "an ideal gas has heat_ratio and start_pressure");
 
 inline constexpr auto group_keys = std::to_array<Key>({
     {"name", Text{}, "A letter, then letters, digits, _ or -.", at<&Group::name>, required},
-    {"kind", Words{group_kind_words},
-     "At least one group is a fluid or a solid; in a scene of grains all groups are \"grain\".",
+    {"kind", Words{group_kind_words}, "At least one group is a fluid, a solid or of grains.",
      at<&Group::kind>, required},
     {"eos", law_words<EquationOfState>,
      "\"linear\": p = K (rho/rho_0 - 1). Fluids only: \"bubbly\", Ida eqs. (12)-(15), and \"ideal_gas\": p "

@@ -71,7 +71,7 @@ Json object(const KeyTable& table) {
         !standard.empty() && key.otherwise.empty() && !key.required)
       if (!standard.starts_with('[')) schema["default"] = Json::parse(standard);
     properties[std::string(key.name)] = std::move(schema);
-    const bool everywhere = key.scenes.holds == nullptr && key.where.key.empty();
+    const bool everywhere = key.scenes.holds == nullptr && key.where[0].key.empty();
     if (everywhere && default_of(key) == "required") required.push_back(key.name);
   }
   Json out{{"type", "object"},

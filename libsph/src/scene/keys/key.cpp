@@ -98,9 +98,10 @@ std::string default_of(const Key& key) {
 
 std::string place_of(const Key& key) {
   std::string out(key.scenes.of);
-  if (!key.where.key.empty())
-    out += fmt::format("{}{} {} \"{}\"", out.empty() ? "" : ", ", key.where.key,
-                       key.where.but.empty() ? "=" : "!=", key.where.word);
+  for (const Where& w : key.where)
+    if (!w.key.empty())
+      out +=
+          fmt::format("{}{} {} \"{}\"", out.empty() ? "" : ", ", w.key, w.but.empty() ? "=" : "!=", w.word);
   return out;
 }
 

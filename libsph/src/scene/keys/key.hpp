@@ -3,6 +3,7 @@
 // reader, the writer, their refusals and every reference (peperite keys) follow from that.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -58,10 +59,12 @@ struct Text {};
 struct File {};
 struct NameOf {  ///< of a [[group]] or a [[wall]], kept as its index
   std::string_view what;
-  bool or_none = false;  ///< "none" is -1
+  bool or_none = false;    ///< "none" is -1
+  bool of_grains = false;  ///< of those groups alone
 };
 struct TwoGroups {  ///< an array of their names
   std::string_view is;
+  bool of_grains = false;
 };
 struct Copies {};  ///< whole numbers along each axis
 struct Inner {     ///< a table, or an array of them
@@ -105,7 +108,7 @@ struct Key {
   std::string_view sentence;
   Member member;
   Condition scenes;
-  Where where;
+  std::array<Where, 2> where{};  ///< all of them must hold
   std::string_view otherwise;
   bool required = false;
 
@@ -119,7 +122,10 @@ struct Key {
  private:
   constexpr void add(const Member& m) { member = m; }
   constexpr void add(const Condition& c) { scenes = c; }
-  constexpr void add(const Where& w) { where = w; }
+  constexpr void add(const Where& w) {
+    if (!where[1].key.empty()) throw std::logic_error("where a key has a meaning depends on three words");
+    where[where[0].key.empty() ? 0 : 1] = w;
+  }
   constexpr void add(const Default& d) { otherwise = d.words; }
   constexpr void add(const Required&) { required = true; }
 };
@@ -155,8 +161,9 @@ struct Table : KeyTable {
       if (!key.sentence.ends_with('.')) throw std::logic_error("the sentence of a key ends with a full stop");
       if (key.member.owner != nullptr && key.member.owner != &type_mark<Owner>)
         throw std::logic_error("the member is of another struct than its table");
-      if (!key.where.key.empty() && !std::get<Words>((*this)[key.where.key].kind).has(key.where.word))
-        throw std::logic_error("where a key has a meaning depends on a word that is none");
+      for (const Where& w : key.where)
+        if (!w.key.empty() && !std::get<Words>((*this)[w.key].kind).has(w.word))
+          throw std::logic_error("where a key has a meaning depends on a word that is none");
       if (const auto* inner = std::get_if<Inner>(&key.kind);
           inner != nullptr && inner->table->own_name() != key.name)
         throw std::logic_error("a table has another name than its key");

@@ -20,7 +20,7 @@ std::string_view kept(std::string text) {
 
 /// Of all laws of a sort; one that several have is there once, with the words of all.
 template <class Law>
-void add_keys_of_laws(std::vector<Key>& keys, std::string_view choice, Condition scenes, Where where) {
+void add_keys_of_laws(std::vector<Key>& keys, std::string_view choice, Where where) {
   for (const Law* law : laws_of<Law>())
     for (const LawKey& key : law->keys) {
       const auto known = [&](const Key& k) { return k.name == key.name; };
@@ -32,11 +32,10 @@ void add_keys_of_laws(std::vector<Key>& keys, std::string_view choice, Condition
       const Range range{.least = key.above, .most = key.most, .above_least = true};
       const std::string_view says = kept(fmt::format("With {} = {}. {}", choice, owners, key.sentence));
       if (key.otherwise == nullptr)
-        keys.emplace_back(key.name, Number{key.dimension, range}, says, scenes, where,
+        keys.emplace_back(key.name, Number{key.dimension, range}, says, where,
                           Default{kept(fmt::format("required with {} = {}", choice, owners))});
       else
-        keys.emplace_back(key.name, Number{key.dimension, range}, says, scenes, where,
-                          Default{key.default_text});
+        keys.emplace_back(key.name, Number{key.dimension, range}, says, where, Default{key.default_text});
     }
 }
 
@@ -45,8 +44,8 @@ void add_keys_of_laws(std::vector<Key>& keys, std::string_view choice, Condition
 std::span<const Key> more_keys(const KeyTable& table) {
   static const std::vector<Key> of_groups = [] {
     std::vector<Key> keys;
-    add_keys_of_laws<EquationOfState>(keys, "eos", of_sph, {});
-    add_keys_of_laws<ContactLaw>(keys, "contact.law", {}, grain);
+    add_keys_of_laws<EquationOfState>(keys, "eos", of_sph);
+    add_keys_of_laws<ContactLaw>(keys, "contact.law", grain);
     return keys;
   }();
   static const std::vector<Key> of_terms = [] {

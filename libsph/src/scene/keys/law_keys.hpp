@@ -8,6 +8,7 @@
 
 #include "scene/keys/key.hpp"
 #include "sph/contact/law.hpp"
+#include "sph/drag/law.hpp"
 #include "sph/eos/law.hpp"
 
 namespace sph::keys {
@@ -19,6 +20,10 @@ inline std::span<const ContactLaw* const> laws_of() {
 template <>
 inline std::span<const EquationOfState* const> laws_of() {
   return equations_of_state();
+}
+template <>
+inline std::span<const DragLaw* const> laws_of() {
+  return drag_laws();
 }
 
 template <class Law>

@@ -39,6 +39,16 @@ inline constexpr auto tile_keys = std::to_array<Key>({
 inline constexpr Table<Tile> tile{
     {"start.tile", false, "A settled packing of grains side by side.", tile_keys}};
 
+inline constexpr auto fill_keys = std::to_array<Key>({
+    {"group", NameOf{"group", false, true}, "A group of grains.", index_at<&GrainFill::group>, required},
+    {"lower", Vector{dimension::length}, "Extent that is filled.", at<&GrainFill::lower>, required},
+    {"upper", Vector{dimension::length}, "Its other corner.", at<&GrainFill::upper>, required},
+    {"spacing", Number{dimension::length, positive}, "Between the grains of a cubic lattice.",
+     at<&GrainFill::spacing>, required},
+});
+inline constexpr Table<GrainFill> fill{
+    {"start.grains", true, "Grains in a fluid: a lattice of their own, in a box.", fill_keys}};
+
 inline constexpr auto start_keys = std::to_array<Key>({
     {"spacing", Number{dimension::length, positive}, "dx, the distance between particles at the start.",
      Default{"required; of grains 1.1 of the largest diameter"}},
@@ -47,7 +57,8 @@ inline constexpr auto start_keys = std::to_array<Key>({
      "and perhaps spin (CSV: id,x,y,z,vx,vy,vz,group,radius,wx,wy,wz). HDF5 may also have stress, in 3D "
      "with an attribute components = \"xx yy zz xy yz xz\", as in snapshots.",
      at<&Start::file>},
-    {"tile", Inner{&tile}, "Instead of a lattice: a settled packing of grains side by side.", of_grains},
+    {"tile", Inner{&tile}, "Instead of a lattice: a settled packing of grains side by side.",
+     of_grains_alone},
     {"lattice", Words{lattice_kind_words}, "\"square\" is cubic in 3D; \"hexagonal\" is of 2D.",
      at<&Start::lattice>, of_lattices},
     {"origin", Vector{dimension::length}, "A corner of a lattice cell: particles sit at its centre.",
@@ -82,6 +93,8 @@ inline constexpr auto start_keys = std::to_array<Key>({
     {"layer", Inner{&layer}, "Hydrostatic, instead of surface_height.", of_fluids},
     {"region", Inner{&region}, "Paints the lattice.", of_lattices,
      Default{"required, unless file or tile is given"}},
+    {"grains", Inner{&fill}, "Places grains in a fluid.", of_mixtures,
+     Default{"required of grains in a fluid"}},
 });
 inline constexpr Table<Start> start{
     {"start", false, "The first state: a lattice painted by regions, a file, or a tile of grains.",

@@ -1,0 +1,88 @@
+// Grains in a fluid, both averaged over the kernel (Anderson & Jackson 1967; Robinson, Ramaioli & Luding 2014,
+// with the pressure shared by both: model A of Gidaspow 1994). Where grains leave the share e of the volume, the
+// porosity, to the fluid, its density rho is that of its mass in all of the volume, and its pressure follows
+// from rho / e:
+//   e_a = 1 - sum_i V_i W_ai                                                        at fluid particles a
+//   F_i = V_i theta_i + zeta_i (u_i - v_i)                                           on grains i
+//   theta_i = sum_a F_a W_ai / S_i, u_i = sum_a V_a u_a W_ai / S_i, S_i = sum_a V_a W_ai, V_a = m_a / rho_a,
+// F_a the forces of the fluid on its particle, pressure and viscosity; zeta is that of the drag law (drag/law.hpp).
+// The fluid gets -F_i V_a W_ai / S_i. These are sums of integers, so that momentum is conserved exactly and no
+// order matters. Drag is taken with the velocity v_i that a grain has after it, and with that u_a which the fluid
+// will have if grains pull at it as in the step before: without that guess a fluid that is driven through grains
+// would be dragged as if it were faster than it is.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sph/models/drag_force.hpp"
+#include "sph/models/model.hpp"
+#include "sph/models/sph_constants.hpp"
+#include "sph/set_pair.hpp"
+
+namespace sph {
+
+class Drag final : public Model, public SetPair {
+ public:
+  static constexpr FieldSet of_fluid{Field::porosity, Field::liquid_density, Field::grain_pull};
+  static constexpr FieldSet of_grains{Field::fluid_force, Field::fluid_share};
+
+  Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const PositionScale& scale,
+       const SphConstants& constants);
+  Drag(const Drag&) = delete;  // its stages hold on to it
+  Drag& operator=(const Drag&) = delete;
+
+  /// Before the sums of the fluid: its pressures want the porosity.
+  [[nodiscard]] Plan porosity_plan();
+  /// After all other forces.
+  [[nodiscard]] Plan force_plan();
+
+  /// The longest time step in a packed bed [s].
+  [[nodiscard]] double bed_step() const { return first_step_; }
+
+  // As a model.
+  void reserve(Reduction& reduction) override { rate_ = reduction.add_maximum(); }
+  [[nodiscard]] double start(const decomp::Comm&, Particles&, GlobalState&) override;
+  [[nodiscard]] bool report(const StepState&, Reduction& reduction) override;
+  [[nodiscard]] double longest_step(const Reduction& reduction) const override;
+  void guard_step(const Reduction& reduction, const GlobalState& global) const override;
+
+  // As a pair of sets: of each grain, those of the halo included, the fluid around it.
+  [[nodiscard]] std::size_t set() const { return Model::set(); }
+  [[nodiscard]] FieldSet constants() const override { return {Field::id, Field::position, Field::radius}; }
+  void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
+               std::span<const std::uint32_t> order) override;
+  void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
+
+ private:
+  /// Kernel of a grain and the fluid particles in its list.
+  void find_kernel(const Particles& grains, std::size_t i, const Particles& fluid);
+  [[nodiscard]] std::span<const std::uint32_t> listed(std::size_t grain) const {
+    return std::span(entries_).subspan(first_[grain], first_[grain + 1] - first_[grain]);
+  }
+  template <class Function>
+  void for_grains(const Particles& grains, Side side, Function function) const;
+
+  void deposit_porosity(StepState& s, Side side);
+  void fill_between_grains(const StepState& s) const;
+  [[nodiscard]] FluidAround look_around(const Particles& grains, std::size_t i, const Particles& fluid,
+                                        double dt);
+  void push_grains(StepState& s, Side side);
+  void push_fluid(StepState& s, Side side);
+  [[nodiscard]] std::int64_t part(double force, double volume, double weight, double share) const;
+
+  const Scene* scene_;
+  const SphConstants* constants_;
+  PositionScale scale_;
+  DragForce push_;
+  double force_quantum_;
+  double first_step_;
+  Reduction::Maximum rate_{};
+  double fastest_ = 0;  ///< rate at which the fluid takes on the velocity of the grains, in this step [1/s]
+  std::vector<std::uint64_t> first_;    ///< of each grain's entries
+  std::vector<std::uint32_t> entries_;  ///< rows of the fluid, ascending by id
+  std::vector<double> kernel_;          ///< of one grain's entries
+  std::vector<std::int64_t> deposits_;  ///< of each fluid particle
+};
+
+}  // namespace sph

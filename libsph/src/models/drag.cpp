@@ -1,0 +1,337 @@
+#include "sph/models/drag.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "plan/for_rows.hpp"
+#include "sph/drag/law.hpp"
+#include "sph/fixed_point.hpp"
+#include "sph/grain_mass.hpp"
+#include "sph/kernels.hpp"
+
+namespace sph {
+namespace {
+
+constexpr double porosity_quantum = 0x1p-50;
+constexpr double least_porosity = 0.1;
+constexpr double largest_part = 0x1p50;  // [quanta]: 8192 of them fit a sum
+
+template <class Kernel>
+void kernel_values(double factor, std::span<double> q_to_value) {
+  for (double& q : q_to_value) q = factor * Kernel::template value<3>(q);
+}
+
+}  // namespace
+
+Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const PositionScale& scale,
+           const SphConstants& constants)
+    : Model(grains),
+      SetPair(grains, fluid),
+      scene_(&scene),
+      constants_(&constants),
+      scale_(scale),
+      push_(scene) {
+  const DragLaw& law = *scene.drag.law;
+  // As if it took the heaviest grain, or the fluid in its place, to the speed of sound within h, or dragged a grain
+  // in a packed bed with that speed.
+  double largest = 0, rate = 0;
+  const double sound = *std::ranges::max_element(constants.groups.sound_speed);
+  for (const Group& g : scene.groups) {
+    if (g.kind != GroupKind::grain || !(g.grain.largest_radius > 0)) continue;
+    for (const Group& f : scene.groups) {
+      if (f.kind != GroupKind::fluid) continue;
+      const double heavy = grain_mass(std::max(g.density, f.density), g.grain.largest_radius);
+      const double fast =
+          law.resistance({DragForce::packed, sound, f.density, f.viscosity, 2 * g.grain.largest_radius});
+      largest = std::max({largest, heavy * sound * sound / scene.smoothing_length, fast * sound});
+      const double d = 2 * g.grain.least_radius, volume = volume_of(g.grain.least_radius);
+      const double zeta = law.resistance({DragForce::packed, 0, f.density, f.viscosity, d});
+      rate = std::max(rate, zeta * (1 - DragForce::packed) / (volume * DragForce::packed * f.density));
+    }
+  }
+  force_quantum_ = std::ldexp(1.0, std::ilogb(largest) + 1 - 50);
+  first_step_ = rate > 0 ? DragForce::usual_share / rate : std::numeric_limits<double>::infinity();
+}
+
+Plan Drag::porosity_plan() {
+  Plan plan;
+  Stage porosity{
+      "porosity", decomp::Region::contacts, {}, {Field::porosity}, [this](StepState& s, Side side) {
+        deposit_porosity(s, side);
+      }};
+  porosity.set = other();
+  porosity.other = {set(), {Field::position}};
+  Stage fill{"fluid between grains",
+             decomp::Region::update,
+             {},
+             {Field::mass, Field::density},
+             [this](StepState& s, Side) { fill_between_grains(s); }};
+  fill.set = other();
+  append(plan.sums, porosity);
+  append(plan.settle, porosity);
+  append(plan.settle, fill);
+  return plan;
+}
+
+Plan Drag::force_plan() {
+  Plan plan;
+  Stage on_grains{"fluid on grains",
+                  decomp::Region::contacts,
+                  {},
+                  FieldSet{Field::velocity} | of_grains,
+                  [this](StepState& s, Side side) { push_grains(s, side); }};
+  on_grains.set = set();
+  on_grains.other = {other(),
+                     {Field::position, Field::velocity, Field::density, Field::mass, Field::group,
+                      Field::force, Field::porosity, Field::liquid_density, Field::grain_pull}};
+  Stage on_fluid{"grains on fluid",
+                 decomp::Region::contacts,
+                 {},
+                 {Field::velocity, Field::grain_pull},
+                 [this](StepState& s, Side side) { push_fluid(s, side); }};
+  on_fluid.set = other();
+  on_fluid.other = {set(), {Field::position, Field::fluid_force, Field::fluid_share}};
+  append(plan.kick, on_grains);
+  append(plan.kick, on_fluid);
+  return plan;
+}
+
+// Nothing in it moves before the first step.
+double Drag::start(const decomp::Comm&, Particles&, GlobalState&) {
+  return scene_->time.dt ? *scene_->time.dt : first_step_;
+}
+
+bool Drag::report(const StepState&, Reduction& reduction) {
+  reduction[rate_] = fastest_;
+  return true;
+}
+
+double Drag::longest_step(const Reduction& reduction) const {
+  if (scene_->time.dt) return *scene_->time.dt;
+  return reduction[rate_] > 0 ? DragForce::usual_share / reduction[rate_]
+                              : std::numeric_limits<double>::infinity();
+}
+
+void Drag::guard_step(const Reduction& reduction, const GlobalState& global) const {
+  if (!(reduction[rate_] * global.dt > DragForce::largest_share)) return;
+  throw GuardError(fmt::format(
+      "{}grains take the fluid along within {:.3g} s, less than a time step; set time.dt to {:.3g} s or less",
+      step_text(global.step), 1 / reduction[rate_], 0.9 * DragForce::usual_share / reduction[rate_]));
+}
+
+template <class Function>
+void Drag::for_grains(const Particles& grains, Side side, Function function) const {
+  if (side != Side::boundary)
+    for (std::size_t i = 0; i < grains.owned(); ++i) function(i);
+  if (side != Side::interior)
+    for (std::size_t i = grains.owned(); i < grains.rows(); ++i) function(i);
+}
+
+void Drag::find_kernel(const Particles& grains, std::size_t i, const Particles& fluid) {
+  const std::int64_t* at = grains.data<Field::position>() + i * 3;
+  const std::int64_t* x = fluid.data<Field::position>();
+  const std::span<const std::uint32_t> rows = listed(i);
+  const double h = scene_->smoothing_length, unit = scale_.quantum / h;
+  kernel_.resize(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::int64_t* of = x + std::size_t{rows[k]} * 3;
+    double square = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d = static_cast<double>(of[a] - at[a]) * unit;
+      square += d * d;
+    }
+    kernel_[k] = std::sqrt(square);
+  }
+  const double h3 = h * h * h;
+  if (scene_->kernel == KernelShape::quintic)
+    kernel_values<Quintic>(Quintic::normalisation<3> / h3, kernel_);
+  else if (scene_->kernel == KernelShape::wendland_c2)
+    kernel_values<WendlandC2>(WendlandC2::normalisation<3> / h3, kernel_);
+  else
+    kernel_values<WendlandC4>(WendlandC4::normalisation<3> / h3, kernel_);
+}
+
+// Grains of the halo are those of other ranks: each adds to the fluid of this rank alone.
+void Drag::deposit_porosity(StepState& s, Side side) {
+  const Particles &fluid = s.particles, &grains = *s.other;
+  if (side != Side::boundary) deposits_.assign(fluid.owned(), 0);
+  const double* radius = grains.data<Field::radius>();
+  for_grains(grains, side, [&](std::size_t i) {
+    find_kernel(grains, i, fluid);
+    const double volume = volume_of(radius[i]) / porosity_quantum;
+    const std::span<const std::uint32_t> rows = listed(i);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (rows[k] < fluid.owned()) deposits_[rows[k]] += round_to_quanta(volume * kernel_[k]);
+  });
+  if (side == Side::interior) return;
+  double* porosity = s.particles.data<Field::porosity>();
+  for_movers(s.ranges, [&](std::size_t i) {
+    porosity[i] = 1 - static_cast<double>(deposits_[i]) * porosity_quantum;
+    if (porosity[i] >= least_porosity) return;
+    s.findings.add(fluid.data<Field::id>()[i], [&] {
+      std::array<double, 3> at;
+      for (std::size_t a = 0; a < 3; ++a)
+        at[a] =
+            scale_.metres(constants_->wrap(static_cast<int>(a), fluid.data<Field::position>()[i * 3 + a]));
+      return fmt::format(
+          "{}particle {} of \"{}\" {} has {:.3g} of its volume for itself, less than {}: grains lie in each "
+          "other, or are too large for kernel.smoothing_length",
+          step_text(s.global.step), fluid.data<Field::id>()[i],
+          scene_->groups[fluid.data<Field::group>()[i]].name, place_text(at), porosity[i], least_porosity);
+    });
+  });
+}
+
+// At the start, when the fluid has been placed as if it had all of the volume.
+void Drag::fill_between_grains(const StepState& s) const {
+  double* mass = s.particles.data<Field::mass>();
+  double* density = s.particles.data<Field::density>();
+  const double* porosity = s.particles.data<Field::porosity>();
+  for_movers(s.ranges, [&](std::size_t i) {
+    mass[i] *= porosity[i];
+    density[i] *= porosity[i];
+  });
+}
+
+// Sums in the order of ids; find_kernel() has been asked.
+FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Particles& fluid, double dt) {
+  find_kernel(grains, i, fluid);
+  const std::span<const std::uint32_t> rows = listed(i);
+  const double* mass = fluid.data<Field::mass>();
+  const double* density = fluid.data<Field::density>();
+  const double* v = fluid.data<Field::velocity>();
+  const double* pull = fluid.data<Field::grain_pull>();
+  const double* force = fluid.data<Field::force>();
+  const double* porosity = fluid.data<Field::porosity>();
+  const double* liquid = fluid.data<Field::liquid_density>();
+  const auto* group = fluid.data<Field::group>();
+  double weight = 0, square = 0, e = 0, rho = 0, eta = 0;
+  Double3 u{}, stress{};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::size_t j = rows[k];
+    const double w = kernel_[k], vw = mass[j] / density[j] * w;
+    weight += vw;
+    square += vw * w;
+    e += vw * porosity[j];
+    rho += vw * liquid[j];
+    eta += vw * scene_->groups[group[j]].viscosity;
+    for (std::size_t a = 0; a < 3; ++a) {
+      u[a] += vw * (v[j * 3 + a] + dt * pull[j * 3 + a]);
+      stress[a] += w * force[j * 3 + a];
+    }
+  }
+  FluidAround out;
+  if (!(weight > 0)) return out;
+  out.share = 1 / weight;
+  out.immersed = std::min(1.0, 2 * weight);
+  for (std::size_t a = 0; a < 3; ++a) {
+    out.velocity[a] = u[a] * out.share;
+    out.stress[a] = stress[a] * out.share;
+  }
+  out.porosity = e * out.share;
+  out.own = volume_of(grains.data<Field::radius>()[i]) * square * out.share;
+  out.density = rho * out.share;
+  out.viscosity = eta * out.share;
+  return out;
+}
+
+std::int64_t Drag::part(double force, double volume, double weight, double share) const {
+  return round_to_quanta(force * (volume * weight * share) / force_quantum_);
+}
+
+void Drag::push_grains(StepState& s, Side side) {
+  const Particles& fluid = *s.other;
+  Particles& grains = s.particles;
+  if (side != Side::boundary) fastest_ = 0;
+  const double* mass = grains.data<Field::mass>();
+  const double* radius = grains.data<Field::radius>();
+  const auto* group = grains.data<Field::group>();
+  double* v = grains.data<Field::velocity>();
+  double* force = grains.data<Field::fluid_force>();
+  double* share = grains.data<Field::fluid_share>();
+  const double* fluid_mass = fluid.data<Field::mass>();
+  const double* fluid_density = fluid.data<Field::density>();
+  const double dt = s.global.dt;
+  double speed2 = 0;
+  const auto push_one = [&](std::size_t i) {
+    const FluidAround around = look_around(grains, i, fluid, dt);
+    share[i] = around.share;
+    const bool fixed = scene_->groups[group[i]].grain.fixed;
+    Double3 f{};
+    if (around.share > 0) {
+      const Push push = push_(around, {2 * radius[i], mass[i], v + i * 3, fixed}, dt);
+      f = push.force;
+      fastest_ = std::max(fastest_, push.rate);
+    }
+    std::array<std::int64_t, 3> sum{};
+    const std::span<const std::uint32_t> rows = listed(i);
+    for (std::size_t a = 0; a < 3; ++a) {
+      force[i * 3 + a] = f[a];
+      if (!(std::fabs(f[a]) < largest_part * force_quantum_)) {
+        s.findings.add(grains.data<Field::id>()[i], [&] {
+          return fmt::format(
+              "{}grain {}: the force of the fluid on it, {:.6g} N, is beyond the range of the sums, {:.6g} "
+              "N; "
+              "reduce time.dt",
+              step_text(s.global.step), grains.data<Field::id>()[i], f[a], largest_part * force_quantum_);
+        });
+        force[i * 3 + a] = 0;
+        continue;
+      }
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        sum[a] += part(f[a], fluid_mass[rows[k]] / fluid_density[rows[k]], kernel_[k], around.share);
+    }
+    if (fixed) return;
+    double v2 = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      v[i * 3 + a] += dt * (static_cast<double>(sum[a]) * force_quantum_ / mass[i]);
+      v2 += v[i * 3 + a] * v[i * 3 + a];
+    }
+    speed2 = larger(v2, speed2);
+  };
+  using enum RowClass;
+  if (side != Side::boundary) for_rows(s.ranges, {interior_movers, interior_walls}, push_one);
+  if (side != Side::interior) for_rows(s.ranges, {boundary_movers, boundary_walls}, push_one);
+  s.maxima.speed = larger(std::sqrt(speed2), s.maxima.speed);
+}
+
+void Drag::push_fluid(StepState& s, Side side) {
+  Particles& fluid = s.particles;
+  const Particles& grains = *s.other;
+  if (side != Side::boundary) deposits_.assign(fluid.owned() * 3, 0);
+  const double* mass = fluid.data<Field::mass>();
+  const double* density = fluid.data<Field::density>();
+  const double* force = grains.data<Field::fluid_force>();
+  const double* share = grains.data<Field::fluid_share>();
+  for_grains(grains, side, [&](std::size_t i) {
+    find_kernel(grains, i, fluid);
+    const std::span<const std::uint32_t> rows = listed(i);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::size_t j = rows[k];
+      if (j >= fluid.owned()) continue;
+      for (std::size_t a = 0; a < 3; ++a)
+        deposits_[j * 3 + a] -= part(force[i * 3 + a], mass[j] / density[j], kernel_[k], share[i]);
+    }
+  });
+  if (side == Side::interior) return;
+  double* v = fluid.data<Field::velocity>();
+  double* pull = fluid.data<Field::grain_pull>();
+  double speed2 = 0;
+  for_movers(s.ranges, [&](std::size_t i) {
+    double v2 = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      pull[i * 3 + a] = static_cast<double>(deposits_[i * 3 + a]) * force_quantum_ / mass[i];
+      v[i * 3 + a] += s.global.dt * pull[i * 3 + a];
+      v2 += v[i * 3 + a] * v[i * 3 + a];
+    }
+    speed2 = larger(v2, speed2);
+  });
+  s.maxima.speed = larger(std::sqrt(speed2), s.maxima.speed);
+}
+
+}  // namespace sph

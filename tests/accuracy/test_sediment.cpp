@@ -1,0 +1,229 @@
+// Grains in a fluid against the flows that are known: one grain (Stokes; Hasimoto 1959 for its images), beds
+// (the drag law they are given), a suspension that settles (Richardson & Zaki 1954), a grain as heavy as the fluid.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "measure.hpp"
+#include "pinned.hpp"
+#include "sph/drag/di_felice.hpp"
+#include "sph/drag/gidaspow.hpp"
+
+namespace {
+
+using namespace sph;
+
+const decomp::Comm& self() {
+  static const decomp::Comm comm(MPI_COMM_SELF);
+  return comm;
+}
+
+constexpr double length = 15;  // of a periodic box, in spacings of 1 m
+
+/// Water that is driven along x past fixed grains.
+std::string flow(const std::string& law, double diameter, const std::string& grains, double viscosity,
+                 double sound, double drive, double speed) {
+  return fmt::format(R"(
+[domain]
+lower = [0, 0, 0]
+upper = [{0}, {0}, {0}]
+periodic = [true, true, true]
+gravity = [{1}, 0, 0]
+[kernel]
+h_over_dx = 1.2
+[contact]
+law = "linear"
+[drag]
+law = "{2}"
+[[group]]
+name = "water"
+kind = "fluid"
+density = 1000
+sound_speed = {3}
+viscosity = {4}
+[[group]]
+name = "grains"
+kind = "grain"
+density = 2500
+diameter = {5}
+fixed = true
+normal_stiffness = 1e5
+restitution = 0.5
+[start]
+spacing = 1
+velocity = [{6}, 0, 0]
+[[start.region]]
+group = "water"
+[[start.grains]]
+group = "grains"
+{7}
+[time]
+steps = 1
+)",
+                     length, drive, law, sound, viscosity, diameter, speed, grains);
+}
+
+double mean_speed(const Simulation& s) {
+  const Particles& p = s.particles(0);
+  double momentum = 0, mass = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    momentum += p.data<Field::mass>()[i] * p.data<Field::velocity>()[i * 3];
+    mass += p.data<Field::mass>()[i];
+  }
+  return momentum / mass;
+}
+
+/// Of the grains on the fluid.
+double force_on_grains(const Simulation& s) {
+  const Particles& p = s.particles(1);
+  double force = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) force += p.data<Field::fluid_force>()[i * 3];
+  return force;
+}
+
+/// Drag on one grain over that on it alone in all space, at the mean speed, less that of its periodic images.
+double drag_of_one(double diameter, const Double3& place, bool corrected) {
+  constexpr double eta = 1000, sound = 20, speed = 0.01;
+  const double stokes = 3 * std::numbers::pi * eta * diameter;
+  const std::string at =
+      fmt::format("lower = [{}, {}, {}]\nupper = [{}, {}, {}]\nspacing = 1", place[0] - 0.5, place[1] - 0.5,
+                  place[2] - 0.5, place[0] + 0.5, place[1] + 0.5, place[2] + 0.5);
+  const double drive = stokes * speed / (1000 * length * length * length);
+  std::vector<std::string> options;
+  if (!corrected) options.emplace_back("drag.own_disturbance=false");
+  Simulation s(self(), parse_scene(flow("stokes", diameter, at, eta, sound, drive, speed), "one", options));
+  // The disturbance has spread over the box after (L / 2 pi)^2 / nu.
+  while (s.global().time < 24) s.step();
+  // A point force in a periodic box, Hasimoto (1959).
+  const double images = 1 - 2.837297 * 0.5 * diameter / length;
+  return force_on_grains(s) / (stokes * mean_speed(s)) * images;
+}
+
+TEST(Sediment, OneGrainIsDraggedAsStokesHasIt) {
+  const Double3 here{7.6, 7.7, 7.9}, on_a_point{7.5, 7.5, 7.5};
+  EXPECT_NEAR(PINNED(drag_of_one(0.6, here, true)), 1, 0.01);
+  EXPECT_NEAR(PINNED(drag_of_one(0.6, on_a_point, true)), 1, 0.01);
+  EXPECT_NEAR(PINNED(drag_of_one(0.4, here, true)), 1, 0.01);
+  EXPECT_NEAR(PINNED(drag_of_one(0.2, here, true)), 1, 0.01);
+  // What the correction is worth.
+  EXPECT_NEAR(PINNED(drag_of_one(0.6, here, false)), 0.83, 0.02);
+}
+
+/// Force on the grains of a packed bed over that of the law at the mean speed.
+template <class Law>
+double drag_of_bed(double diameter, double apart, double reynolds) {
+  const double e = 1 - std::numbers::pi / 6 * std::pow(diameter / apart, 3), speed = 0.01;
+  const double eta = 1000 * e * speed * diameter / reynolds;
+  const std::string all =
+      fmt::format("lower = [0, 0, 0]\nupper = [{0}, {0}, {0}]\nspacing = {1}", length, apart);
+  const double zeta = Law::resistance({e, speed, 1000, eta, diameter});
+  // The fluid's weight, over its share of the pressure's gradient that grains hold.
+  const double drive = zeta * speed / (apart * apart * apart * 1000 * e) * 1;
+  const double sound = 20 * speed;
+  Simulation s(self(),
+               parse_scene(flow(std::string(Law::word), diameter, all, eta, sound, drive, speed), "bed", {}));
+  for (int k = 0; k < 400; ++k) s.step();
+  const double mean = mean_speed(s), grains = static_cast<double>(s.particles(1).owned());
+  return force_on_grains(s) / grains / (Law::resistance({e, mean, 1000, eta, diameter}) * mean);
+}
+
+TEST(Sediment, BedsHoldTheFluidAsTheirLawHasIt) {
+  EXPECT_NEAR(PINNED((drag_of_bed<GidaspowDrag>(0.4, 0.5, 0.01))), 1, 0.03);
+  EXPECT_NEAR(PINNED((drag_of_bed<GidaspowDrag>(0.4, 0.5, 50))), 1, 0.03);
+  EXPECT_NEAR(PINNED((drag_of_bed<DiFeliceDrag>(0.5, 0.5, 5))), 1, 0.03);
+}
+
+/// A closed tank of periodic sides.
+std::string tank(const std::string& grains, double density) {
+  return fmt::format(R"(
+[domain]
+lower = [0, 0, -4]
+upper = [13, 13, 30]
+periodic = [true, true, false]
+gravity = [0, 0, -1]
+[kernel]
+h_over_dx = 1.2
+[contact]
+law = "linear"
+[drag]
+law = "di_felice"
+[[group]]
+name = "water"
+kind = "fluid"
+density = 1000
+sound_speed = 50
+viscosity = 3000
+[[group]]
+name = "wall"
+kind = "wall"
+[[group]]
+name = "grains"
+kind = "grain"
+density = {}
+diameter = 0.5
+normal_stiffness = 1e5
+restitution = 0.5
+[start]
+spacing = 1
+upper = [13, 13, 30]
+pressure = "hydrostatic"
+surface_height = 26
+[[start.region]]
+group = "wall"
+[[start.region]]
+group = "water"
+shape = "box"
+lower = [0, 0, 0]
+upper = [13, 13, 26]
+[[start.grains]]
+group = "grains"
+{}
+[time]
+steps = 1
+)",
+                     density, grains);
+}
+
+/// Mean velocity along z of grains between two heights.
+double settling(const Simulation& s, double low, double high) {
+  const Particles& p = s.particles(1);
+  double sum = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const double z = s.scale().metres(p.data<Field::position>()[i * 3 + 2]);
+    if (z < low || z > high) continue;
+    sum += p.data<Field::velocity>()[i * 3 + 2];
+    ++n;
+  }
+  return sum / n;
+}
+/// Of one grain in a creeping flow, as Di Felice's law has it.
+double settling_alone(double density) {
+  const double d = 0.5, volume = std::numbers::pi / 6 * d * d * d;
+  return (density - 1000) * volume / DiFeliceDrag::resistance({1, 0, 1000, 3000, d});
+}
+
+TEST(Sediment, AGrainAsHeavyAsTheFluidStays) {
+  Simulation s(self(),
+               parse_scene(tank("lower = [6, 6, 12]\nupper = [7, 7, 13]\nspacing = 1", 1000), "still", {}));
+  double fastest = 0;
+  for (int k = 0; k < 200; ++k) {
+    s.step();
+    for (std::size_t a = 0; a < 3; ++a)
+      fastest = std::max(fastest, std::abs(s.particles(1).data<Field::velocity>()[a]));
+  }
+  EXPECT_LT(fastest, 1e-4 * settling_alone(2000));
+}
+
+// Richardson & Zaki: v = v_0 e^n against walls at rest, n = 4.65 in creeping flow; Di Felice's law has n = 4.7.
+TEST(Sediment, SuspensionsSettleAsRichardsonAndZaki) {
+  const double apart = 13.0 / 18, solid = std::numbers::pi / 6 * std::pow(0.5 / apart, 3);
+  Simulation s(
+      self(),
+      parse_scene(tank(fmt::format("lower = [0, 0, 0.4]\nupper = [13, 13, 25.6]\nspacing = {}", apart), 2000),
+                  "block", {}));
+  while (s.global().time < 1.5) s.step();
+  const double v = -settling(s, 8, 18) / (settling_alone(2000) * std::pow(1 - solid, 4.65));
+  EXPECT_NEAR(PINNED(v), 1, 0.05);
+}
+
+}  // namespace
