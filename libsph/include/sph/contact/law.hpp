@@ -12,7 +12,8 @@
 //     ...
 //   };
 //
-// NormalLaw has the answers that are those of a linear spring without a dashpot; a law says what differs.
+// NormalLaw has the answers that are those of a linear spring without a dashpot; a law says what differs
+// (its stiffness, and how its rolling spring falls, wherever F/delta is not constant).
 // Sweep, quanta, time steps, records, keys and screen follow (contact/registry.hpp).
 #pragma once
 
@@ -62,6 +63,14 @@ struct NormalLaw {
   static double stiffness(const PairConstants& k, double /*radius*/, double /*overlap*/) {
     return k.stiffness;
   }
+  /// k_r, which follows F/delta (contact/rolling.hpp), now / a step ago where it fell, else 1; `history` as force()
+  /// leaves it. Here of laws whose F/delta is constant or falls as k_t does; without it a law whose F/delta
+  /// falls otherwise gives rolling energy.
+  template <class V>
+  static V rolling_change(const Contact<V>& /*c*/, const ContactConstants<V>& /*k*/, const NormalForce<V>& f,
+                          const V* /*history*/) {
+    return f.shear_change;
+  }
   /// k_t where dF/d(delta) is `stiffness` [N/m].
   static double shear_stiffness(const PairConstants& k, double /*stiffness*/) { return k.shear_stiffness; }
   /// Of the normal dashpot in critical ones.
@@ -82,7 +91,7 @@ struct PointContact {
   double overlap, separation, radius, mass, dt;
 };
 struct PointForce {
-  double elastic, shear_stiffness, shear_change, energy;
+  double elastic, shear_stiffness, shear_change, rolling_change, energy;
 };
 
 /// Friction and rolling resistance that some pair of a scene has.
