@@ -9,6 +9,7 @@ struct Stiffening : sph::NormalLaw {
   static constexpr std::array keys{sph::LawKey{"soft_stiffness", sph::dimension::stiffness},
                                    sph::LawKey{"hard_overlap", sph::dimension::length}};
   static constexpr std::array history{sph::Parity::even};
+  static constexpr bool dashpot = true;
 
   template <class V>
   static sph::NormalForce<V> force(const sph::Contact<V>& c, const sph::ContactConstants<V>& k, V* largest) {

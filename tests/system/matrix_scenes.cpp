@@ -84,7 +84,9 @@ const std::vector<Source>& sources() {
        {"contact.law=hertz", "group.sand.normal_stiffness=", "group.sand.young_modulus=1e6",
         "group.sand.poisson_ratio=0.3", "group.sand.rolling_friction=0.1"}},
       // a history that is the same from both sides of a contact
-      {"latched", "tests/scenes/grains_pour.toml", {"contact.law=walton_braun"}},
+      {"latched",
+       "tests/scenes/grains_pour.toml",
+       {"contact.law=walton_braun", "contact.tangential_damping="}},
       {"smooth", "tests/scenes/grains_pour.toml", {"group.sand.friction=", "contact.tangential_damping="}},
       {"sizes", "tests/scenes/grains_sizes.toml", {}},
       {"glued", "tests/scenes/grains_glued.toml", {}},

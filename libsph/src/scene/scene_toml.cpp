@@ -164,7 +164,7 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
 
 void read_grains(const Tables& tables, Scene& scene) {
   read_domain(tables.domain, scene);
-  scene.contact = read_contact_law(tables.contact);
+  read_contact_law(tables.contact, scene);
   read_grain_groups(tables.top, scene);
   scene.contact.pairs = read_contact_pairs(tables.contact);
   scene.spacing = tables.start.number("spacing").value_or(diameters_apart * scene.support());

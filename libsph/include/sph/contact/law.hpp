@@ -57,6 +57,8 @@ struct LawSteps {
 
 struct NormalLaw {
   static constexpr std::array<Parity, 0> history{};
+  /// It damps by a dashpot, of which contact.pull and contact.tangential_damping speak: other laws refuse them.
+  static constexpr bool dashpot = false;
   using ByRate = void;  ///< the law that stands instead where contact.normal_damping is given
 
   /// dF/d(delta) of two grains of this radius at that overlap, the largest the law has there [N/m].
@@ -101,6 +103,7 @@ enum class Roughness { smooth, sliding, rolling };
 struct ContactLaw {
   std::string_view word, name;
   std::span<const LawKey> keys;
+  bool dashpot;
   const ContactLaw* by_rate;  ///< nullptr: contact.normal_damping has no meaning
   std::span<const Parity> history;
   PairConstants (*constants)(const MaterialPair&);

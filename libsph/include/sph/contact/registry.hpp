@@ -51,6 +51,7 @@ const ContactLaw& entry_of() {
   static const ContactLaw entry{Law::word,
                                 Law::name,
                                 Law::keys,
+                                Law::dashpot,
                                 by_rate,
                                 Law::history,
                                 Law::constants,

@@ -5,7 +5,6 @@
 // of the contact, a deformation: the same from either side. It is 0 again when the two have parted.
 // Rolling resistance follows F/d = k_2 (1 - d_0/d), which falls as a contact unloads; the rolling spring falls in
 // proportion (contact/rolling.hpp), as Thornton's rule has it for k_t of Hertz contacts.
-// contact.pull and contact.tangential_damping do nothing: there is no dashpot.
 // normal_stiffness is that of a material's k_1; the least restitution of a pair makes k_2.
 #pragma once
 
