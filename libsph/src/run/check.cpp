@@ -21,6 +21,7 @@
 #include "start/start_count.hpp"
 #include "start/start_densities.hpp"
 #include "start/start_overlaps.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
 namespace {
@@ -49,6 +50,7 @@ Placed worth_placing(const Scene& scene, const StartCount& count, bool fits) {
 struct Beginning {
   StartCount count;
   double speed = 0;
+  std::vector<double> sounds{};  ///< of fluids and solids
 };
 
 Beginning start_of(const decomp::Comm& comm, const Scene& scene, const Particles& particles,
@@ -94,7 +96,9 @@ Beginning place(const decomp::Comm& comm, const Scene& scene, Placed how) {
     check_start_speeds(comm, scene, particles);
   else
     check_start_densities(comm, scene, particles);
-  return start_of(comm, scene, particles, scale);
+  Beginning start = start_of(comm, scene, particles, scale);
+  if (!scene.of_grains()) start.sounds = fastest_sounds(comm, scene, particles);
+  return start;
 }
 
 std::string particles_text(const Scene& scene, const StartCount& count) {
@@ -163,14 +167,16 @@ std::string tension_text(const Scene& scene) {
       most);
 }
 
-std::string courant_text(const Scene& scene, double dt, double courant) {
+std::string courant_text(const Scene& scene, const Physics& physics, const std::vector<double>& sounds,
+                         double dt) {
+  const double courant = physics.courant_number(dt, sounds);
   std::string out =
       fmt::format("time step: {:.6g} s at the start, c dt/h = {:.3g} (recommended {}, limit {})\n", dt,
                   courant, courant_recommended, courant_limit(scene));
   if (courant > courant_recommended * (1 + 1e-9))
     out += fmt::format("warning: c dt/h above {}: reduce {}\n", courant_recommended,
                        scene.time.dt ? "time.dt" : "time.cfl");
-  const DampingLimit limit = damping_limit(scene, dt);
+  const DampingLimit limit = damping_limit(scene, sounds, dt);
   if (const double share = dt / limit.step; share > courant_recommended / courant_limit(scene) * (1 + 1e-9))
     out += fmt::format("warning: the time step is {:.2g} of what {} = {:.4g} bears: reduce one of the two\n",
                        share, limit.key, limit.value);
@@ -223,14 +229,19 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       need = memory_need(scene, parts, grid, start.count.all);
     }
     if (start.count.all == 0) throw InputError("start: no particle lies in any region");
-    const double dt = parts.longest_step();
+    double dt = parts.longest_step();
+    if (parts.physics) {
+      if (placed == Placed::no) start.sounds = fastest_sounds(scene, start.count.heights);
+      check_time_step(scene, *parts.physics, start.sounds);
+      dt = std::min(dt, parts.physics->resting_step(start.sounds));
+    }
     if (comm.rank() == 0)
       fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name, particles_text(scene, start.count),
                  unlooked_text(scene, placed), memory_text(scene, parts.plan, fields, need, machine),
                  gas_text(scene), tension_text(scene),
                  options.plan ? plan_text(scene, parts.plan, fields) : "",
                  parts.grains ? contact_step_text(scene, dt) : "",
-                 parts.physics ? courant_text(scene, dt, parts.physics->courant_number(dt)) : "",
+                 parts.physics ? courant_text(scene, *parts.physics, start.sounds, dt) : "",
                  speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
                  ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);

@@ -10,6 +10,7 @@
 #include "sph/contact/law.hpp"
 #include "sph/monitors.hpp"
 #include "sph/report.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
 namespace {
@@ -67,7 +68,9 @@ void Screen::banner() const {
       g.step, g.time, end, g.dt,
       simulation_.physics() == nullptr
           ? ""
-          : fmt::format(", c dt/h = {:.3g}", simulation_.physics()->courant_number(g.dt)));
+          : fmt::format(", c dt/h = {:.3g}",
+                        simulation_.physics()->courant_number(
+                            g.dt, fastest_sounds(simulation_.comm(), scene, simulation_.particles()))));
   print(simulation_.comm(), text);
 }
 

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -58,6 +59,12 @@ struct BarotropicLaw : EosLaw {
   static constexpr EosKind kind = EosKind::barotropic;
   static constexpr bool constant_sound = false;  ///< sound_speed() is that of rho_0 at any density
 };
+
+/// Of a group's matter at rho_0; p-waves are the fastest in a solid [m/s].
+[[nodiscard]] inline double sound_at_rest(const Group& g) {
+  const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
+  return std::sqrt(modulus / g.density);
+}
 
 /// A law as code knows it that is not compiled for it (eos/registry.hpp makes it of the struct).
 struct EquationOfState {
