@@ -117,7 +117,7 @@ struct ContactLaw {
 
 /// All laws; from the first look on none can be added.
 [[nodiscard]] std::span<const ContactLaw* const> contact_laws();
-/// Throws std::logic_error where the word is taken, or laws have been looked at.
+/// Throws std::logic_error where the word is taken, a key has another meaning already, or laws have been looked at.
 void register_contact_law(const ContactLaw& law);
 
 /// Of a scene of grains, that of contact.normal_damping where it is given.

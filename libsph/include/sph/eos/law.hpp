@@ -84,7 +84,7 @@ struct EquationOfState {
 
 /// All laws; from the first look on none can be added.
 [[nodiscard]] std::span<const EquationOfState* const> equations_of_state();
-/// Throws std::logic_error where the word is taken, or laws have been looked at.
+/// Throws std::logic_error where the word is taken, a key has another meaning already, or laws have been looked at.
 void register_equation_of_state(const EquationOfState& law);
 
 }  // namespace sph
