@@ -1,5 +1,5 @@
 // Terms that a number switches on, as XSPH in a scene; its sum is checked with all others (pair_formulas.cpp), its
-// bits over ranks by taylor_green.toml with terms.xsph in tests/recorded.
+// bits over ranks by the scene fluid2d of tests/system.
 #include <gtest/gtest.h>
 
 #include <algorithm>
