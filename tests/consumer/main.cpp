@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <string_view>
 
 #include "decomp/comm.hpp"
 #include "friction_of_flow.hpp"
@@ -21,6 +22,23 @@ bool is_too_late() {
     sph::register_equation_of_state<Tait>();
   } catch (const std::logic_error&) {
     return true;
+  }
+  return false;
+}
+
+struct Clashing : Stiffening {
+  static constexpr std::string_view word = "clashing";
+  static constexpr std::array keys{sph::LawKey{"soft_stiffness", sph::dimension::length}};
+};
+
+/// A key means one thing.
+bool is_refused() {
+  try {
+    sph::register_contact_law<Clashing>();
+  } catch (const std::logic_error& error) {
+    const std::string_view text = error.what();
+    return text.find("\"clashing\": its key soft_stiffness") != text.npos &&
+           text.find("\"stiffening\"") != text.npos;
   }
   return false;
 }
@@ -43,9 +61,11 @@ int main(int argc, char** argv) {
   sph::register_contact_law<Stiffening>();
   sph::register_equation_of_state<Tait>();
   sph::register_term<FlowFriction>();
+  const bool refused = is_refused();
   MPI_Init(&argc, &argv);
   int status = 0;
   try {
+    if (!refused) throw std::runtime_error("a law was registered whose key means something else");
     run(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -9,6 +9,7 @@ struct Stiffening : sph::NormalLaw {
   static constexpr std::array keys{sph::LawKey{"soft_stiffness", sph::dimension::stiffness},
                                    sph::LawKey{"hard_overlap", sph::dimension::length}};
   static constexpr std::array history{sph::Parity::even};
+  static constexpr bool dashpot = true;
 
   template <class V>
   static sph::NormalForce<V> force(const sph::Contact<V>& c, const sph::ContactConstants<V>& k, V* largest) {
@@ -21,6 +22,14 @@ struct Stiffening : sph::NormalLaw {
     f.shear_stiffness = k.shear_stiffness;
     f.shear_change = V(1.0);
     return f;
+  }
+  /// F/d = k (1 + d^2/l^2), now and where the overlap was a step ago.
+  template <class V>
+  static V rolling_change(const sph::Contact<V>& c, const sph::ContactConstants<V>& k,
+                          const sph::NormalForce<V>&, const V* /*largest*/) {
+    const V square = k.damping_change * k.damping_change;
+    const V before = c.overlap + max(V(0.0), c.separation * c.dt);
+    return (square + c.overlap * c.overlap) / (square + before * before);
   }
   template <class V>
   static V energy(const sph::Contact<V>& c, const sph::ContactConstants<V>& k, const sph::NormalForce<V>&) {

@@ -130,11 +130,11 @@ class Maker:
         out = {"law": "hertz" if self.hertz else "walton_braun" if self.latched else "linear"}
         if self.damped:
             out["normal_damping"] = d.real("damping", 0, 0.5) / self.contact_time
-        if d.chance("tangential", 0.4):
+        if not self.latched and d.chance("tangential", 0.4):
             out["tangential_damping"] = d.real("tangential value", 0, 1)
         if d.chance("rolling", 0.4):
             out["rolling_damping"] = d.real("rolling value", 0, 1)
-        if d.chance("pull", 0.4):
+        if not self.latched and d.chance("pull", 0.4):
             out["pull"] = d.chance("pulls", 0.7)
         out["largest_overlap"] = d.one("overlap", [0.5, 0.5, 0.5, 0.2])
         if len(self.sizes) > 1 and d.chance("pairs", 0.4):

@@ -93,7 +93,9 @@ struct Pair {
     const V touch = contact.overlap;
     V3 tangent{V::zero(), V::zero(), V::zero()}, rolling{V::zero(), V::zero(), V::zero()};
     if constexpr (Friction::history > 0) Friction::force(contact, k, normal, spring, tangent);
-    if constexpr (Rolling::history > 0) Rolling::torque(contact, k, normal, roll_spring, rolling);
+    if constexpr (Rolling::history > 0)
+      Rolling::torque(contact, k, normal, Normal::rolling_change(contact, k, normal, memory), roll_spring,
+                      rolling);
     cross(contact.normal, tangent, out.twist);
     for (V& m : memory) m = where_positive(touch, m);
     for (int a = 0; a < 3; ++a) {

@@ -44,13 +44,14 @@ struct Case {
   ContactConstants<V> k{};
   V spring[3], roll_spring[3], memory[most_history];
   NormalForce<V> normal{};
-  V force[3], torque[3];
+  V force[3], torque[3], rolling_change = V::zero();
 
   template <class Normal>
   void answer() {
     normal = normal_force<Normal>(contact, k, memory);
     Coulomb::force(contact, k, normal, spring, force);
-    RollingSpring::torque(contact, k, normal, roll_spring, torque);
+    rolling_change = Normal::rolling_change(contact, k, normal, memory);
+    RollingSpring::torque(contact, k, normal, rolling_change, roll_spring, torque);
   }
 
   template <class F>
@@ -62,10 +63,26 @@ struct Case {
   }
   template <class F>
   void each_scalar(F apply) {
-    for (V* v : {&contact.overlap, &contact.separation, &contact.radius, &contact.mass, &contact.dt,
-                 &k.stiffness, &k.shear_stiffness, &k.damping, &k.shear_damping, &k.friction,
-                 &k.rolling_friction, &k.damping_change, &k.least_force, &k.rolling_damping, &normal.force,
-                 &normal.elastic, &normal.shear_stiffness, &normal.shear_change, &normal.dashpot})
+    for (V* v : {&contact.overlap,
+                 &contact.separation,
+                 &contact.radius,
+                 &contact.mass,
+                 &contact.dt,
+                 &k.stiffness,
+                 &k.shear_stiffness,
+                 &k.damping,
+                 &k.shear_damping,
+                 &k.friction,
+                 &k.rolling_friction,
+                 &k.damping_change,
+                 &k.least_force,
+                 &k.rolling_damping,
+                 &normal.force,
+                 &normal.elastic,
+                 &normal.shear_stiffness,
+                 &normal.shear_change,
+                 &normal.dashpot,
+                 &rolling_change})
       apply(*v);
     for (V& m : memory) apply(m);
   }
@@ -120,6 +137,7 @@ Difference exchange(std::uint64_t seed) {
     d.exchange<Normal>();
     difference.add(c.normal.force, d.normal.force);
     difference.add(c.normal.shear_change, d.normal.shear_change);
+    difference.add(c.rolling_change, d.rolling_change);
     for (std::size_t m = 0; m < Normal::history.size(); ++m) difference.add(c.memory[m], d.memory[m]);
     for (int a = 0; a < 3; ++a) {
       difference.add(c.force[a], d.force[a]);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact_fixture.hpp"
+#include "contact_law_checks.hpp"
 
 namespace sph {
 namespace {
@@ -124,6 +124,14 @@ TEST(ContactRolling, SwingsOnAfterTheStop) {
   EXPECT_LT(rough[7], 1e-9 * bound);
 }
 
+TEST(ContactRolling, SpringsGiveNoMoreThanTheyTook) {
+  constexpr double e[8] = {0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 1.0};
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    EXPECT_LT(test::rolling_gain<LinearNormal>({1e5, 2e4}, e, seed), 1e-12) << seed;
+    EXPECT_LT(test::rolling_gain<HertzNormal>({1e7, 0.3}, e, seed), 1e-12) << seed;
+  }
+}
+
 // Overlap and roll go round a closed loop, in all phases to each other: the spring may not give energy.
 TEST(ContactRolling, CyclesMakeNoEnergy) {
   Contact<V> c{};
@@ -146,7 +154,7 @@ TEST(ContactRolling, CyclesMakeNoEnergy) {
     c.separation = lanes([&](int l) { return at(before, l) - at(time, l); });
     c.roll[2] = swing * (std::sin(time) - std::sin(before));
     const NormalForce<V> normal = HertzNormal::force(c, k);
-    RollingSpring::torque(c, k, normal, spring, torque);
+    RollingSpring::torque(c, k, normal, normal.shear_change, spring, torque);
     if (n >= steps) work += V(0.5) * (spring[2] + last) * c.roll[2];
     last = spring[2];
     largest = max(largest, spring[2] * V(swing));

@@ -271,6 +271,7 @@ kind = "contacts"
   expect_round_trip(s);
   EXPECT_TRUE(std::signbit(parse(sph::to_toml(s)).groups[1].wall_velocity[0]));
   expect_round_trip(parse(small, hertz));
+  expect_round_trip(parse(small, {"contact.law=walton_braun"}));
   expect_round_trip(
       parse(small, {"contact.normal_damping=0", "group.sand.restitution=", "group.glass.restitution="}));
 }

@@ -6,7 +6,6 @@
 import argparse
 import os
 import re
-import resource
 import sys
 import time
 import tomllib
@@ -15,6 +14,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from check_cases import CheckCases
 from runner import Runner, run_all
 
 SAND = """
@@ -41,7 +41,7 @@ steps = 1
 HEADER = "id,x,y,z,vx,vy,vz,group,radius"
 
 
-class Cases:
+class Cases(CheckCases):
     def __init__(self, run, source):
         self.run = run
         self.source = Path(source)
@@ -106,99 +106,7 @@ class Cases:
         more = f"[[monitor]]\nkind = \"energy\"\nname = '''energy''' # {'a.' * 99}\n"
         self.run.run(1, "peperite", "check", self.file("kind.toml", kind + SAND + more))
 
-    # ---- size, steps and speeds: check ----------------------------------------------------------------------
-
-    FLUID = """
-dimension = 3
-[domain]
-lower = [0, 0, 0]
-upper = [1, 1, 1]
-gravity = [0, 0, -9.81]
-[kernel]
-h_over_dx = 1.2
-[[group]]
-name = "water"
-kind = "fluid"
-density = 1000
-sound_speed = 40
-[[group]]
-name = "wall"
-kind = "wall"
-[start]
-spacing = 0.05
-[[start.region]]
-group = "wall"
-[[start.region]]
-group = "water"
-shape = "box"
-lower = [0.2, 0.2, 0.2]
-upper = [0.8, 0.8, 0.8]
-[[start.region]]
-group = "none"
-shape = "ball"
-centre = [0.5, 0.5, 0.6]
-radius = 0.1
-[time]
-until = 1
-"""
-
-    def check(self, *options, ranks=1):
-        scene = self.file("fluid.toml", self.FLUID)
-        more = [word for option in options for word in ("--set", option)]
-        return self.run.run(ranks, "peperite", "check", scene, *more).out
-
-    def test_size(self):
-        """8.5e9 particles are counted in seconds and without memory; runs of what no machine holds are refused."""
-        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (3 << 30, 3 << 30))
-        scene = self.file("fluid.toml", self.FLUID)
-        begin = time.monotonic()
-        out = self.run.run(1, "peperite", "check", scene, "--set", "start.spacing=0.00049", preexec_fn=limit).out
-        assert time.monotonic() - begin < 30
-        assert "particles: 84" in out and "  water: 18" in out and "it would not run here" in out, out
-        for ranks in (1, 3):
-            self.run.refused(ranks, "peperite", "run", scene, "--set", "start.spacing=0.00049", "--out", "no",
-                             says=" cells need ", **({"preexec_fn": limit} if ranks == 1 else {}))
-        assert not (self.run.folder / "no").exists()
-
-    def test_steps(self):
-        """What the message names is accepted with a warning, half of it without."""
-        for dt in ("1e-3", "1.2e-3"):
-            for value in ("terms.density_diffusion=1", "terms.artificial_viscosity=10",
-                          "group.water.bulk_viscosity=1e9", "group.water.viscosity=1e9"):
-                key, fluid = value.split("=")[0], self.file("fluid.toml", self.FLUID)
-                end = ["--set", f"time.dt={dt}", "--set"]
-                for command in (["check"], ["run", "--out", "no"]):
-                    result = self.run.refused(1, "peperite", command[0], fluid, *command[1:], *end, value,
-                                              says=f"{key}: ")
-                assert "is unstable with time steps of" in result.complaints[0], result.err
-                most = result.complaints[0].split("set it to ")[1].split(" ")[0]
-                out = self.check(f"time.dt={dt}", f"{key}={most}")
-                assert f"of what {key} = " in out, out
-                out = self.check(f"time.dt={dt}", f"{key}={0.5 * float(most)}")
-                assert f"of what {key} = " not in out, out
-        assert "warning" not in self.check()
-
-    def test_speeds(self):
-        assert "warning" not in self.check()
-        out = self.check("group.water.sound_speed=3", ranks=3)
-        assert "group.water: its sound speed of 3 m/s is below 10 times sqrt(g H) = 2.323 m/s, H = 0.55 m" in out, out
-        assert "set it to 23.23 m/s or more" in out, out
-        out = self.check("group.water.sound_speed=30", "start.velocity=[5, 0, 0]")
-        assert "below 10 times the 5 m/s of start.velocity: set it to 50 m/s or more" in out, out
-        assert "start.velocity: 100 m/s is Mach 2.5" in self.check("start.velocity=[0, 100, 0]")
-        assert "group.wall.velocity: 1e+05 m/s is Mach 2500" in self.check("group.wall.velocity=[1e5, 0, 0]")
-        self.file("fast.csv", "id,x,y,z,vx,vy,vz,group\n1,0.5,0.5,0.5,0,0,50,water\n2,0.6,0.5,0.5,0,0,0,water\n")
-        out = self.check("start.region=", "start.file=fast.csv")
-        assert "start.file: 50 m/s is Mach 1.25" in out, out
-
-    def test_thin_tension(self):
-        bubble = self.cases.parents[1] / "benchmarks" / "accuracy" / "rising_bubble.toml"
-        thin = ["--set", "group.liquid.viscosity=0.1", "--set", "group.bubble.viscosity=0.1"]
-        warning = "tension as a stress moves the interface"
-        assert warning not in self.run.run(1, "peperite", "check", bubble).out
-        assert warning in self.run.run(1, "peperite", "check", bubble, *thin).out
-        jump = ["--set", "terms.surface_tension.form=jump"]
-        assert warning not in self.run.run(1, "peperite", "check", bubble, *thin, *jump).out
+    # ---- starts ---------------------------------------------------------------------------------------------
 
     def test_suction(self):
         flow = self.cases.parents[1] / "benchmarks" / "accuracy" / "taylor_green.toml"

@@ -135,7 +135,8 @@ struct ContactPass {
       double* rolled = stored + FrictionLaw::history * lanes;
       V spring[3];
       for (int a = 0; a < 3; ++a) std::memcpy(&spring[a].v, rolled + a * lanes, sizeof spring[a].v);
-      RollingLaw::torque(contact, k, normal, spring, out.roll);
+      const V change = NormalLaw::rolling_change(contact, k, normal, memory);
+      RollingLaw::torque(contact, k, normal, change, spring, out.roll);
       for (int a = 0; a < 3; ++a) {
         const V kept = touching(spring[a]);
         std::memcpy(rolled + a * lanes, &kept.v, sizeof kept.v);

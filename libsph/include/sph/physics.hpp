@@ -12,7 +12,7 @@
 
 namespace sph {
 
-/// Largest c dt / h of a run, c the sound speed of the stiffest group: beyond it the integrator is unstable.
+/// Largest c dt / h of a run, c the fastest sound: beyond it the integrator is unstable.
 [[nodiscard]] inline double courant_limit(const Scene& scene) {
   return scene.total_lagrangian() ? 1.0 : 1.2;  // contacts and the stiffest allowed hourglass control
 }
@@ -53,8 +53,10 @@ class Physics final : public Model {
   [[nodiscard]] double longest_shift(const GlobalState& global) const {
     return shifting_ ? shifting_->longest(global) : 0.0;
   }
-  /// c dt / h for the stiffest group: what `check` warns about above 0.8 and refuses above the limit.
-  [[nodiscard]] double courant_number(double dt) const;
+  /// The same where nothing moves, and `sounds` are the fastest of each group (start/start_sounds.hpp).
+  [[nodiscard]] double resting_step(const std::vector<double>& sounds) const;
+  /// c dt / h of the fastest of them: what `check` warns about above 0.8 and refuses above the limit.
+  [[nodiscard]] double courant_number(double dt, const std::vector<double>& sounds) const;
   [[nodiscard]] bool is_wall(std::uint32_t group) const { return constants_.is_wall(group); }
 
  private:

@@ -26,6 +26,8 @@ class Registry {
     fixed_ = true;
     return all_;
   }
+  /// Without fixing them.
+  [[nodiscard]] std::span<const Entry* const> so_far() const { return all_; }
 
  private:
   std::vector<const Entry*> all_;

@@ -1,6 +1,7 @@
 // The contact laws that are compiled in, and the sweep that a scene needs of them.
 #include <algorithm>
 
+#include "scene/keys/key_owners.hpp"
 #include "sph/contact/hertz.hpp"
 #include "sph/contact/linear.hpp"
 #include "sph/contact/registry.hpp"
@@ -10,6 +11,8 @@
 
 namespace sph {
 namespace {
+
+constexpr std::string_view contact_sort = "contact law";
 
 /// A law that is not here, and that the program does not add, is none.
 Registry<ContactLaw>& registry() {
@@ -36,7 +39,16 @@ Roughness roughness_of(const Scene& scene) {
 
 std::span<const ContactLaw* const> contact_laws() { return registry().look(); }
 
-void register_contact_law(const ContactLaw& law) { registry().add(law); }
+void register_contact_law(const ContactLaw& law) {
+  keys::refuse_taken_keys({contact_sort, law.word, law.keys});
+  registry().add(law);
+}
+
+std::vector<keys::KeyOwner> keys::contact_law_keys() {
+  std::vector<KeyOwner> owners;
+  for (const ContactLaw* law : registry().so_far()) owners.push_back({contact_sort, law->word, law->keys});
+  return owners;
+}
 
 const ContactLaw& contact_law(const Scene& scene) {
   const ContactLaw& law = *scene.contact.law;

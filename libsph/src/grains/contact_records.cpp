@@ -111,24 +111,25 @@ class Enumeration {
       memory[m] = (law_.history[m] == Parity::odd ? f.turn : 1.0) * stored(springs_ + m);
     const PointForce law = law_.respond({f.record.overlap, f.separation, f.radius, f.mass, s_.global().dt},
                                         table, memory.data());
-    const double elastic = law.elastic, change = law.shear_change;
+    const double elastic = law.elastic;
     f.record.energy = law.energy;
     const auto spring = [&](std::size_t first, std::size_t c) {
       // + 0: a zero keeps no sign, since which of the two it got depended on the orientation of the pair.
       return f.turn * stored(first + c) + 0.0;
     };
-    const auto add_energy = [&](std::size_t first, double stiffness) {
+    const auto add_energy = [&](std::size_t first, double change, double stiffness) {
       const Double3 t{change * spring(first, 0), change * spring(first, 1), change * spring(first, 2)};
       if (stiffness > 0) f.record.energy += 0.5 * dot(t, t) / stiffness;
     };
     Double3 t{};
     if (springs_ >= 3) {
       t = {spring(0, 0), spring(0, 1), spring(0, 2)};
-      add_energy(0, law.shear_stiffness);
+      add_energy(0, law.shear_change, law.shear_stiffness);
     }
     if (springs_ >= 6) {
       const double reach = table[5] * f.radius;
-      add_energy(3, 2.25 * elastic / f.record.overlap * (reach * reach));  // k_r of contact/rolling.hpp
+      add_energy(3, law.rolling_change,
+                 2.25 * elastic / f.record.overlap * (reach * reach));  // k_r of contact/rolling.hpp
     }
     for (std::size_t c = 0; c < 3; ++c) f.record.force[c] = -(elastic * f.record.normal[c] + t[c]) + 0.0;
   }

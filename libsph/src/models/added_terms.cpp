@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plan/for_rows.hpp"
+#include "scene/keys/key_owners.hpp"
 #include "sph/added_term.hpp"
 #include "sph/fixed_point.hpp"
 #include "sph/models/models.hpp"
@@ -71,7 +72,10 @@ void for_each_on(const Scene& scene, Effect effect, Function function) {
 
 std::span<const AddedTerm* const> added_terms() { return registry().look(); }
 
-void register_term(const AddedTerm& term) { registry().add(term); }
+void register_term(const AddedTerm& term) {
+  keys::refuse_taken_term(term.word);
+  registry().add(term);
+}
 
 void add_accelerations(Builder& b) {
   for_each_on(b.scene(), Effect::acceleration, [&](const AddedTerm& t, double strength) {

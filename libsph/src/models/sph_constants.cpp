@@ -165,9 +165,7 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   const auto fluid = std::ranges::find_if(of.groups, is_matter);
   for (const Group& g : of.groups) {
     groups.viscosity.push_back(g.viscosity);
-    // p-waves are the fastest in a solid
-    const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
-    groups.sound_speed.push_back(std::sqrt(modulus / g.density));
+    groups.sound_speed.push_back(sound_at_rest(g));
     groups.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
     groups.side.push_back(side_of(of, static_cast<int>(&g - of.groups.data())));
     groups.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);

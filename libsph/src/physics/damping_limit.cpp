@@ -154,16 +154,17 @@ std::vector<Key> keys_of(const Scene& scene) {
   return keys;
 }
 
-std::vector<Rates> rates_of(const Scene& scene) {
+std::vector<Rates> rates_of(const Scene& scene, const std::vector<double>& sounds) {
   std::vector<Rates> all;
   const double h = scene.smoothing_length;
   const bool ida = scene.formulation == Formulation::ida;
-  for (const Group& g : scene.groups) {
+  for (std::size_t k = 0; k < scene.groups.size(); ++k) {
+    const Group& g = scene.groups[k];
     if (g.kind == GroupKind::wall && !ida) continue;  // it has the sums of the matter beside it
     const bool solid = g.kind == GroupKind::solid;
     const double nu = scene.terms.implicit_viscosity ? 0 : g.viscosity / g.density;
     Rates r;
-    r.sound = std::sqrt((g.bulk_modulus + (solid ? 4.0 / 3.0 * g.shear_modulus : 0)) / g.density) / h;
+    r.sound = sounds[k] / h;
     r.diffusion =
         solid || g.eos->kind == EosKind::ideal_gas ? 0 : 2 * scene.terms.density_diffusion * r.sound;
     r.artificial = 0.5 * scene.terms.artificial_viscosity * r.sound;
@@ -179,8 +180,8 @@ std::vector<Rates> rates_of(const Scene& scene) {
   return all;
 }
 
-bool stable(const Modes& modes, const Scene& scene, double step) {
-  const std::vector<Rates> all = rates_of(scene);
+bool stable(const Modes& modes, const Scene& scene, const std::vector<double>& sounds, double step) {
+  const std::vector<Rates> all = rates_of(scene, sounds);
   return std::all_of(all.begin(), all.end(), [&](const Rates& r) { return modes.stable(r, step); });
 }
 
@@ -195,13 +196,13 @@ double largest(double most, Holds&& holds) {
 
 }  // namespace
 
-DampingLimit damping_limit(const Scene& scene, double step) {
+DampingLimit damping_limit(const Scene& scene, const std::vector<double>& sounds, double step) {
   DampingLimit limit{std::numeric_limits<double>::infinity(), "", 0, 0};
   if (scene.of_grains() || scene.total_lagrangian()) return limit;
   const Modes modes(scene);
   const double enough = 4 * step;  // what is beyond need not be known
   const auto longest = [&](const Scene& s) {
-    return largest(enough, [&](double dt) { return stable(modes, s, dt); });
+    return largest(enough, [&](double dt) { return stable(modes, s, sounds, dt); });
   };
   const double found = longest(scene);
   if (found >= enough) return limit;
@@ -218,7 +219,7 @@ DampingLimit damping_limit(const Scene& scene, double step) {
     limit.value = key.value;
     limit.most = largest(key.value, [&](double x) {
       key.set(changed, x);
-      return stable(modes, changed, step);
+      return stable(modes, changed, sounds, step);
     });
   }
   return limit;

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sph/scene.hpp"
 
@@ -25,7 +26,7 @@ struct DampingLimit {
   double value, most;  ///< ... which could be so large at the present step, 0 if that is too long anyway
 };
 
-/// `step`: the present one [s]. No limit for grains and total-Lagrangian solids, which have none of these.
-[[nodiscard]] DampingLimit damping_limit(const Scene& scene, double step);
+/// `sounds`: the fastest of each group (start/start_sounds.hpp); `step`: the present one [s]. No limit for grains and total-Lagrangian solids, which have none of these.
+[[nodiscard]] DampingLimit damping_limit(const Scene& scene, const std::vector<double>& sounds, double step);
 
 }  // namespace sph

@@ -7,6 +7,7 @@
 #include "plan/for_rows.hpp"
 #include "sph/eos/law.hpp"
 #include "sph/models/models.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
 
@@ -23,9 +24,7 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
   if (scene.has_eos(EosKind::bubbly))
     builder_.add_fields({Field::sound_speed, Field::void_fraction, Field::gas_content});
   if (gas_) builder_.add_fields({Field::sound_speed, Field::specific_energy});
-  stiffens_ = std::ranges::any_of(scene.groups, [](const Group& g) {
-    return g.eos->kind == EosKind::barotropic && !g.eos->constant_sound;
-  });
+  stiffens_ = std::ranges::any_of(scene.groups, stiffens);
   if (stiffens_) builder_.add_fields({Field::sound_speed});
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
@@ -128,10 +127,12 @@ double Physics::speed_limit() const {
   return mach * *std::max_element(constants_.groups.sound_speed.begin(), constants_.groups.sound_speed.end());
 }
 
-double Physics::courant_number(double dt) const {
-  const double fastest =
-      *std::max_element(constants_.groups.sound_speed.begin(), constants_.groups.sound_speed.end());
-  return fastest * dt / scene_->smoothing_length;
+double Physics::resting_step(const std::vector<double>& sounds) const {
+  return time_step(StepMaxima{0, 0, 0, std::ranges::max(sounds), 0});
+}
+
+double Physics::courant_number(double dt, const std::vector<double>& sounds) const {
+  return std::ranges::max(sounds) * dt / scene_->smoothing_length;
 }
 
 }  // namespace sph

@@ -8,10 +8,12 @@
 #include "physics/damping_limit.hpp"
 #include "sph/grains.hpp"
 #include "sph/physics.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
-
 namespace {
+
+constexpr double rounded = 0.99;  // what is below a limit is so with three digits too
 
 void check_contact_step(const Scene& scene) {
   check_wall_speeds(scene);
@@ -36,17 +38,22 @@ void check_contact_step(const Scene& scene) {
 void check_time_step(const Scene& scene) {
   if (scene.has_grains()) check_contact_step(scene);
   if (!scene.has_matter()) return;
-  const Physics physics(0, scene, position_scale(scene));
-  const double dt = physics.time_step({}), courant = physics.courant_number(dt);
+  // What stiffens under pressure is looked at once it is there, by a start and by `check`.
+  if (std::ranges::any_of(scene.groups, stiffens)) return;
+  check_time_step(scene, Physics(0, scene, position_scale(scene)), sounds_at_rest(scene));
+}
+
+void check_time_step(const Scene& scene, const Physics& physics, const std::vector<double>& sounds) {
+  const double dt = physics.resting_step(sounds), courant = physics.courant_number(dt, sounds);
   const char* key = scene.time.dt ? "time.dt" : "time.cfl";
   if (courant > courant_limit(scene))
-    throw InputError(fmt::format(
-        "{}: {}: c dt/h = {:.3g} is above the integrator's limit {}; set it to {:.3g}{} or less", scene.file,
-        key, courant, courant_limit(scene),
-        courant_limit(scene) / courant * scene.time.dt.value_or(scene.time.cfl), scene.time.dt ? " s" : ""));
-  const DampingLimit limit = damping_limit(scene, dt);
+    throw InputError(
+        fmt::format("{}: {}: c dt/h = {:.3g} is above the integrator's limit {}; set it to {:.3g}{} or less",
+                    scene.file, key, courant, courant_limit(scene),
+                    rounded * courant_limit(scene) / courant * scene.time.dt.value_or(scene.time.cfl),
+                    scene.time.dt ? " s" : ""));
+  const DampingLimit limit = damping_limit(scene, sounds, dt);
   if (dt <= limit.step) return;
-  constexpr double rounded = 0.99;  // below the limit with three digits too
   std::string right;
   if (limit.most > 0) right = fmt::format("set it to {:.3g} or less, or ", rounded * limit.most);
   right += scene.time.dt

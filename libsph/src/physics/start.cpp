@@ -1,37 +1,27 @@
 // What a scene of fluids and solids begins with.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "physics/stability.hpp"
 #include "plan/for_rows.hpp"
 #include "sph/eos/law.hpp"
 #include "sph/physics.hpp"
 #include "start/start_densities.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
-namespace {
-
-/// Before there are pressures.
-double fastest_sound(const Scene& scene, const Particles& p) {
-  const double* rho = p.data<Field::density>();
-  const auto* group = p.data<Field::group>();
-  double fastest = 0;
-  for (std::size_t i = 0; i < p.owned(); ++i) {
-    const Group& g = scene.groups[group[i]];
-    if (g.eos->kind != EosKind::barotropic || g.kind == GroupKind::wall) continue;
-    double pressure, sound;
-    g.eos->derive(g, {rho + i, nullptr, nullptr, &pressure, &sound, nullptr, 0}, 0, 1);
-    fastest = larger(sound, fastest);
-  }
-  return fastest;
-}
-
-}  // namespace
 
 double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
   check_start_densities(comm, *scene_, particles);
   const StepMaxima own = maxima_at_start(particles);
   std::array<double, 3> largest{own.speed, own.sound, own.viscosity};
   comm.max(largest);
+  if (stiffens_) {
+    const std::vector<double> sounds = fastest_sounds(comm, *scene_, particles);
+    check_time_step(*scene_, *this, sounds);
+    largest[1] = std::ranges::max(sounds);
+  }
   global.max_speed = largest[0];
   if (shifting_) find_common_motion(comm, particles, global);
   return time_step({largest[0], 0, 0, largest[1], largest[2]});
@@ -48,7 +38,6 @@ StepMaxima Physics::maxima_at_start(Particles& p) const {
     speed2 = v2 > speed2 ? v2 : speed2;
   }
   if (gas_) look_at_gas(constants_, GasView(p), 0, p.owned(), maxima);
-  if (stiffens_) maxima.sound = fastest_sound(*scene_, p);
   maxima.speed = std::sqrt(speed2);
   return maxima;
 }

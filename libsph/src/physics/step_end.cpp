@@ -41,12 +41,21 @@ double Physics::longest_step(const Reduction& r) const {
 }
 
 void Physics::guard_step(const Reduction& r, const GlobalState& global) const {
-  if (scene_->time.dt && r[sound_] * *scene_->time.dt > courant_limit(*scene_) * scene_->smoothing_length)
+  if (!scene_->time.dt) return;
+  const double limit = courant_limit(*scene_),
+               courant = r[sound_] * *scene_->time.dt / scene_->smoothing_length;
+  if (!(courant > limit)) return;
+  if (gas_)
     throw GuardError(
         fmt::format("step {}: (c + u) dt/h is beyond the limit of {:f}, or the kernels of a gas that expands "
                     "grow too fast "
                     "for it; reduce time.dt",
-                    global.step, courant_limit(*scene_)));
+                    global.step, limit));
+  throw GuardError(
+      fmt::format("step {}: c dt/h = {:.3g} is beyond the integrator's limit {}: pressure has made the "
+                  "matter stiffer than "
+                  "it was at the start; set time.dt to {:.3g} s or less",
+                  global.step, courant, limit, 0.9 * limit / courant * *scene_->time.dt));
 }
 
 }  // namespace sph

@@ -22,6 +22,7 @@
 #include "start/start_count.hpp"
 #include "start/start_densities.hpp"
 #include "start/start_overlaps.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
 namespace {
@@ -50,6 +51,7 @@ Placed worth_placing(const Scene& scene, const StartCount& count, bool fits) {
 struct Beginning {
   StartCount count;
   double speed = 0;
+  std::vector<double> sounds{};  ///< of fluids and solids
 
   /// Of another set of particles.
   void add(const Beginning& more) {
@@ -59,6 +61,7 @@ struct Beginning {
     }
     count.all += more.count.all;
     speed = std::max(speed, more.speed);
+    if (sounds.empty()) sounds = more.sounds;
     for (std::size_t g = 0; g < count.by_group.size(); ++g) {
       if (more.count.by_group[g] == 0) continue;  // a group is of one set
       count.by_group[g] = more.count.by_group[g];
@@ -109,11 +112,14 @@ Beginning place(const decomp::Comm& comm, const Scene& scene, Placed how) {
   for (const Parts::Set& set : parts.sets) {
     Particles particles(scene.dim, set.fields);
     place_particles(scene, scale, distribution, particles);
-    if (set.fields.has(Field::radius))
+    Beginning of_set = start_of(comm, scene, particles, scale);
+    if (set.fields.has(Field::radius)) {
       check_start_speeds(comm, scene, particles);
-    else
+    } else {
       check_start_densities(comm, scene, particles);
-    start.add(start_of(comm, scene, particles, scale));
+      of_set.sounds = fastest_sounds(comm, scene, particles);
+    }
+    start.add(of_set);
   }
   return start;
 }
@@ -190,14 +196,16 @@ std::string tension_text(const Scene& scene) {
       most);
 }
 
-std::string courant_text(const Scene& scene, double dt, double courant) {
+std::string courant_text(const Scene& scene, const Physics& physics, const std::vector<double>& sounds,
+                         double dt) {
+  const double courant = physics.courant_number(dt, sounds);
   std::string out =
       fmt::format("time step: {:.6g} s at the start, c dt/h = {:.3g} (recommended {}, limit {})\n", dt,
                   courant, courant_recommended, courant_limit(scene));
   if (courant > courant_recommended * (1 + 1e-9))
     out += fmt::format("warning: c dt/h above {}: reduce {}\n", courant_recommended,
                        scene.time.dt ? "time.dt" : "time.cfl");
-  const DampingLimit limit = damping_limit(scene, dt);
+  const DampingLimit limit = damping_limit(scene, sounds, dt);
   if (const double share = dt / limit.step; share > courant_recommended / courant_limit(scene) * (1 + 1e-9))
     out += fmt::format("warning: the time step is {:.2g} of what {} = {:.4g} bears: reduce one of the two\n",
                        share, limit.key, limit.value);
@@ -265,14 +273,19 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       need = memory_need(scene, parts, grid, start.count);
     }
     if (start.count.all == 0) throw InputError("start: no particle lies in any region");
-    const double dt = parts.longest_step();
+    double dt = parts.longest_step();
+    if (parts.physics) {
+      if (start.sounds.empty()) start.sounds = fastest_sounds(scene, start.count.heights);
+      check_time_step(scene, *parts.physics, start.sounds);
+      dt = std::min(dt, parts.physics->resting_step(start.sounds));
+    }
     if (comm.rank() == 0)
       fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
                  particles_text(scene, start.count), unlooked_text(scene, placed),
                  memory_text(scene, parts, need, machine), gas_text(scene), tension_text(scene),
                  options.plan ? plan_text(scene, parts) : "",
                  parts.grains ? contact_step_text(scene, dt) : "",
-                 parts.physics ? courant_text(scene, dt, parts.physics->courant_number(dt)) : "",
+                 parts.physics ? courant_text(scene, *parts.physics, start.sounds, dt) : "",
                  drag_text(scene, parts), speed_warnings(scene, start.count.heights, start.speed),
                  steps_text(scene, dt), ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);

@@ -11,6 +11,7 @@
 #include "sph/drag/law.hpp"
 #include "sph/monitors.hpp"
 #include "sph/report.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
 namespace {
@@ -71,7 +72,9 @@ void Screen::banner() const {
       g.step, g.time, end, g.dt,
       simulation_.physics() == nullptr
           ? ""
-          : fmt::format(", c dt/h = {:.3g}", simulation_.physics()->courant_number(g.dt)));
+          : fmt::format(", c dt/h = {:.3g}",
+                        simulation_.physics()->courant_number(
+                            g.dt, fastest_sounds(simulation_.comm(), scene, simulation_.particles()))));
   print(simulation_.comm(), text);
 }
 

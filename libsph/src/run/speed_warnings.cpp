@@ -12,11 +12,6 @@ namespace {
 
 double length(const Double3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-double sound_speed(const Group& g) {
-  const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
-  return std::sqrt(modulus / g.density);
-}
-
 struct Speed {
   std::string key;
   double value = 0;
@@ -62,7 +57,7 @@ std::string speed_warnings(const Scene& scene, const std::vector<Height>& height
   if (scene.of_grains() || scene.has_eos(EosKind::ideal_gas)) return {};
   const Speed start = fastest_at_start(scene, file_speed);
   double stiffest = 0;
-  for (const Group& g : scene.groups) stiffest = std::max(stiffest, sound_speed(g));
+  for (const Group& g : scene.groups) stiffest = std::max(stiffest, sound_at_rest(g));
   if (start.value >= stiffest)
     return fmt::format(
         "warning: {}: {:.4g} m/s is Mach {:.4g} in the stiffest group, whose c is {:.4g} m/s: check the "
@@ -72,7 +67,7 @@ std::string speed_warnings(const Scene& scene, const std::vector<Height>& height
   const double height = fluid_height(scene, heights), fall = fall_of(scene, height);
   const double least = stiff_enough * std::max(start.value, fall);
   for (const Group& g : scene.groups) {
-    const double c = sound_speed(g);
+    const double c = sound_at_rest(g);
     if (g.kind != GroupKind::fluid || g.eos->kind != EosKind::barotropic || c >= least * (1 - rounding))
       continue;
     out += fmt::format(

@@ -4,8 +4,20 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace sph {
+namespace {
+
+/// In small letters; others than ASCII's stay.
+std::string small(std::string_view word) {
+  std::string out(word);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+}  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
   const std::size_t width = b.size() + 1;
@@ -25,14 +37,16 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest(std::string_view word, const std::vector<std::string>& words) {
   const int limit = std::max(2, static_cast<int>(word.size()) / 3);
-  int best = limit + 1;
+  const std::string folded = small(word);
+  // Capitals count where nothing else tells two candidates apart.
+  std::pair best{limit + 1, 0};
   std::string found;
   for (const std::string& candidate : words) {
     // No distance is below the difference of lengths, and a word may be as long as its file.
     if (word.size() > candidate.size() + static_cast<std::size_t>(limit)) continue;
-    const int distance = edit_distance(word, candidate);
+    const std::pair distance{edit_distance(folded, small(candidate)), edit_distance(word, candidate)};
     // A word that shares nothing with the candidate is as far away as the longer of them.
-    if (distance < best && distance < static_cast<int>(std::max(word.size(), candidate.size()))) {
+    if (distance < best && distance.first < static_cast<int>(std::max(word.size(), candidate.size()))) {
       best = distance;
       found = candidate;
     }

@@ -22,16 +22,14 @@ ContactPair read_pair(const Reader<keys::contact_pair>& table) {
 
 }  // namespace
 
-ContactControl read_contact_law(const Reader<keys::contact>& table) {
-  ContactControl contact;
-  table.read(contact);
+void read_contact_law(const Reader<keys::contact>& table, Scene& scene) {
+  table.read(scene.contact);
   std::vector<std::string> by_rate;
   for (const ContactLaw* law : contact_laws())
     if (law->by_rate != nullptr) by_rate.emplace_back(law->word);
   table.only_if(
-      contact.law->by_rate != nullptr, "normal_damping",
+      scene.contact.law->by_rate != nullptr, "normal_damping",
       fmt::format("it is of law = {}; this one takes the restitution of its groups", either(by_rate)));
-  return contact;
 }
 
 std::vector<ContactPair> read_contact_pairs(const Reader<keys::contact>& table) {

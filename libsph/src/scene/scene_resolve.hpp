@@ -52,7 +52,7 @@ void read_added_terms(const TermsReader& table, Terms& terms);
 [[nodiscard]] std::string either(const std::vector<std::string>& words);
 
 /// [contact] but for its pairs, which name groups.
-[[nodiscard]] ContactControl read_contact_law(const Reader<keys::contact>& table);
+void read_contact_law(const Reader<keys::contact>& table, Scene& scene);
 /// [[contact.pair]], once groups and contact law of `scene` are known. Ends the table.
 [[nodiscard]] std::vector<ContactPair> read_contact_pairs(const Reader<keys::contact>& table);
 

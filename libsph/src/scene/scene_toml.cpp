@@ -165,7 +165,7 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
 }
 
 void read_grains(const Tables& tables, Scene& scene) {
-  scene.contact = read_contact_law(tables.contact);
+  read_contact_law(tables.contact, scene);
   read_grain_groups(tables.top, scene);
   scene.contact.pairs = read_contact_pairs(tables.contact);
   if (!scene.is_mixture()) {

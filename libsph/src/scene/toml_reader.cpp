@@ -116,9 +116,15 @@ bool TableReader::applies(const Key& key) const {
 }
 
 void TableReader::read(void* owner) const {
-  // What is out of place says more than what is missing. Words stand before the keys that depend on them.
-  for (const Key& key : keys_->keys)
-    if (applies(key) && std::holds_alternative<keys::Words>(key.kind)) (void)choice(key);
+  // What is out of place says more than what is missing. Words stand before the keys that depend on them, by
+  // name or through the scene that holds `owner`.
+  for (const Key& key : keys_->keys) {
+    if (!applies(key) || !std::holds_alternative<keys::Words>(key.kind)) continue;
+    if (key.member.in != nullptr)
+      put(key, key.member.in(owner));
+    else
+      (void)choice(key);
+  }
   for (const Key& key : keys::more_keys(*keys_)) (void)applies(key);
   for (const Key& key : keys_->keys) {
     if (!applies(key)) continue;

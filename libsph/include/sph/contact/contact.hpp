@@ -46,7 +46,7 @@ struct NormalForce {
   V force;            ///< on j along n [N]
   V elastic;          ///< its part without the dashpot [N]
   V shear_stiffness;  ///< k_t of the tangential spring now [N/m]
-  V shear_change;     ///< k_t (and k_r) now / a step ago where it fell, else 1
+  V shear_change;     ///< k_t now / a step ago where it fell, else 1
   V dashpot;          ///< coefficient of the normal dashpot [kg/s]
 };
 

@@ -20,6 +20,7 @@ struct HertzNormal : NormalLaw {
              .dimension = dimension::pressure,
              .sentence = "1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2."},
       LawKey{.name = "poisson_ratio", .above = -1, .most = 0.5, .sentence = "nu."}};
+  static constexpr bool dashpot = true;
   static constexpr ReducedImpact impact{5.0 / 6.0, 8.0 / 15.0, 2.0 / 3.0,
                                         [](double x) { return std::sqrt(x); }, 0.2};
 

@@ -12,7 +12,8 @@
 //     ...
 //   };
 //
-// NormalLaw has the answers that are those of a linear spring without a dashpot; a law says what differs.
+// NormalLaw has the answers that are those of a linear spring without a dashpot; a law says what differs
+// (its stiffness, and how its rolling spring falls, wherever F/delta is not constant).
 // Sweep, quanta, time steps, records, keys and screen follow (contact/registry.hpp).
 #pragma once
 
@@ -56,11 +57,21 @@ struct LawSteps {
 
 struct NormalLaw {
   static constexpr std::array<Parity, 0> history{};
+  /// It damps by a dashpot, of which contact.pull and contact.tangential_damping speak: other laws refuse them.
+  static constexpr bool dashpot = false;
   using ByRate = void;  ///< the law that stands instead where contact.normal_damping is given
 
   /// dF/d(delta) of two grains of this radius at that overlap, the largest the law has there [N/m].
   static double stiffness(const PairConstants& k, double /*radius*/, double /*overlap*/) {
     return k.stiffness;
+  }
+  /// k_r, which follows F/delta (contact/rolling.hpp), now / a step ago where it fell, else 1; `history` as force()
+  /// leaves it. Here of laws whose F/delta is constant or falls as k_t does; without it a law whose F/delta
+  /// falls otherwise gives rolling energy.
+  template <class V>
+  static V rolling_change(const Contact<V>& /*c*/, const ContactConstants<V>& /*k*/, const NormalForce<V>& f,
+                          const V* /*history*/) {
+    return f.shear_change;
   }
   /// k_t where dF/d(delta) is `stiffness` [N/m].
   static double shear_stiffness(const PairConstants& k, double /*stiffness*/) { return k.shear_stiffness; }
@@ -82,7 +93,7 @@ struct PointContact {
   double overlap, separation, radius, mass, dt;
 };
 struct PointForce {
-  double elastic, shear_stiffness, shear_change, energy;
+  double elastic, shear_stiffness, shear_change, rolling_change, energy;
 };
 
 /// Friction and rolling resistance that some pair of a scene has.
@@ -92,6 +103,7 @@ enum class Roughness { smooth, sliding, rolling };
 struct ContactLaw {
   std::string_view word, name;
   std::span<const LawKey> keys;
+  bool dashpot;
   const ContactLaw* by_rate;  ///< nullptr: contact.normal_damping has no meaning
   std::span<const Parity> history;
   PairConstants (*constants)(const MaterialPair&);
@@ -105,7 +117,7 @@ struct ContactLaw {
 
 /// All laws; from the first look on none can be added.
 [[nodiscard]] std::span<const ContactLaw* const> contact_laws();
-/// Throws std::logic_error where the word is taken, or laws have been looked at.
+/// Throws std::logic_error where the word is taken, a key has another meaning already, or laws have been looked at.
 void register_contact_law(const ContactLaw& law);
 
 /// Of a scene of grains, that of contact.normal_damping where it is given.

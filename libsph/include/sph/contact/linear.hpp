@@ -51,6 +51,8 @@ struct Springs : NormalLaw {
 };
 
 struct LinearRate : Springs {
+  static constexpr bool dashpot = true;
+
   template <class V>
   static NormalForce<V> force(const Contact<V>& c, const ContactConstants<V>& k) {
     return linear_force(c, k, k.damping * c.mass);
@@ -65,6 +67,7 @@ struct LinearRate : Springs {
 };
 
 struct LinearNormal : Springs {
+  static constexpr bool dashpot = true;
   using ByRate = LinearRate;
   static constexpr ReducedImpact impact{1.0, 1.0, 1.0, [](double) { return 1.0; }, 0.11};
 

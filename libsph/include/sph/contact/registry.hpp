@@ -38,7 +38,8 @@ struct LawEntry {
     c.mass = point.mass;
     c.dt = point.dt;
     const NormalForce<V> f = normal_force<Law>(c, k, memory);
-    return {f.elastic[0], f.shear_stiffness[0], f.shear_change[0], Law::energy(c, k, f)[0]};
+    return {f.elastic[0], f.shear_stiffness[0], f.shear_change[0], Law::rolling_change(c, k, f, memory)[0],
+            Law::energy(c, k, f)[0]};
   }
 };
 
@@ -50,6 +51,7 @@ const ContactLaw& entry_of() {
   static const ContactLaw entry{Law::word,
                                 Law::name,
                                 Law::keys,
+                                Law::dashpot,
                                 by_rate,
                                 Law::history,
                                 Law::constants,

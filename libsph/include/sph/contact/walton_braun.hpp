@@ -3,9 +3,8 @@
 //              impact k_1/k_2 comes back, so that k_2 = k_1 / e^2 gives the restitution e at any speed.
 // With d_0 the largest of (1 - k_1/k_2) d so far, both lines are F = max(0, k_2 (d - d_0)). d_0 is the history
 // of the contact, a deformation: the same from either side. It is 0 again when the two have parted.
-// Rolling resistance follows F/d, which falls as a contact unloads; its spring does not fall with it, so that
-// rolling may gain energy there (by formula up to 1.75 times what the spring held at half its limit, e = 0.5).
-// contact.pull and contact.tangential_damping do nothing: there is no dashpot.
+// Rolling resistance follows F/d = k_2 (1 - d_0/d), which falls as a contact unloads; the rolling spring falls in
+// proportion (contact/rolling.hpp), as Thornton's rule has it for k_t of Hertz contacts.
 // normal_stiffness is that of a material's k_1; the least restitution of a pair makes k_2.
 #pragma once
 
@@ -26,6 +25,18 @@ struct WaltonBraun : Springs {
     f.shear_change = V(1.0);
     f.dashpot = V::zero();
     return f;
+  }
+  /// Of F/d. The overlap a step ago follows from the present velocity, as in hertz.hpp: d_0 as it was then is no
+  /// other, unless it has grown since, which F/d does not fall by.
+  template <class V>
+  static V rolling_change(const Contact<V>& c, const ContactConstants<V>& k, const NormalForce<V>& /*f*/,
+                          const V* latched) {
+    const auto share = [&](V overlap) {  // of k_2
+      const V gap = overlap - max(latched[0], k.damping * overlap);
+      return max(V(0.0), gap) / max(overlap, V(1e-300));
+    };
+    const V before = share(c.overlap + max(V(0.0), c.separation * c.dt));
+    return min(V(1.0), share(c.overlap) / max(before, V(1e-300)));
   }
   /// What comes back: F^2 / (2 k_2).
   template <class V>

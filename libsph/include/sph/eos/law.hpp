@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -59,6 +60,12 @@ struct BarotropicLaw : EosLaw {
   static constexpr bool constant_sound = false;  ///< sound_speed() is that of rho_0 at any density
 };
 
+/// Of a group's matter at rho_0; p-waves are the fastest in a solid [m/s].
+[[nodiscard]] inline double sound_at_rest(const Group& g) {
+  const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
+  return std::sqrt(modulus / g.density);
+}
+
 /// A law as code knows it that is not compiled for it (eos/registry.hpp makes it of the struct).
 struct EquationOfState {
   std::string_view word;
@@ -77,7 +84,7 @@ struct EquationOfState {
 
 /// All laws; from the first look on none can be added.
 [[nodiscard]] std::span<const EquationOfState* const> equations_of_state();
-/// Throws std::logic_error where the word is taken, or laws have been looked at.
+/// Throws std::logic_error where the word is taken, a key has another meaning already, or laws have been looked at.
 void register_equation_of_state(const EquationOfState& law);
 
 }  // namespace sph

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/keys/key.hpp"
+#include "sph/contact/law.hpp"
 #include "sph/scene.hpp"
 
 namespace sph::keys {
@@ -41,6 +42,9 @@ inline constexpr Condition of_added_terms{
 inline constexpr Condition of_total{[](const Scene& s) { return s.total_lagrangian(); },
                                     "total-Lagrangian solids",
                                     "only scenes of solids with lagrangian = \"total\" have it"};
+inline constexpr Condition of_dashpots{
+    [](const Scene& s) { return s.contact.law == nullptr || s.contact.law->dashpot; }, "laws with a dashpot",
+    "the contact law of the scene has no dashpot: remove it"};
 inline constexpr Condition of_restitution{[](const Scene& s) { return !s.contact.normal_damping; },
                                           "contacts without normal_damping",
                                           "contact.normal_damping stands instead of it"};
