@@ -19,17 +19,26 @@ Levels levels_of(Family family) {
   return n;
 }
 
+/// Of three factors f < g < h: is every combination of their levels asked for? See covering_array.hpp.
+bool wanted(const Levels& levels, Strength strength, std::size_t f, std::size_t g, std::size_t h) {
+  constexpr std::size_t most = 12;  // combinations with each scene
+  return strength == Strength::three || f != static_cast<std::size_t>(Factor::scene) ||
+         levels[g] * levels[h] <= most;
+}
+
 /// Which combinations of levels of three factors f < g < h are still to be covered.
 class Triples {
  public:
-  explicit Triples(Family family) : levels_(levels_of(family)) {
+  Triples(Family family, Strength strength) : levels_(levels_of(family)) {
     for (std::size_t f = 0; f < factor_count; ++f)
       for (std::size_t g = f + 1; g < factor_count; ++g)
         for (std::size_t h = g + 1; h < factor_count; ++h) {
           first_[f][g][h] = open_.size();
-          open_.resize(open_.size() + levels(f) * levels(g) * levels(h), true);
+          const bool open = wanted(levels_, strength, f, g, h);
+          const std::size_t size = levels(f) * levels(g) * levels(h);
+          open_.resize(open_.size() + size, open);
+          if (open) left_ += size;
         }
-    left_ = open_.size();
   }
 
   [[nodiscard]] bool done() const { return left_ == 0; }
@@ -113,10 +122,10 @@ std::pair<Row, std::size_t> candidate(const Triples& triples, Family family, std
 
 }  // namespace
 
-std::vector<Row> covering_array(Family family, std::uint64_t seed) {
+std::vector<Row> covering_array(Family family, std::uint64_t seed, Strength strength) {
   constexpr int candidates = 60;  // more do not make the array notably shorter
   std::mt19937_64 random(seed);
-  Triples triples(family);
+  Triples triples(family, strength);
   std::vector<Row> rows;
   while (!triples.done()) {
     auto best = candidate(triples, family, random);
@@ -128,12 +137,13 @@ std::vector<Row> covering_array(Family family, std::uint64_t seed) {
   return rows;
 }
 
-std::size_t uncovered_triples(Family family, const std::vector<Row>& rows) {
+std::size_t uncovered_triples(Family family, const std::vector<Row>& rows, Strength strength) {
   const Levels levels = levels_of(family);
   std::size_t missing = 0;
   for (std::size_t f = 0; f < factor_count; ++f)
     for (std::size_t g = f + 1; g < factor_count; ++g)
       for (std::size_t h = g + 1; h < factor_count; ++h) {
+        if (!wanted(levels, strength, f, g, h)) continue;
         std::set<std::tuple<int, int, int>> seen;
         for (const Row& row : rows) seen.emplace(row.level[f], row.level[g], row.level[h]);
         missing += levels[f] * levels[g] * levels[h] - seen.size();

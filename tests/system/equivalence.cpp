@@ -2,7 +2,7 @@
 // arrival, the lists and the restarts. One MPI program on 8 ranks; a row on k ranks uses the first k, the
 // others sleep. Every row's fingerprints are compared with those of the scene's run on one rank.
 //
-//   equivalence --array SEED [--scenes START]   a 3-way covering array of the factors
+//   equivalence --array SEED [--scenes START]   a covering array of the factors (covering_array.hpp)
 //   equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run again
 //   equivalence --row "scene=... ranks=..."     one row, as printed
 //
@@ -35,6 +35,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::int64_t steps = 300, long_steps = 2000;
   bool every = false;
+  Strength strength = Strength::mixed;
   std::string row, log, scenes;
   std::size_t part = 1, parts = 1;
   double limit = 1e9;  ///< [s]
@@ -48,7 +49,9 @@ constexpr const char* usage =
     "  --row \"scene=... ranks=...\"     one row, as printed\n"
     "  --grains | --sph                scenes of which, default: sph\n"
     "  --seed S                        of the order, the cuts and the restarts, default: 1\n"
-    "  --steps N, --long N             the last step that is compared, of every eighth row: 300, 2000\n"
+    "  --steps N, --long N             the last step that is compared, of an array's first row of each\n"
+    "                                  scene: 300, 2000\n"
+    "  --every-triple                  the array has every 3-way combination: 641 rows instead of 239\n"
     "  --every                         compare at every step\n"
     "  --limit SECONDS                 start no row after that long";
 
@@ -88,6 +91,8 @@ Options parse(int argc, char** argv) {
       o.steps = number<std::int64_t>(key, value());
     else if (key == "--long")
       o.long_steps = number<std::int64_t>(key, value());
+    else if (key == "--every-triple")
+      o.strength = Strength::three;
     else if (key == "--every")
       o.every = true;
     else if (key == "--log")
@@ -109,9 +114,9 @@ Options parse(int argc, char** argv) {
 std::vector<Row> rows_of(const Options& o) {
   if (o.mode == Options::Mode::row) return {row_from_text(o.row)};
   if (o.mode == Options::Mode::array) {
-    std::vector<Row> rows = covering_array(o.family, o.seed);
-    if (const std::size_t missing = uncovered_triples(o.family, rows); missing > 0)
-      throw std::runtime_error(std::to_string(missing) + " 3-way combinations are not covered");
+    std::vector<Row> rows = covering_array(o.family, o.seed, o.strength);
+    if (const std::size_t missing = uncovered_triples(o.family, rows, o.strength); missing > 0)
+      throw std::runtime_error(std::to_string(missing) + " combinations are not covered");
     std::erase_if(
         rows, [&](const Row& row) { return !o.scenes.empty() && !row[Factor::scene].starts_with(o.scenes); });
     return rows;
@@ -123,11 +128,12 @@ std::vector<Row> rows_of(const Options& o) {
   return mine;
 }
 
-/// The rows with the steps at which they are compared. In an array every eighth row is a long one.
+/// The rows with the steps at which they are compared. In an array each scene has one long row, its first.
 std::vector<Case> cases_of(const Options& o) {
   std::vector<Case> cases;
+  std::set<std::string_view> seen;
   for (const Row& row : rows_of(o)) {
-    const bool longer = o.mode == Options::Mode::array && cases.size() % 8 == 0;
+    const bool longer = seen.insert(row[Factor::scene]).second && o.mode == Options::Mode::array;
     const std::int64_t last = longer ? std::max(o.steps, o.long_steps) : o.steps;
     Case c{row, {}};
     for (std::int64_t s = 1; s <= last; ++s)

@@ -15,7 +15,7 @@ from pathlib import Path
 import runner
 from runner import Runner, damage, kill_somehow, rows_in, run_all, wait_for
 
-LONG = 8000  # steps: one and a half seconds on an idle machine, long enough to be interrupted
+LONG = 4000  # steps: two seconds on an idle machine, long enough to be interrupted
 # Interrupted runs: a row every step, six snapshots, a checkpoint as often as possible.
 BUSY = ["--set", "output.series_interval=0", "--set", "output.snapshot_interval=0.2"]
 OFTEN = ["--set", "output.checkpoint_interval=0.05"]
