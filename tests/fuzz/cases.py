@@ -66,7 +66,8 @@ def row(d, case):
     if last > 1 and d.chance("restart", 0.3):
         out["restart"] = {"at": d.whole("at", 1, last - 1), "ranks": d.whole("resumed", 1, 8),
                           "files": d.one("files", [0, 1, 2, 5])}
-    if "rows of start" not in case and d.chance("shuffle", 0.25):
+    mixture = "drag" in case["scene"]  # starts from no file
+    if "rows of start" not in case and not mixture and d.chance("shuffle", 0.25):
         out["shuffle"] = True
     return out
 

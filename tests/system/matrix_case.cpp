@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Grains in a fluid do not start from files.
+bool may_be_shuffled(const Row& row) { return row[Factor::scene] != "mixture"; }
+
 /// The scene as anybody would run it on one rank.
 sph::Scene reference_scene(const Row& row) {
   sph::Scene scene = scene_of(row);
@@ -62,7 +65,7 @@ void Cases::prepare(const decomp::Comm& one, const Case& c) {
   if (!reference.simulation) {
     reference.simulation = std::make_unique<sph::Simulation>(one, reference_scene(c.row));
     reference.start = liveliness(*reference.simulation);
-    if (!write_shuffled_start(start_file(c.row), *reference.simulation, seed_))
+    if (may_be_shuffled(c.row) && !write_shuffled_start(start_file(c.row), *reference.simulation, seed_))
       throw std::runtime_error("a position of this scene is no double: its start cannot be a file");
   }
   sph::Simulation& simulation = *reference.simulation;
@@ -106,7 +109,7 @@ std::unique_ptr<sph::Simulation> Cases::begin(const decomp::Comm& comm, const Ro
                                               const Leg& leg) const {
   if (leg.from > 0)
     return std::make_unique<sph::Simulation>(comm, scene, sph::find_checkpoint(comm, run_dir(row)));
-  if (row[Factor::order] == "shuffled") scene.start.file = start_file(row).string();
+  if (row[Factor::order] == "shuffled" && may_be_shuffled(row)) scene.start.file = start_file(row).string();
   return std::make_unique<sph::Simulation>(comm, scene);
 }
 
