@@ -1,5 +1,5 @@
 // What a program needs that runs scenes: a scene, some steps, the fingerprint. This one brings a contact law,
-// an equation of state and a pair term of its own, from its own tree.
+// an equation of state, a pair term and a drag law of its own, from its own tree.
 #include <mpi.h>
 
 #include <cstdio>
@@ -9,6 +9,7 @@
 
 #include "decomp/comm.hpp"
 #include "friction_of_flow.hpp"
+#include "schiller_naumann.hpp"
 #include "sph/scene.hpp"
 #include "sph/simulation.hpp"
 #include "stiffening.hpp"
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
   sph::register_contact_law<Stiffening>();
   sph::register_equation_of_state<Tait>();
   sph::register_term<FlowFriction>();
+  sph::register_drag_law<SchillerNaumann>();
   const bool refused = is_refused();
   MPI_Init(&argc, &argv);
   int status = 0;

@@ -13,7 +13,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-foreach(scene fluid grains)
+foreach(scene fluid grains mixture)
   foreach(ranks 1 2)
     run(${MPIEXEC} -n ${ranks} ${WORK}/build/consumer ${SOURCE}/${scene}.toml)
     if(NOT out MATCHES "^fingerprint ([0-9a-f]+) step [0-9]+\n$")

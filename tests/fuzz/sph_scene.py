@@ -41,7 +41,7 @@ class Maker(Terms, FromFile, Mixture):
 
     def scene(self):
         d = self.d
-        scene = {"title": f"Random {self.family}", "dimension": self.dim}
+        scene = {"title": f"Random {'mixture' if self.mixed else self.family}", "dimension": self.dim}
         if self.family == "ida":
             scene["formulation"] = "ida"
         scene["precision"] = d.one("precision", ["double", "mixed"])
