@@ -81,7 +81,8 @@ def add_output(d, case, grains):
                         "sort_limit": [0, 10, 100_000_000], "checkpoint_files": [0, 1, 3]}.items():
         if d.chance(key, 0.2):
             out[key] = d.one(f"{key} value", values)
-    for key in ("contacts",) if grains else ("average_space",):
+    mixture = "drag" in scene
+    for key in ["contacts"] * (grains or mixture) + ["average_space"] * (not grains):
         if d.chance(key, 0.2):
             out[key] = d.chance(f"{key} value", 0.8)
     if out:
@@ -91,9 +92,9 @@ def add_output(d, case, grains):
                 {"kind": "particle", "nearest_to": scene["domain"]["lower"]}]
     if "rows of start" in case:
         monitors.append({"kind": "particle", "name": "one", "id": min(case["rows of start"][0]["id"], 2**63 - 1)})
-    if grains:
+    if grains or mixture:
         monitors.append({"kind": "contacts"})
-        if scene["wall"] and scene["wall"][0].get("shape") != "box":
+        if scene.get("wall") and scene["wall"][0].get("shape") != "box":
             monitors.append({"kind": "wall", "wall": scene["wall"][0]["name"]})
     scene["monitor"] = [m for k, m in enumerate(monitors) if d.chance(f"monitor/{k}", 0.3)]
 

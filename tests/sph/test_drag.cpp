@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "grain_fixture.hpp"
+#include "output/extra_columns.hpp"
 #include "sph/checkpoint.hpp"
 #include "sph/drag/di_felice.hpp"
 #include "sph/drag/gidaspow.hpp"
@@ -189,6 +190,35 @@ TEST(Drag, AnyRanksCutsAndSkinsGiveTheSameBits) {
       ASSERT_EQ(s.fingerprint(), expected()[k]) << skin << ' ' << k;
     }
   }
+}
+
+// Output looks at all sets, contacts and averages at their own.
+TEST(Drag, OutputIsThatOfOneRank) {
+  const std::vector<std::string> more{"output.contacts=true", "output.average_space=true",
+                                      "decomposition.balance=\"chaos\""};
+  const std::string touching =
+      "lower = [0.001, 0.001, 0.002]\nupper = [0.012, 0.011, 0.005]\nspacing = 0.00069\n";
+  Scene scene = parse_scene(box("diameter = 0.0007\n", touching), "touching", more);
+  for (const MonitorKind kind : {MonitorKind::energy, MonitorKind::contacts, MonitorKind::momentum}) {
+    Monitor monitor;
+    monitor.name = "m" + std::to_string(scene.output.monitors.size());
+    monitor.kind = kind;
+    scene.output.monitors.push_back(monitor);
+  }
+  Simulation alone(self(), scene), shared(world(), scene);
+  const Monitors of_alone(alone), of_shared(shared);
+  double contacts = 0;
+  for (int k = 0; k < 30; ++k) {
+    alone.step(), shared.step();
+    const std::vector<double> values = of_alone.values(alone);
+    ASSERT_EQ(values, of_shared.values(shared)) << k;
+    contacts = std::max(contacts, values[4]);
+    for (Simulation* s : {&alone, &shared})
+      for (const ExtraColumn& column : extra_columns(*s))
+        ASSERT_EQ(column.values.size(), s->particles().owned() * static_cast<std::size_t>(column.components));
+    ASSERT_EQ(alone.fingerprint(), shared.fingerprint()) << k;
+  }
+  EXPECT_GT(contacts, 100);
 }
 
 TEST(Drag, RestartsDoToo) {

@@ -78,6 +78,7 @@ class Simulation {
   void kick_half_a_step();
   void rebuild();
   void settle();
+  [[nodiscard]] bool drifts_first() const;
   void widen_kernels();
   [[nodiscard]] ListSetting list_setting(const SetPair& pair);
   /// What the stages look at for each row.

@@ -27,7 +27,7 @@ class Enumeration {
   explicit Enumeration(const Simulation& s)
       : s_(s),
         grains_(*s.grains()),
-        p_(s.particles()),
+        p_(s.particles(s.grains()->set())),
         x_(p_.data<Field::position>()),
         v_(p_.data<Field::velocity>()),
         radius_(p_.data<Field::radius>()),

@@ -198,12 +198,25 @@ void Drag::fill_between_grains(const StepState& s) const {
   });
 }
 
-// Sums in the order of ids; find_kernel() has been asked.
-FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Particles& fluid, double dt) {
-  find_kernel(grains, i, fluid);
-  const std::span<const std::uint32_t> rows = listed(i);
+// Of rows [first, last) of the fluid.
+void Drag::find_volumes(const Particles& fluid, std::size_t first, std::size_t last) {
   const double* mass = fluid.data<Field::mass>();
   const double* density = fluid.data<Field::density>();
+  volumes_.resize(fluid.rows());
+  for (std::size_t j = first; j < last; ++j) volumes_[j] = mass[j] / density[j];
+}
+
+void Drag::find_weights(const Particles& grains, std::size_t i, const Particles& fluid) {
+  find_kernel(grains, i, fluid);
+  const std::span<const std::uint32_t> rows = listed(i);
+  weights_.resize(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) weights_[k] = volumes_[rows[k]] * kernel_[k];
+}
+
+// Sums in the order of ids; find_weights() has been asked.
+FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Particles& fluid,
+                              double dt) const {
+  const std::span<const std::uint32_t> rows = listed(i);
   const double* v = fluid.data<Field::velocity>();
   const double* pull = fluid.data<Field::grain_pull>();
   const double* force = fluid.data<Field::force>();
@@ -214,7 +227,7 @@ FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Part
   Double3 u{}, stress{};
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::size_t j = rows[k];
-    const double w = kernel_[k], vw = mass[j] / density[j] * w;
+    const double w = kernel_[k], vw = weights_[k];
     weight += vw;
     square += vw * w;
     e += vw * porosity[j];
@@ -240,25 +253,25 @@ FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Part
   return out;
 }
 
-std::int64_t Drag::part(double force, double volume, double weight, double share) const {
-  return round_to_quanta(force * (volume * weight * share) / force_quantum_);
-}
+// Times the weight of a fluid particle it is what that particle takes, the same on both sides and on all ranks.
+double Drag::quanta_a_weight(double force, double share) const { return force * share / force_quantum_; }
 
 void Drag::push_grains(StepState& s, Side side) {
   const Particles& fluid = *s.other;
   Particles& grains = s.particles;
   if (side != Side::boundary) fastest_ = 0;
+  if (side != Side::boundary) find_volumes(fluid, 0, fluid.owned());
+  if (side != Side::interior) find_volumes(fluid, fluid.owned(), fluid.rows());
   const double* mass = grains.data<Field::mass>();
   const double* radius = grains.data<Field::radius>();
   const auto* group = grains.data<Field::group>();
   double* v = grains.data<Field::velocity>();
   double* force = grains.data<Field::fluid_force>();
   double* share = grains.data<Field::fluid_share>();
-  const double* fluid_mass = fluid.data<Field::mass>();
-  const double* fluid_density = fluid.data<Field::density>();
   const double dt = s.global.dt;
   double speed2 = 0;
   const auto push_one = [&](std::size_t i) {
+    find_weights(grains, i, fluid);
     const FluidAround around = look_around(grains, i, fluid, dt);
     share[i] = around.share;
     const bool fixed = scene_->groups[group[i]].grain.fixed;
@@ -269,7 +282,6 @@ void Drag::push_grains(StepState& s, Side side) {
       fastest_ = std::max(fastest_, push.rate);
     }
     std::array<std::int64_t, 3> sum{};
-    const std::span<const std::uint32_t> rows = listed(i);
     for (std::size_t a = 0; a < 3; ++a) {
       force[i * 3 + a] = f[a];
       if (!(std::fabs(f[a]) < largest_part * force_quantum_)) {
@@ -283,8 +295,8 @@ void Drag::push_grains(StepState& s, Side side) {
         force[i * 3 + a] = 0;
         continue;
       }
-      for (std::size_t k = 0; k < rows.size(); ++k)
-        sum[a] += part(f[a], fluid_mass[rows[k]] / fluid_density[rows[k]], kernel_[k], around.share);
+      const double quanta = quanta_a_weight(f[a], around.share);
+      for (const double weight : weights_) sum[a] += round_to_quanta(quanta * weight);
     }
     if (fixed) return;
     double v2 = 0;
@@ -305,17 +317,17 @@ void Drag::push_fluid(StepState& s, Side side) {
   const Particles& grains = *s.other;
   if (side != Side::boundary) deposits_.assign(fluid.owned() * 3, 0);
   const double* mass = fluid.data<Field::mass>();
-  const double* density = fluid.data<Field::density>();
   const double* force = grains.data<Field::fluid_force>();
   const double* share = grains.data<Field::fluid_share>();
   for_grains(grains, side, [&](std::size_t i) {
-    find_kernel(grains, i, fluid);
+    find_weights(grains, i, fluid);
     const std::span<const std::uint32_t> rows = listed(i);
+    Double3 quanta{};
+    for (std::size_t a = 0; a < 3; ++a) quanta[a] = quanta_a_weight(force[i * 3 + a], share[i]);
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      const std::size_t j = rows[k];
-      if (j >= fluid.owned()) continue;
-      for (std::size_t a = 0; a < 3; ++a)
-        deposits_[j * 3 + a] -= part(force[i * 3 + a], mass[j] / density[j], kernel_[k], share[i]);
+      if (rows[k] >= fluid.owned()) continue;
+      std::int64_t* sum = deposits_.data() + std::size_t{rows[k]} * 3;
+      for (std::size_t a = 0; a < 3; ++a) sum[a] -= round_to_quanta(quanta[a] * weights_[k]);
     }
   });
   if (side == Side::interior) return;

@@ -24,7 +24,7 @@ class Smoother {
  public:
   explicit Smoother(const Simulation& s)
       : scene_(s.scene()),
-        particles_(s.particles()),
+        particles_(s.particles(s.physics()->set())),
         d_(static_cast<std::size_t>(s.scene().dim)),
         quanta_per_h_(s.scene().smoothing_length / s.scale().quantum) {}
 
@@ -73,11 +73,12 @@ std::vector<ExtraColumn> averages(Simulation& s) {
   std::vector<ExtraColumn> columns = average_columns(s.scene());
   s.refresh_halo(
       {Field::position, Field::velocity, Field::density, Field::mass, Field::group, Field::pressure});
-  const std::size_t n = s.particles().owned(), lanes = static_cast<std::size_t>(s.lists().lanes());
+  const std::size_t n = s.particles(s.physics()->set()).owned(),
+                    lanes = static_cast<std::size_t>(s.lists().lanes());
   columns[0].values.resize(n * static_cast<std::size_t>(s.scene().dim));
   columns[1].values.resize(n);
   Smoother smoother(s);
-  for (const RowRange& range : s.sets().front().ranges)
+  for (const RowRange& range : s.sets()[s.physics()->set()].ranges)
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t k = i - range.first;
       const auto block = s.lists().block(range.first_block + k / lanes);

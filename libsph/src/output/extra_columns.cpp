@@ -23,7 +23,8 @@ std::vector<ExtraColumn> grain_columns() {
 /// stress and coordination of this rank's grains.
 std::vector<ExtraColumn> grain_columns(const Simulation& s) {
   std::vector<ExtraColumn> columns = grain_columns();
-  const std::size_t owned = s.particles().owned();
+  const Particles& grains = s.particles(s.grains()->set());
+  const std::size_t owned = grains.owned();
   const double quantum = s.grains()->torque_quantum();
   std::vector<std::int64_t> sums(stress_components * owned, 0);
   columns[1].values.assign(owned, 0.0);
@@ -43,7 +44,7 @@ std::vector<ExtraColumn> grain_columns(const Simulation& s) {
   });
   columns[0].values.resize(sums.size());
   for (std::size_t row = 0; row < owned; ++row) {
-    const double r = s.particles().data<Field::radius>()[row];
+    const double r = grains.data<Field::radius>()[row];
     const double volume = 4.0 / 3.0 * std::numbers::pi * (r * r * r);
     for (std::size_t k = row * stress_components; k < (row + 1) * stress_components; ++k)
       columns[0].values[k] = static_cast<double>(sums[k]) * quantum / volume;
@@ -51,24 +52,44 @@ std::vector<ExtraColumn> grain_columns(const Simulation& s) {
   return columns;
 }
 
+/// Columns of one set, for the rows of all: 0 for the others.
+void append(std::vector<ExtraColumn> of_set, const Simulation& s, std::size_t set,
+            std::vector<ExtraColumn>& to) {
+  std::size_t before = 0, all = 0;
+  for (std::size_t k = 0; k < s.sets().size(); ++k) {
+    if (k < set) before += s.particles(k).owned();
+    all += s.particles(k).owned();
+  }
+  for (ExtraColumn& column : of_set) {
+    const auto width = static_cast<std::size_t>(column.components);
+    column.values.insert(column.values.begin(), before * width, 0.0);
+    column.values.resize(all * width, 0.0);
+    to.push_back(std::move(column));
+  }
+}
+
 }  // namespace
 
 std::vector<ExtraColumn> extra_columns(const Scene& scene) {
-  if (scene.output.average_space) return average_columns(scene);
-  return scene.output.contacts ? grain_columns() : std::vector<ExtraColumn>{};
+  std::vector<ExtraColumn> columns;
+  if (scene.output.average_space) columns = average_columns(scene);
+  if (scene.output.contacts)
+    for (ExtraColumn& column : grain_columns()) columns.push_back(std::move(column));
+  return columns;
 }
 
 std::vector<ExtraColumn> extra_columns(Simulation& s) {
-  if (s.scene().output.average_space) return averages(s);
-  if (!s.scene().output.contacts) return {};
-  s.refresh_contacts();
-  return grain_columns(s);
+  std::vector<ExtraColumn> columns;
+  if (s.scene().output.contacts) s.refresh_contacts();  // may move rows
+  if (s.scene().output.average_space) append(averages(s), s, s.physics()->set(), columns);
+  if (s.scene().output.contacts) append(grain_columns(s), s, s.grains()->set(), columns);
+  return columns;
 }
 
 ContactColumns contact_columns(const Simulation& s) {
   ContactColumns out;
   const Wrap wrap = s.wrap();
-  const std::int64_t* x = s.particles().data<Field::position>();
+  const std::int64_t* x = s.particles(s.grains()->set()).data<Field::position>();
   for_each_contact(s, [&](const ContactRecord& c) {
     if (!c.counted) return;
     out.id.push_back(c.id);

@@ -182,8 +182,10 @@ std::vector<std::uint32_t> Simulation::pairs_of_rows(std::size_t set) const {
 }
 
 void Simulation::refresh_contacts() {
-  if (stale_) rebuild();
-  stale_ = false;
+  if (stale_) {
+    rebuild();
+    stale_ = drifts_first();
+  }
   refresh_halo(grains()->reads(), parts_.grains->set());
 }
 

@@ -91,8 +91,12 @@ void Simulation::begin() {
     throw InputError(scene_.file + ": start: " + text);
   run(parts_.plan.start, global_);
   findings_.stop(comm_);
-  // The first drift may leave the skin.
-  stale_ = std::ranges::any_of(parts_.plan.drift, [](const Entry& e) {
+  stale_ = drifts_first();
+}
+
+// May the next step leave the skin before it looks at lists?
+bool Simulation::drifts_first() const {
+  return std::ranges::any_of(parts_.plan.drift, [](const Entry& e) {
     return std::ranges::any_of(e.stages, [](const Stage& s) { return bool{s.moves}; });
   });
 }

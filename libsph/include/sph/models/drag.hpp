@@ -65,11 +65,14 @@ class Drag final : public Model, public SetPair {
 
   void deposit_porosity(StepState& s, Side side);
   void fill_between_grains(const StepState& s) const;
+  void find_volumes(const Particles& fluid, std::size_t first, std::size_t last);
+  /// ... and volumes times it.
+  void find_weights(const Particles& grains, std::size_t i, const Particles& fluid);
   [[nodiscard]] FluidAround look_around(const Particles& grains, std::size_t i, const Particles& fluid,
-                                        double dt);
+                                        double dt) const;
   void push_grains(StepState& s, Side side);
   void push_fluid(StepState& s, Side side);
-  [[nodiscard]] std::int64_t part(double force, double volume, double weight, double share) const;
+  [[nodiscard]] double quanta_a_weight(double force, double share) const;
 
   const Scene* scene_;
   const SphConstants* constants_;
@@ -79,10 +82,11 @@ class Drag final : public Model, public SetPair {
   double first_step_;
   Reduction::Maximum rate_{};
   double fastest_ = 0;  ///< rate at which the fluid takes on the velocity of the grains, in this step [1/s]
-  std::vector<std::uint64_t> first_;    ///< of each grain's entries
-  std::vector<std::uint32_t> entries_;  ///< rows of the fluid, ascending by id
-  std::vector<double> kernel_;          ///< of one grain's entries
-  std::vector<std::int64_t> deposits_;  ///< of each fluid particle
+  std::vector<std::uint64_t> first_;      ///< of each grain's entries
+  std::vector<std::uint32_t> entries_;    ///< rows of the fluid, ascending by id
+  std::vector<double> kernel_, weights_;  ///< of one grain's entries
+  std::vector<double> volumes_;           ///< of the fluid's rows
+  std::vector<std::int64_t> deposits_;    ///< of each fluid particle
 };
 
 }  // namespace sph
