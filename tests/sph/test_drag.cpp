@@ -138,6 +138,21 @@ TEST(Drag, PorosityOfAPacking) {
     EXPECT_NEAR(rho, 1000 * (1 - solid), 2);
 }
 
+// Springs as soft as that let grains lie in each other until nothing is left for the fluid.
+TEST(Drag, NoFluidIsLeftBetweenGrainsThatLieInEachOther) {
+  const Scene scene = parse_scene(box("diameter = 0.0004\n",
+                                      "lower = [0.003, 0.003, 0.003]\nupper = [0.009, 0.009, 0.009]\n"
+                                      "spacing = 0.0003001\n"),
+                                  "crowd", {"contact.largest_overlap=0.5"});
+  try {
+    const Simulation s(world(), scene);
+    FAIL() << "it began";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("of its volume for itself, less than 0.1"), std::string::npos)
+        << error.what();
+  }
+}
+
 const char* const moving_grains = "diameter = [0.0005, 0.0007]\n";
 const char* const moving_lattice = "lower = [0, 0, 0.002]\nupper = [0.013, 0.012, 0.009]\nspacing = 0.0008\n";
 

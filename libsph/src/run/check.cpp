@@ -228,7 +228,9 @@ std::string drag_text(const Scene& scene, const Parts& parts) {
     if (g.grain.least_radius > 0) least = std::min(least, 2 * g.grain.least_radius);
   const double h = scene.smoothing_length;
   std::string out = fmt::format(
-      "drag: {}, h is {:.3g} to {:.3g} diameters; in a packed bed it allows time steps up to {:.3g} s\n",
+      "drag: {}, h is {:.3g} to {:.3g} diameters; in a packed bed it allows time steps up to {:.3g} s, like "
+      "the "
+      "first of a run\n",
       scene.drag.law->word, h / largest, h / least, parts.drag->bed_step());
   if (h < 1.5 * largest)
     out +=

@@ -163,7 +163,8 @@ void Simulation::settle() {
     return;
   }
   run(parts_.plan.settle, global_);
-  findings_.stop(comm_);
+  if (const std::string text = findings_.agree(comm_); !text.empty())
+    throw InputError(scene_.file + ": start: " + text);
   for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
   run(parts_.plan.start, global_);
 }
