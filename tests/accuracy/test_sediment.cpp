@@ -1,4 +1,4 @@
-// Grains in a fluid against the flows that are known: one grain (Stokes; Hasimoto 1959 for its images), beds
+// Grains in a fluid against the flows that are known: one grain (Stokes; Hasimoto 1959 for its images; any Re), beds
 // (the drag law they are given), a suspension that settles (Richardson & Zaki 1954), a grain as heavy as the fluid.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -106,6 +106,35 @@ TEST(Sediment, OneGrainIsDraggedAsStokesHasIt) {
   EXPECT_NEAR(PINNED(drag_of_one(0.2, here, true)), 1, 0.01);
   // What the correction is worth.
   EXPECT_LT(PINNED(drag_of_one(0.6, here, false)), 0.85);
+}
+
+/// Drag on one grain over that of Di Felice's law, in a flow that meets it for the first time: its wake has not yet
+/// come round through the period.
+double drag_at(double reynolds, double diameter) {
+  constexpr double speed = 0.01;
+  const double eta = 1000 * speed * diameter / reynolds;
+  const double law = DiFeliceDrag::resistance({1, speed, 1000, eta, diameter}) * speed;
+  const std::string at = "lower = [7.1, 7.2, 7.4]\nupper = [8.1, 8.2, 8.4]\nspacing = 1";
+  Simulation s(self(), parse_scene(flow("di_felice", diameter, at, eta, 20 * speed,
+                                        law / (1000 * length * length * length), speed),
+                                   "one", {}));
+  double force = 0, mean = 0;
+  int n = 0;
+  while (s.global().time < 0.6 * length / speed) {
+    s.step();
+    if (s.global().time < 0.3 * length / speed) continue;
+    force += force_on_grains(s);
+    mean += mean_speed(s);
+    ++n;
+  }
+  mean /= n;
+  return force / n / (DiFeliceDrag::resistance({1, mean, 1000, eta, diameter}) * mean);
+}
+
+TEST(Sediment, OneGrainIsDraggedByItsLawAtAnyReynoldsNumber) {
+  for (const double reynolds : {1.0, 10.0, 100.0})
+    for (const double diameter : {0.6, 0.3})
+      EXPECT_NEAR(PINNED(drag_at(reynolds, diameter)), 1, 0.02) << reynolds;
 }
 
 /// Force on the grains of a bed over that of the law at the mean speed. A lattice has none of the fluctuations by which
