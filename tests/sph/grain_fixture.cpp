@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sph/checkpoint.hpp"
+
 namespace sph::test {
 
 StartFile::StartFile(const decomp::Comm& comm, const std::vector<StartGrain>& grains)
@@ -45,6 +47,15 @@ GrainNow grain(const Simulation& s, std::uint64_t id) {
   }
   s.comm().max(all);
   return {{all[0], all[1], all[2]}, {all[3], all[4], all[5]}, {all[6], all[7], all[8]}};
+}
+
+std::unique_ptr<Simulation> through_a_checkpoint(const Simulation& s, const std::filesystem::path& folder) {
+  const decomp::Payload contacts = s.contacts();
+  std::vector<std::string> groups;
+  for (const Group& g : s.scene().groups) groups.push_back(g.name);
+  write_checkpoint(s.comm(), folder, s.particles(), &contacts, {s.global(), s.scale(), "", "{}"}, s.wrap(),
+                   {"", s.fingerprint(), groups}, 1);
+  return std::make_unique<Simulation>(s.comm(), s.scene(), find_checkpoint(s.comm(), folder));
 }
 
 }  // namespace sph::test

@@ -1,6 +1,8 @@
 // Scenes of grains made from TOML text, and what tests of whole runs ask of them.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,5 +38,9 @@ struct GrainNow {
   Double3 x, v, w;
 };
 [[nodiscard]] GrainNow grain(const Simulation& simulation, std::uint64_t id);
+
+/// The simulation as it goes on from a checkpoint of its state, which is written to `folder`. Collective.
+[[nodiscard]] std::unique_ptr<Simulation> through_a_checkpoint(const Simulation& simulation,
+                                                               const std::filesystem::path& folder);
 
 }  // namespace sph::test

@@ -7,7 +7,6 @@
 
 #include "grain_fixture.hpp"
 #include "output/extra_columns.hpp"
-#include "sph/checkpoint.hpp"
 #include "sph/drag/di_felice.hpp"
 #include "sph/drag/gidaspow.hpp"
 #include "sph/drag/stokes.hpp"
@@ -243,10 +242,7 @@ TEST(Drag, RestartsDoToo) {
   for (std::size_t k = 0; k < steps; ++k) {
     s->step();
     if (k % 16 != 3) continue;
-    const decomp::Payload contacts = s->contacts();
-    write_checkpoint(world(), dir.path(), s->particles(), &contacts, {s->global(), s->scale(), "", "{}"},
-                     s->wrap(), {"", s->fingerprint(), {"water", "sand"}}, 1);
-    s = std::make_unique<Simulation>(world(), scene, find_checkpoint(world(), dir.path()));
+    s = test::through_a_checkpoint(*s, dir.path());
     ASSERT_EQ(s->fingerprint(), expected()[k]) << k;
   }
   EXPECT_EQ(s->fingerprint(), expected().back());

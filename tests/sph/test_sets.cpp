@@ -6,7 +6,6 @@
 #include <map>
 
 #include "grain_fixture.hpp"
-#include "sph/checkpoint.hpp"
 #include "state_fixture.hpp"
 
 namespace sph {
@@ -184,10 +183,7 @@ TEST(Sets, RestartsDoToo) {
   for (std::size_t k = 0; k < steps; ++k) {
     s->step();
     if (k % 16 != 7) continue;
-    const decomp::Payload contacts = s->contacts();
-    write_checkpoint(world(), dir.path(), s->particles(), &contacts, {s->global(), s->scale(), "", "{}"},
-                     s->wrap(), {"", s->fingerprint(), {"water", "sand"}}, 1);
-    s = std::make_unique<Simulation>(world(), scene, find_checkpoint(world(), dir.path()));
+    s = test::through_a_checkpoint(*s, dir.path());
     ASSERT_EQ(s->fingerprint(), expected()[k]) << k;
   }
   EXPECT_EQ(s->fingerprint(), expected().back());

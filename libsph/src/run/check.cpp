@@ -155,8 +155,8 @@ std::string memory_text(const Scene& scene, const Parts& parts, const MemoryNeed
                        bytes_of(halo, dim), listed(halo, dim));
   }
   out += fmt::format("memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
-                     bytes_text(need.bytes), scene.of_grains() ? "contacts" : "lists", need.listed,
-                     scene.of_grains() ? "a grain" : "neighbours", need.cells);
+                     bytes_text(need.bytes), parts.physics ? "lists" : "contacts", need.listed,
+                     parts.physics ? "neighbours" : "a grain", need.cells);
   if (const std::string problem = memory_problem(need, machine); !problem.empty())
     out += "warning: " + problem + ": it would not run here\n";
   return out;

@@ -51,13 +51,13 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
   need.particles = static_cast<double>(count.all);
   need.cells = 1;
   for (const std::int64_t n : grid.cells()) need.cells *= static_cast<double>(n);
-  double grains = scene.of_grains() ? need.particles : 0;
-  for (std::size_t g = 0; scene.is_mixture() && g < scene.groups.size(); ++g)
+  double grains = parts.physics ? 0 : need.particles;  // of a file they are not counted by group
+  for (std::size_t g = 0; parts.physics && parts.grains && g < scene.groups.size(); ++g)
     if (scene.groups[g].kind == GroupKind::grain) grains += static_cast<double>(count.by_group[g]);
   // Kernels of a gas are mostly as wide as at the start, and lists go by each.
   const double range = scene.has_eos(EosKind::ideal_gas) ? scene.kernel_radius() : scene.list_range();
   const double neighbours =
-      scene.has_matter() ? neighbours_within(scene, range + scene.support() * scene.decomposition.skin) : 0;
+      parts.physics ? neighbours_within(scene, range + scene.support() * scene.decomposition.skin) : 0;
   const bool dense = 4 * need.cells < 1e18 && Occupied::dense(static_cast<std::size_t>(4 * need.cells),
                                                               static_cast<std::size_t>(count.all));
   for (const Parts::Set& set : parts.sets) {
@@ -74,7 +74,7 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
     }
     need.bytes += (of_grains ? grains : need.particles - grains) * of_particle;
   }
-  need.listed = scene.of_grains() ? contacts_of_grain : neighbours;
+  need.listed = parts.physics ? neighbours : contacts_of_grain;
   need.bytes += dense ? need.cells * bytes_of_cell : 0;
   return need;
 }
