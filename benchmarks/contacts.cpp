@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "program.hpp"
-#include "sph/contact/hertz.hpp"
-#include "sph/contact/linear.hpp"
-#include "sph/contact_pass.hpp"
-#include "sph/error.hpp"
-#include "sph/simulation.hpp"
+#include "sph/core/error.hpp"
+#include "sph/laws/contact/hertz.hpp"
+#include "sph/laws/contact/linear.hpp"
+#include "sph/pairs/contact_pass.hpp"
+#include "sph/step/simulation.hpp"
 #include "timing.hpp"
 
 namespace {

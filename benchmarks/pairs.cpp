@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "program.hpp"
-#include "sph/fusions.hpp"
-#include "sph/simd.hpp"
-#include "sph/simulation.hpp"
+#include "sph/core/simd.hpp"
+#include "sph/pairs/fusions.hpp"
+#include "sph/step/simulation.hpp"
 #include "timing.hpp"
 
 namespace {

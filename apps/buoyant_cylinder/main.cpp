@@ -1,5 +1,5 @@
 // Ida's buoyant cylinder in magma: elastic (solid.toml), fluid (fluid.toml), bubbly (gas.toml).
-#include "sph/command_line.hpp"
+#include "sph/run/command_line.hpp"
 
 int main(int argc, char** argv) {
   const sph::Application application{

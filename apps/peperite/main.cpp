@@ -1,4 +1,4 @@
 // peperite: runs, checks, resumes, describes and compares.
-#include "sph/command_line.hpp"
+#include "sph/run/command_line.hpp"
 
 int main(int argc, char** argv) { return sph::tool_main(argc, argv); }

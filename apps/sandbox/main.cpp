@@ -1,5 +1,5 @@
 // Sand between two walls, one of which pushes: a wedge of thrusts. Cases: sandbox.toml, sandbox_fine.toml.
-#include "sph/command_line.hpp"
+#include "sph/run/command_line.hpp"
 
 int main(int argc, char** argv) {
   const sph::Application application{

@@ -28,7 +28,7 @@ def settings(n):
 
 
 def bubbly_pressure(density, group):
-    """p of a bubbly fluid, as in libsph/src/physics/eos.cpp with solubility exponent 1, from a table of rho(p)."""
+    """p of a bubbly fluid, as in libsph/src/laws/bubbly.cpp with solubility exponent 1, from a table of rho(p)."""
     rho0, k, m, rt, ps = (group[key] for key in ("density", "bulk_modulus", "gas_content", "gas_rt",
                                                  "solubility_pressure"))
     p = np.concatenate([np.geomspace(1e3, 0.999 * m * ps, 4000), np.linspace(m * ps, 20 * m * ps, 4000)])

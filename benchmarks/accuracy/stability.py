@@ -18,7 +18,7 @@ import numpy as np
 
 from runs import Run, environment, here, source, write_start
 
-LIMIT = 1.2  # courant_limit of sph/physics.hpp
+LIMIT = 1.2  # courant_limit of sph/models/physics.hpp
 
 
 def kinetic(run):

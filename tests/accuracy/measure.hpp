@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "sph/kernels.hpp"
-#include "sph/scene.hpp"
-#include "sph/simulation.hpp"
+#include "sph/core/kernels.hpp"
+#include "sph/scene/scene.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace measure {
 

@@ -3,7 +3,7 @@
 
 #include "accuracy/bodies.hpp"
 #include "accuracy/pinned.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/output/snapshot.hpp"
 
 namespace {
 

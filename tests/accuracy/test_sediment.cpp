@@ -5,8 +5,8 @@
 
 #include "measure.hpp"
 #include "pinned.hpp"
-#include "sph/drag/di_felice.hpp"
-#include "sph/drag/gidaspow.hpp"
+#include "sph/laws/drag/di_felice.hpp"
+#include "sph/laws/drag/gidaspow.hpp"
 
 namespace {
 

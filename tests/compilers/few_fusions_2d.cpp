@@ -1,5 +1,5 @@
-// What the scenes of this folder need of src/fusions_2d_*.cpp: compiled in a fraction of the time.
-#include "pairs/fusion_list.hpp"
+// What the scenes of this folder need of libsph/src/terms/fusions_2d_*.cpp: compiled in a fraction of the time.
+#include "terms/fusion_list.hpp"
 
 namespace sph {
 namespace {

@@ -1,5 +1,5 @@
-// What the scenes of this folder need of src/fusions_3d_*.cpp.
-#include "pairs/fusion_list.hpp"
+// What the scenes of this folder need of libsph/src/terms/fusions_3d_*.cpp.
+#include "terms/fusion_list.hpp"
 
 namespace sph {
 namespace {

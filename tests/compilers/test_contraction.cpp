@@ -3,7 +3,7 @@
 #include <cstring>
 #include <exception>
 
-#include "sph/self_check.hpp"
+#include "sph/run/self_check.hpp"
 
 int main(int argc, char** argv) {
   if (argc > 1) {

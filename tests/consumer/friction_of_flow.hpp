@@ -1,7 +1,7 @@
 // A pair term of the consumer's own: neighbours brake each other, a_i = s sum_j V_j (-W'/r h) (v_j - v_i).
 #pragma once
 
-#include "sph/added_term.hpp"
+#include "sph/terms/added_term.hpp"
 
 struct FlowFriction {
   static constexpr std::string_view name = "FlowFriction", word = "flow_friction";

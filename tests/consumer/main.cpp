@@ -10,8 +10,8 @@
 #include "decomp/comm.hpp"
 #include "friction_of_flow.hpp"
 #include "schiller_naumann.hpp"
-#include "sph/scene.hpp"
-#include "sph/simulation.hpp"
+#include "sph/scene/scene.hpp"
+#include "sph/step/simulation.hpp"
 #include "stiffening.hpp"
 #include "tait.hpp"
 

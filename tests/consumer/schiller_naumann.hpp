@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "sph/drag/registry.hpp"
-#include "sph/exact_math.hpp"
+#include "sph/core/exact_math.hpp"
+#include "sph/laws/drag/registry.hpp"
 
 struct SchillerNaumann {
   static constexpr std::string_view word = "schiller_naumann";

@@ -2,7 +2,7 @@
 // overlap that a contact has had, on which nothing depends but the bits of its history.
 #pragma once
 
-#include "sph/contact/registry.hpp"
+#include "sph/laws/contact/registry.hpp"
 
 struct Stiffening : sph::NormalLaw {
   static constexpr std::string_view word = "stiffening", name = "stiffening";

@@ -2,8 +2,8 @@
 // (Cole 1948: 7 for water).
 #pragma once
 
-#include "sph/eos/registry.hpp"
-#include "sph/exact_math.hpp"
+#include "sph/core/exact_math.hpp"
+#include "sph/laws/eos/registry.hpp"
 
 struct Tait : sph::BarotropicLaw {
   static constexpr std::string_view word = "tait";

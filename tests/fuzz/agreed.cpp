@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "sph/error.hpp"
+#include "sph/core/error.hpp"
 
 namespace fuzz {
 namespace {

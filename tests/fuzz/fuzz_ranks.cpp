@@ -22,9 +22,9 @@
 #include "../system/saved_state.hpp"
 #include "../system/shuffled_start.hpp"
 #include "agreed.hpp"
-#include "scene/keys/all_keys.hpp"
-#include "scene/keys/law_keys.hpp"
-#include "sph/checkpoint.hpp"
+#include "keys/all_keys.hpp"
+#include "keys/law_keys.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
 
 namespace {
 
@@ -89,7 +89,7 @@ class Bench {
       if (std::binary_search(compared.begin(), compared.end(), step))
         outcome.fingerprints[std::to_string(step)] = simulation.fingerprint();
     }
-    outcome.rebuilds += simulation.counters().rebuilds;
+    outcome.rebuilds += simulation.rebuilds();
     outcome.migrated += simulation.distribution().migrated();
   }
 

@@ -62,6 +62,6 @@ def libm(root):
             continue
         source = code(path)
         for match in LIBM.finditer(source):
-            yield f"{at(root, path, source, match.start())}: {match[1]}: use sph/exact_math.hpp"
+            yield f"{at(root, path, source, match.start())}: {match[1]}: use sph/core/exact_math.hpp"
         for match in APPROXIMATE.finditer(source):
             yield f"{at(root, path, source, match.start())}: {match[0]} differs between CPUs"

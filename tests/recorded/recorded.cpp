@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "decomp/comm.hpp"
-#include "sph/scene.hpp"
-#include "sph/self_check.hpp"
-#include "sph/simulation.hpp"
+#include "sph/run/self_check.hpp"
+#include "sph/scene/scene.hpp"
+#include "sph/step/simulation.hpp"
 #include "system/matrix_scenes.hpp"
 
 namespace {

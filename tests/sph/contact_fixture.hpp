@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "sph/contact/contact.hpp"
-#include "sph/contact/friction.hpp"
-#include "sph/contact/hertz.hpp"
-#include "sph/contact/linear.hpp"
-#include "sph/contact/rolling.hpp"
-#include "sph/contact_pass.hpp"
-#include "sph/simd.hpp"
+#include "sph/core/simd.hpp"
+#include "sph/laws/contact/hertz.hpp"
+#include "sph/laws/contact/linear.hpp"
+#include "sph/pairs/contact.hpp"
+#include "sph/pairs/contact_pass.hpp"
+#include "sph/pairs/friction.hpp"
+#include "sph/pairs/rolling.hpp"
 
 namespace sph::test {
 

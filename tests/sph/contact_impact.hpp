@@ -4,9 +4,9 @@
 #include <array>
 
 #include "contact_fixture.hpp"
-#include "sph/contact/restitution.hpp"
-#include "sph/contact/time_step.hpp"
-#include "sph/contact_pass.hpp"
+#include "sph/laws/contact/restitution.hpp"
+#include "sph/laws/contact/time_step.hpp"
+#include "sph/pairs/contact_pass.hpp"
 
 namespace sph::test {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "contact_symmetry.hpp"
-#include "sph/contact/law.hpp"
+#include "sph/laws/contact/law.hpp"
 
 namespace sph::test {
 

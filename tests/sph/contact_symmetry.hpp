@@ -9,7 +9,7 @@
 #include <random>
 
 #include "contact_fixture.hpp"
-#include "sph/contact/law.hpp"
+#include "sph/laws/contact/law.hpp"
 
 namespace sph::test {
 

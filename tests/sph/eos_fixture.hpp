@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "sph/eos/law.hpp"
+#include "sph/laws/eos/law.hpp"
 #include "start/hydrostatic.hpp"
 
 namespace sph::test {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sph/checkpoint.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
 
 namespace sph::test {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "decomp/comm.hpp"
-#include "sph/monitors.hpp"
-#include "sph/simulation.hpp"
+#include "sph/output/monitors.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph::test {
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <numbers>
 
+#include "files/hdf5_file.hpp"
 #include "output/extra_columns.hpp"  // private: what snapshots are made of
-#include "output/hdf5_file.hpp"
-#include "sph/monitors.hpp"
+#include "sph/output/monitors.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "physics/random.hpp"
+#include "core/random.hpp"
 
 namespace sph::test {
 namespace {

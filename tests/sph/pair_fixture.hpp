@@ -9,8 +9,8 @@
 
 #include "decomp/grid.hpp"
 #include "decomp/timer.hpp"
-#include "sph/fusions.hpp"
 #include "sph/models/sph_constants.hpp"
+#include "sph/pairs/fusions.hpp"
 
 namespace sph::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sph/kernels.hpp"
+#include "sph/core/kernels.hpp"
 
 namespace sph::test {
 namespace {
@@ -134,7 +134,7 @@ double PairOracle::moment(int exponent) const {
 
 double PairOracle::layer(const PairParticle& p) const {
   const double share = p.side != 0 ? h_ * p.colour.norm() : 0.0;
-  constexpr double least = 0.02;  // what sph/pair_rows.hpp takes for noise
+  constexpr double least = 0.02;  // what sph/pairs/pair_rows.hpp takes for noise
   return share > least ? share : 0.0;
 }
 Vec PairOracle::normal(const PairParticle& p) const {

@@ -15,7 +15,7 @@
 
 #include "decomp/comm.hpp"
 #include "decomp/table.hpp"
-#include "sph/particles.hpp"
+#include "sph/core/particles.hpp"
 
 namespace sph::test {
 

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "grain_fixture.hpp"
-#include "sph/parts.hpp"
+#include "sph/models/parts.hpp"
 
 namespace sph {
 namespace {

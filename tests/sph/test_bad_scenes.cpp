@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sph/scene.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace {
 

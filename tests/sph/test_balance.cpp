@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 namespace {

@@ -1,6 +1,6 @@
 // Birch and Murnaghan's equation of state. Bits over ranks: hydrostatic.toml with it in tests/recorded.
 #include "eos_fixture.hpp"
-#include "sph/eos/birch_murnaghan.hpp"
+#include "sph/laws/eos/birch_murnaghan.hpp"
 
 namespace sph {
 

@@ -7,9 +7,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "sph/checkpoint.hpp"
-#include "sph/error.hpp"
-#include "sph/fingerprint.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
+#include "sph/core/error.hpp"
+#include "sph/core/fingerprint.hpp"
+#include "sph/inspect/inspect.hpp"
+#include "sph/output/snapshot.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "contact_fixture.hpp"
-#include "sph/contact/restitution.hpp"
-#include "sph/contact/time_step.hpp"
+#include "sph/laws/contact/restitution.hpp"
+#include "sph/laws/contact/time_step.hpp"
 
 namespace sph {
 namespace {

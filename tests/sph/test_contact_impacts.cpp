@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "contact_impact.hpp"
-#include "sph/contact/time_step.hpp"
+#include "sph/laws/contact/time_step.hpp"
 
 namespace sph {
 namespace {

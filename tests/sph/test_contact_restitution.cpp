@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "contact_fixture.hpp"
-#include "sph/contact/restitution.hpp"
-#include "sph/contact/time_step.hpp"
-#include "sph/error.hpp"
+#include "sph/core/error.hpp"
+#include "sph/laws/contact/restitution.hpp"
+#include "sph/laws/contact/time_step.hpp"
 
 namespace sph {
 namespace {

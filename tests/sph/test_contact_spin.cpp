@@ -4,7 +4,7 @@
 #include <array>
 
 #include "contact_impact.hpp"
-#include "sph/contact/time_step.hpp"
+#include "sph/laws/contact/time_step.hpp"
 
 namespace sph {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/damping_limit.hpp"
-#include "sph/simulation.hpp"
+#include "models/damping_limit.hpp"
+#include "sph/step/simulation.hpp"
 #include "start/start_sounds.hpp"
 
 namespace sph::test {

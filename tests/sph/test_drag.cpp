@@ -7,10 +7,10 @@
 
 #include "grain_fixture.hpp"
 #include "output/extra_columns.hpp"
-#include "sph/drag/di_felice.hpp"
-#include "sph/drag/gidaspow.hpp"
-#include "sph/drag/stokes.hpp"
-#include "sph/error.hpp"
+#include "sph/core/error.hpp"
+#include "sph/laws/drag/di_felice.hpp"
+#include "sph/laws/drag/gidaspow.hpp"
+#include "sph/laws/drag/stokes.hpp"
 #include "state_fixture.hpp"
 
 namespace sph {

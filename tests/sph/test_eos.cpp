@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "sph/eos/bubbly.hpp"
-#include "sph/eos/ideal_gas.hpp"
+#include "sph/laws/eos/bubbly.hpp"
+#include "sph/laws/eos/ideal_gas.hpp"
 
 namespace {
 

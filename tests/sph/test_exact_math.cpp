@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "sph/exact_math.hpp"
+#include "sph/core/exact_math.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sph/fingerprint.hpp"
+#include "sph/core/fingerprint.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "sph/error.hpp"
-#include "sph/simulation.hpp"
+#include "sph/core/error.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 namespace {

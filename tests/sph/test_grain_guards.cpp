@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "grain_fixture.hpp"
-#include "physics/stability.hpp"
-#include "sph/error.hpp"
-#include "sph/findings.hpp"
+#include "models/stability.hpp"
+#include "sph/core/error.hpp"
+#include "sph/core/findings.hpp"
 
 namespace sph {
 namespace {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "grain_output_fixture.hpp"
+#include "sph/inspect/inspect.hpp"
 
 namespace sph::test {
 namespace {

@@ -4,7 +4,8 @@
 #include <sstream>
 
 #include "grain_output_fixture.hpp"
-#include "sph/checkpoint.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
+#include "sph/inspect/inspect.hpp"
 
 namespace sph::test {
 namespace {
@@ -69,7 +70,7 @@ TEST_F(GrainOutput, LooksAtContactsWithoutATrace) {
     EXPECT_EQ(values, Monitors(other).values(other)) << "lists of another skin";
   }
   EXPECT_EQ(seen.fingerprint(), unseen.fingerprint());
-  EXPECT_GT(other.counters().rebuilds, unseen.counters().rebuilds);
+  EXPECT_GT(other.rebuilds(), unseen.rebuilds());
 }
 
 TEST_F(GrainOutput, DifferencesOfContactsAndWalls) {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "grain_fixture.hpp"
-#include "sph/contact/hertz.hpp"
-#include "sph/contact/linear.hpp"
+#include "sph/laws/contact/hertz.hpp"
+#include "sph/laws/contact/linear.hpp"
 
 namespace sph {
 namespace {

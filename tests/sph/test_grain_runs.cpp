@@ -10,6 +10,7 @@
 
 #include "grain_fixture.hpp"
 #include "run/cost.hpp"
+#include "sph/laws/contact/law.hpp"
 
 namespace sph {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "sph/contact/law.hpp"
-#include "sph/scene.hpp"
+#include "sph/laws/contact/law.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "grain_fixture.hpp"
-#include "sph/checkpoint.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
 #include "state_fixture.hpp"
 
 namespace sph {

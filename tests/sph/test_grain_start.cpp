@@ -5,12 +5,12 @@
 #include <fstream>
 #include <map>
 
-#include "sph/distribution.hpp"
-#include "sph/fingerprint.hpp"
-#include "sph/grain_mass.hpp"
-#include "sph/parts.hpp"
-#include "sph/placement.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/core/fingerprint.hpp"
+#include "sph/models/parts.hpp"
+#include "sph/output/snapshot.hpp"
+#include "sph/plan/distribution.hpp"
+#include "sph/scene/grain_mass.hpp"
+#include "sph/start/placement.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {

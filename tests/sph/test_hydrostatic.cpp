@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "sph/eos/bubbly.hpp"
-#include "sph/error.hpp"
-#include "sph/exact_math.hpp"
+#include "sph/core/error.hpp"
+#include "sph/core/exact_math.hpp"
+#include "sph/laws/eos/bubbly.hpp"
 #include "start/hydrostatic.hpp"
 
 namespace sph {

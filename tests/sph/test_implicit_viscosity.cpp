@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "sph/kernels.hpp"
-#include "sph/simulation.hpp"
-#include "sph/wall_distance.hpp"
+#include "sph/core/kernels.hpp"
+#include "sph/models/wall_distance.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "sph/kernels.hpp"
+#include "sph/core/kernels.hpp"
 
 namespace {
 

@@ -11,11 +11,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "scene/keys/all_keys.hpp"
-#include "scene/keys/law_keys.hpp"
-#include "scene/keys/reference.hpp"
-#include "scene/toml_tree.hpp"
-#include "sph/scene.hpp"
+#include "keys/all_keys.hpp"
+#include "keys/law_keys.hpp"
+#include "keys/reference.hpp"
+#include "keys/toml_tree.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace {
 

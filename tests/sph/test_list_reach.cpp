@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "physics/random.hpp"
-#include "sph/error.hpp"
-#include "sph/simulation.hpp"
+#include "core/random.hpp"
+#include "sph/core/error.hpp"
+#include "sph/step/simulation.hpp"
 #include "state_fixture.hpp"
 
 namespace sph {

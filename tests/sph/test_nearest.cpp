@@ -1,7 +1,7 @@
 // Which valid word a misspelt one may have meant.
 #include <gtest/gtest.h>
 
-#include "scene/nearest.hpp"
+#include "core/nearest.hpp"
 
 namespace sph {
 namespace {

@@ -10,11 +10,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/random.hpp"
 #include "pairs/list_slack.hpp"
-#include "physics/random.hpp"
-#include "sph/distribution.hpp"
-#include "sph/fusions.hpp"
 #include "sph/models/sph_constants.hpp"
+#include "sph/pairs/fusions.hpp"
+#include "sph/plan/distribution.hpp"
 
 namespace sph {
 namespace {

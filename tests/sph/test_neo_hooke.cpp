@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "sph/neo_hooke.hpp"
+#include "sph/laws/neo_hooke.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include "decomp/poison.hpp"
 #include "pairs/poison_rows.hpp"
-#include "sph/fusions.hpp"
-#include "sph/simulation.hpp"
+#include "sph/pairs/fusions.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 namespace {

@@ -3,8 +3,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "sph/error.hpp"
-#include "sph/report.hpp"
+#include "sph/core/error.hpp"
+#include "sph/files/provenance.hpp"
+#include "sph/run/report.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace {
 

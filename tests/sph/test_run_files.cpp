@@ -9,9 +9,9 @@
 #include <fstream>
 #include <numeric>
 
-#include "output/hdf5_file.hpp"
-#include "output/memory_file.hpp"
-#include "output/trial.hpp"
+#include "files/hdf5_file.hpp"
+#include "files/memory_file.hpp"
+#include "inspect/trial.hpp"
 #include "run/run_directory.hpp"
 #include "run/run_lock.hpp"
 #include "state_fixture.hpp"

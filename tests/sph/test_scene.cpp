@@ -14,7 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "sph/scene.hpp"
+#include "sph/laws/eos/law.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace {
 
@@ -100,7 +101,7 @@ TEST(Scene, DerivedValues) {
   EXPECT_EQ(s.groups[0].viscosity, 500);
   EXPECT_TRUE(s.has_kind(sph::GroupKind::wall));
   EXPECT_FALSE(s.has_kind(sph::GroupKind::solid));
-  EXPECT_FALSE(s.has_eos(sph::EosKind::bubbly));
+  EXPECT_FALSE(has_eos(s, sph::EosKind::bubbly));
 }
 
 TEST(Scene, SolidFromPoissonsRatio) {
@@ -261,7 +262,7 @@ TEST(Scene, IdealGasHasDefaultsOfItsOwn) {
   const Options gas{"group.melt.sound_speed=", "group.melt.eos=ideal_gas", "group.melt.heat_ratio=1.4",
                     "group.melt.start_pressure=2 bar"};
   const sph::Scene s = parse(small, gas);
-  EXPECT_TRUE(s.has_eos(sph::EosKind::ideal_gas));
+  EXPECT_TRUE(has_eos(s, sph::EosKind::ideal_gas));
   EXPECT_EQ(s.groups[1].bulk_modulus, 1.4 * 2e5);
   EXPECT_EQ(s.groups[0].bulk_modulus, s.groups[1].bulk_modulus);
   EXPECT_EQ(s.groups[0].eos, sph::linear_eos());

@@ -5,8 +5,8 @@
 
 #include <cfenv>
 
-#include "sph/error.hpp"
-#include "sph/self_check.hpp"
+#include "sph/core/error.hpp"
+#include "sph/run/self_check.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "sph/error.hpp"
-#include "sph/series.hpp"
+#include "sph/core/error.hpp"
+#include "sph/output/series.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {

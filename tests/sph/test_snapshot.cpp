@@ -5,10 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "output/hdf5_file.hpp"  // private: the tests look at what is on disk
-#include "sph/error.hpp"
-#include "sph/fingerprint.hpp"
-#include "sph/snapshot.hpp"
+#include "files/hdf5_file.hpp"  // private: the tests look at what is on disk
+#include "sph/core/error.hpp"
+#include "sph/core/fingerprint.hpp"
+#include "sph/inspect/inspect.hpp"
+#include "sph/output/snapshot.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {

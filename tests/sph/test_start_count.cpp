@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "run/memory_need.hpp"
-#include "sph/distribution.hpp"
-#include "sph/parts.hpp"
-#include "sph/placement.hpp"
+#include "sph/models/parts.hpp"
+#include "sph/plan/distribution.hpp"
+#include "sph/start/placement.hpp"
 #include "start/start_count.hpp"
 #include "state_fixture.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sph/stress_update.hpp"
+#include "sph/models/stress_update.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace {
 

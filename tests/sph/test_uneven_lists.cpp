@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 namespace {
@@ -60,7 +60,7 @@ TEST(UnevenLists, hold_every_pair_within_the_kernel_of_either) {
     unlike += pairs.unlike;
   }
   EXPECT_GT(comm.sum(unlike), 1000);
-  EXPECT_LT(s.counters().rebuilds, 31);
+  EXPECT_LT(s.rebuilds(), 31);
 }
 
 }  // namespace

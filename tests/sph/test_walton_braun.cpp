@@ -1,8 +1,8 @@
 // The latched springs of Walton & Braun. Bits over ranks and restarts: the scene "latched" of tests/system.
 #include "contact_law_checks.hpp"
 #include "grain_fixture.hpp"
-#include "sph/contact/walton_braun.hpp"
-#include "sph/contact_records.hpp"
+#include "sph/laws/contact/walton_braun.hpp"
+#include "sph/output/contact_records.hpp"
 
 namespace sph {
 namespace {

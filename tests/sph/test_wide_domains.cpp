@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "pairs/occupied.hpp"
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 namespace {

@@ -7,8 +7,9 @@
 #include "random_cuts.hpp"
 #include "saved_state.hpp"
 #include "shuffled_start.hpp"
-#include "sph/checkpoint.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
+#include "sph/inspect/inspect.hpp"
+#include "sph/output/snapshot.hpp"
 
 namespace equivalence {
 namespace {
@@ -130,11 +131,11 @@ Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
     if (comm.max(std::int64_t{differs}) == 0) continue;
     write_state(run_dir(row) / "row.h5", *simulation);
     mismatch_step_ = step;
-    return {"step " + std::to_string(step), simulation->counters().rebuilds};
+    return {"step " + std::to_string(step), simulation->rebuilds()};
   }
   if (leg.to - leg.from >= 100) check_shared_out(*simulation, shared);
   if (leg.to < c.steps.back()) write_restart(run_dir(row), *simulation, 0);
-  Outcome outcome{"", simulation->counters().rebuilds};
+  Outcome outcome{"", simulation->rebuilds()};
   if (comm.rank() == 0 && !scene.decomposition.record.empty() &&
       !lines_of(scene.decomposition.replay).starts_with(lines_of(scene.decomposition.record)))
     outcome.mismatch = "the cuts do not follow the recording";

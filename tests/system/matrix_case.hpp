@@ -11,7 +11,7 @@
 #include "decomp/comm.hpp"
 #include "factors.hpp"
 #include "matrix_scenes.hpp"
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace equivalence {
 

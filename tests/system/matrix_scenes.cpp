@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sph/laws/contact/law.hpp"
+#include "sph/laws/eos/law.hpp"
+
 namespace equivalence {
 namespace {
 
@@ -133,7 +136,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   const std::uint32_t* group = particles.data<sph::Field::group>();
   const double* psi = particles.data<sph::Field::void_fraction>();
   const double* strain = particles.data<sph::Field::strain_energy>();
-  Liveliness out{simulation.counters().rebuilds};
+  Liveliness out{simulation.rebuilds()};
   if (const sph::Grains* grains = simulation.grains()) {
     out.contacts = grains->touching_pairs();
     out.contacts_begun = grains->counters().created;
@@ -172,7 +175,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     return;
   }
   if (end.unstrained > 0) quiet("a body meets no other");
-  if (!scene.has_eos(sph::EosKind::bubbly)) return;
+  if (!has_eos(scene, sph::EosKind::bubbly)) return;
   if (end.void_fraction <= 0) quiet("no gas came out of solution");
   if (end.spray <= start.spray) quiet("no particle changed its group");
 }
@@ -201,7 +204,7 @@ void check_shared_out(const sph::Simulation& simulation, std::int64_t shared) {
   const bool measured = d.cuts != sph::CutRule::fixed && d.cost == sph::CostSource::time;
   if (!random && !measured && 2 * owners <= comm.size()) fail("most ranks are without particles");
   // Few are asked for by large lists between two restarts.
-  const bool often = simulation.counters().rebuilds > 3;
+  const bool often = simulation.rebuilds() > 3;
   if (random && often && comm.sum(simulation.distribution().migrated()) == 0) fail("no particle migrated");
 }
 

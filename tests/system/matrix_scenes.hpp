@@ -5,8 +5,8 @@
 #include <string>
 
 #include "factors.hpp"
-#include "sph/scene.hpp"
-#include "sph/simulation.hpp"
+#include "sph/scene/scene.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace equivalence {
 

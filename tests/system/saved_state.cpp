@@ -1,7 +1,7 @@
 #include "saved_state.hpp"
 
-#include "sph/checkpoint.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
+#include "sph/output/snapshot.hpp"
 
 namespace equivalence {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace equivalence {
 

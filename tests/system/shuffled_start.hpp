@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace equivalence {
 

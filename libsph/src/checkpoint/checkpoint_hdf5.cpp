@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "checkpoint/checkpoint_files.hpp"
-#include "output/content_hash.hpp"
-#include "output/fill_file.hpp"
-#include "sph/report.hpp"
+#include "files/content_hash.hpp"
+#include "files/fill_file.hpp"
+#include "sph/files/provenance.hpp"
 
 namespace sph {
 namespace {

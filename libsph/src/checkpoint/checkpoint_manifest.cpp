@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "output/content_hash.hpp"
+#include "files/content_hash.hpp"
 
 namespace sph {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "output/durable_file.hpp"
-#include "sph/checkpoint.hpp"
+#include "files/durable_file.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
 
 namespace sph {
 

@@ -1,5 +1,5 @@
 #include "checkpoint/checkpoint_files.hpp"
-#include "run/agree.hpp"
+#include "files/agree.hpp"
 
 namespace sph {
 namespace {

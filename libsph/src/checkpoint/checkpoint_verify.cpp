@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "checkpoint/checkpoint_files.hpp"
-#include "output/content_hash.hpp"
+#include "files/content_hash.hpp"
 
 namespace sph {
 namespace {

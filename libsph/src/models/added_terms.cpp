@@ -2,22 +2,13 @@
 // a drift moves particles after it, with the velocities that the next step moves them with.
 #include <cmath>
 
-#include "plan/for_rows.hpp"
-#include "scene/keys/key_owners.hpp"
-#include "sph/added_term.hpp"
-#include "sph/fixed_point.hpp"
+#include "pairs/for_rows.hpp"
+#include "sph/core/fixed_point.hpp"
 #include "sph/models/models.hpp"
-#include "sph/registry.hpp"
-#include "sph/terms/xsph.hpp"
+#include "sph/terms/added_term.hpp"
 
 namespace sph {
 namespace {
-
-Registry<AddedTerm>& registry() {
-  // Outlives scenes, as that of contact laws does: filled before the first is read, constant after it.
-  static Registry<AddedTerm> terms({&added_term<Xsph>()});
-  return terms;
-}
 
 struct Accelerate {
   static constexpr FieldSet reads{Field::added, Field::mass};
@@ -69,13 +60,6 @@ void for_each_on(const Scene& scene, Effect effect, Function function) {
 }
 
 }  // namespace
-
-std::span<const AddedTerm* const> added_terms() { return registry().look(); }
-
-void register_term(const AddedTerm& term) {
-  keys::refuse_taken_term(term.word);
-  registry().add(term);
-}
 
 void add_accelerations(Builder& b) {
   for_each_on(b.scene(), Effect::acceleration, [&](const AddedTerm& t, double strength) {

@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "sph/laws/neo_hooke.hpp"
 #include "sph/models/models.hpp"
-#include "sph/neo_hooke.hpp"
 #include "sph/terms/body_contact.hpp"
 
 namespace sph {

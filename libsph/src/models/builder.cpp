@@ -1,7 +1,7 @@
 #include "sph/models/builder.hpp"
 
 #include "pairs/poison_rows.hpp"
-#include "sph/fusions.hpp"
+#include "sph/pairs/fusions.hpp"
 
 namespace sph {
 

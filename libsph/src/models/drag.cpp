@@ -8,11 +8,11 @@
 #include <limits>
 #include <numbers>
 
-#include "plan/for_rows.hpp"
-#include "sph/drag/law.hpp"
-#include "sph/fixed_point.hpp"
-#include "sph/grain_mass.hpp"
-#include "sph/kernels.hpp"
+#include "pairs/for_rows.hpp"
+#include "sph/core/fixed_point.hpp"
+#include "sph/core/kernels.hpp"
+#include "sph/laws/drag/law.hpp"
+#include "sph/scene/grain_mass.hpp"
 
 namespace sph {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sph/drag/law.hpp"
+#include "sph/laws/drag/law.hpp"
 
 namespace sph {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/gas_kernel.hpp"
 #include "models/trace.hpp"
-#include "physics/gas_kernel.hpp"
-#include "plan/for_rows.hpp"
-#include "sph/eos/ideal_gas.hpp"
+#include "pairs/for_rows.hpp"
+#include "sph/laws/eos/ideal_gas.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/gas.hpp"
 #include "sph/terms/shock.hpp"
@@ -120,6 +120,33 @@ struct Heat {
   }
 };
 
+// At the start neither density nor kernels are known: steps towards them.
+class KernelWidths final : public Settling {
+ public:
+  explicit KernelWidths(const SphConstants& constants) : constants_(&constants) {
+    prepares = {Field::density};
+    settles = {Field::smoothing_length};
+  }
+  void prepare(Particles& p) override {
+    double* density = p.data<Field::density>();
+    const double* h = p.data<Field::smoothing_length>();
+    const auto* group = p.data<Field::group>();
+    for (std::size_t i = 0; i < p.owned(); ++i)
+      if (!constants_->is_wall(group[i])) density[i] = 0;  // not summed yet: no work is done
+    before_.assign(h, h + p.owned());
+  }
+  [[nodiscard]] double change(const Particles& p) const override {
+    double most = 0;
+    const double* h = p.data<Field::smoothing_length>();
+    for (std::size_t i = 0; i < before_.size(); ++i) most = std::max(most, std::abs(h[i] / before_[i] - 1));
+    return most;
+  }
+
+ private:
+  const SphConstants* constants_;
+  std::vector<double> before_;  ///< h [m]
+};
+
 }  // namespace
 
 void look_at_gas(const SphConstants& constants, const GasView& p, std::size_t first, std::size_t last,
@@ -147,7 +174,10 @@ void add_gas(Builder& b) {
   b.add_fields({Field::smoothing_length, Field::kernel_correction, Field::velocity_gradient});
   b.add_sums("density", {term<NumberDensity>, term<GasMoments>});
   b.add_update("compression", Compression{&b.constants(), &b.materials()});
-  b.settle_with_these();
+  b.settle_with_these(std::make_shared<KernelWidths>(b.constants()));
+  // A gas may start with a jump of its pressure, and accelerations are never larger than then: the error of a
+  // first step that takes velocities as those of half a step later would stay in its energy.
+  b.begin_with_half_a_kick();
   if (b.has_walls()) add_walls(b, false);
   b.add_sums("forces", {term<GasPressure>, term<Viscosity>, term<ShockViscosity>, term<ShockHeating>});
 }

@@ -4,7 +4,7 @@
 
 #include "models/trace.hpp"
 #include "sph/models/models.hpp"
-#include "sph/stress_update.hpp"
+#include "sph/models/stress_update.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
 
 namespace sph {

@@ -2,8 +2,8 @@
 // sums of the forces; what changes a particle at the end of a step.
 #include <cmath>
 
-#include "plan/for_rows.hpp"
-#include "sph/fixed_point.hpp"
+#include "pairs/for_rows.hpp"
+#include "sph/core/fixed_point.hpp"
 #include "sph/models/models.hpp"
 
 namespace sph {

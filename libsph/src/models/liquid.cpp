@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "models/trace.hpp"
-#include "plan/for_rows.hpp"
+#include "pairs/for_rows.hpp"
 #include "sph/models/models.hpp"
-#include "sph/stress_update.hpp"
+#include "sph/models/stress_update.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
 #include "sph/terms/density_diffusion.hpp"
 #include "sph/terms/divergence.hpp"

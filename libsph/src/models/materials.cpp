@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sph/eos/law.hpp"
+#include "sph/laws/eos/law.hpp"
 
 namespace sph {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/random.hpp"
-#include "plan/for_rows.hpp"
-#include "sph/fixed_point.hpp"
+#include "core/random.hpp"
+#include "pairs/for_rows.hpp"
+#include "sph/core/fixed_point.hpp"
 
 namespace sph {
 namespace {

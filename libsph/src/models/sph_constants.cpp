@@ -6,8 +6,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sph/eos/law.hpp"
-#include "sph/kernels.hpp"
+#include "sph/core/kernels.hpp"
+#include "sph/laws/eos/law.hpp"
 
 namespace sph {
 namespace {
@@ -92,51 +92,6 @@ constexpr double interface_damping = 0.03;
 constexpr double background = 0.75;
 
 }  // namespace
-
-PositionScale position_scale(const Scene& scene) {
-  double extent = 0;
-  for (int a = 0; a < scene.dim; ++a)
-    extent = std::max({extent, std::abs(scene.lower[static_cast<std::size_t>(a)]),
-                       std::abs(scene.upper[static_cast<std::size_t>(a)])});
-  PositionScale scale;
-  // The next power of two above both bounds. A bond of a body that turns upside down is displaced by its
-  // length then and now.
-  const double longest = scene.total_lagrangian() ? scene.support() + scene.list_range() : scene.list_range();
-  scale.quantum = std::ldexp(1.0, std::max(std::ilogb(extent) + 1 - 60, std::ilogb(longest) + 1 - 50));
-  for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.lower[a]);
-  return scale;
-}
-
-// 2^29 units across the support, so that its square and the skin stay within 31 bits.
-int row_position_shift(const Scene& scene, const PositionScale& scale) {
-  const double longest = scene.total_lagrangian() ? scene.support() : scene.list_range();
-  return std::max(std::ilogb(longest / scale.quantum) + 1 - 29, 0);
-}
-
-std::array<std::int64_t, 3> domain_length(const Scene& scene, const PositionScale& scale) {
-  std::array<std::int64_t, 3> length{};
-  // Whole units of the rows along a period, or a pair in single precision would depend on whose image was
-  // taken.
-  const int bits = scene.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
-    if (scene.periodic[a]) length[a] = (length[a] >> bits) << bits;
-  }
-  return length;
-}
-
-Wrap wrap_of(const Scene& scene, const PositionScale& scale) {
-  Wrap wrap{scale.origin, {}};
-  const std::array<std::int64_t, 3> length = domain_length(scene, scale);
-  for (std::size_t a = 0; a < 3; ++a)
-    if (scene.periodic[a]) wrap.period[a] = length[a];
-  return wrap;
-}
-
-std::int64_t PositionScale::quanta(double metres) const {
-  // |metres / quantum| < 2^62, and the division by a power of two is exact.
-  return static_cast<std::int64_t>(std::nearbyint(metres / quantum));
-}
 
 SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
     : scene(&of), scale(position_scale), wrap(wrap_of(of, position_scale)) {

@@ -1,6 +1,6 @@
 // Surface tension as a jump of the pressure: the sums that find the interface's curvature, before the one of
 // the forces (terms/interface_curvature.hpp, terms/tension_jump.hpp).
-#include "plan/for_rows.hpp"
+#include "pairs/for_rows.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/interface_curvature.hpp"
 

@@ -14,10 +14,10 @@
 #include <string>
 
 #include "decomp/exact_sum.hpp"
-#include "plan/for_rows.hpp"
+#include "pairs/for_rows.hpp"
 #include "sph/models/models.hpp"
+#include "sph/models/wall_distance.hpp"
 #include "sph/terms/viscous_operator.hpp"
-#include "sph/wall_distance.hpp"
 
 namespace sph {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
-#include "plan/for_rows.hpp"
+#include "pairs/for_rows.hpp"
 #include "sph/models/models.hpp"
+#include "sph/models/wall_distance.hpp"
+#include "sph/models/wall_mirror.hpp"
 #include "sph/terms/wall.hpp"
-#include "sph/wall_distance.hpp"
-#include "sph/wall_mirror.hpp"
 
 namespace sph {
 namespace {

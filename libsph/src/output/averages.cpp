@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sph/kernels.hpp"
+#include "sph/core/kernels.hpp"
 
 namespace sph {
 namespace {

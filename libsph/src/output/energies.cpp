@@ -1,6 +1,6 @@
 #include "output/energies.hpp"
 
-#include "sph/eos/law.hpp"
+#include "sph/laws/eos/law.hpp"
 
 namespace sph {
 bool is_held(const Group& group) { return group.kind == GroupKind::wall || group.grain.fixed; }

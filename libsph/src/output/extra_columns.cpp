@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "files/tensor_order.hpp"
 #include "output/averages.hpp"
-#include "output/tensor_order.hpp"
-#include "sph/contact_records.hpp"
+#include "sph/output/contact_records.hpp"
 
 namespace sph {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "sph/simulation.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/output/snapshot.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 

@@ -1,4 +1,4 @@
-#include "sph/monitors.hpp"
+#include "sph/output/monitors.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include "output/energies.hpp"
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
-#include "sph/contact_records.hpp"
+#include "sph/output/contact_records.hpp"
 
 namespace sph {
 namespace {

@@ -1,7 +1,7 @@
 // The particle nearest to a point: exact integer distances, the lowest id on ties, the same on all ranks.
 #pragma once
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 

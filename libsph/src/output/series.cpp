@@ -1,11 +1,11 @@
-#include "sph/series.hpp"
+#include "sph/output/series.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <system_error>
 
-#include "sph/error.hpp"
+#include "sph/core/error.hpp"
 
 namespace sph {
 namespace {

@@ -3,12 +3,12 @@
 #include <numeric>
 #include <span>
 
-#include "output/fill_file.hpp"
-#include "output/sorted_table.hpp"
-#include "output/tensor_order.hpp"
+#include "files/fill_file.hpp"
+#include "files/sorted_table.hpp"
+#include "files/tensor_order.hpp"
 #include "output/vertices.hpp"
-#include "sph/report.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/files/provenance.hpp"
+#include "sph/output/snapshot.hpp"
 
 namespace sph {
 namespace {

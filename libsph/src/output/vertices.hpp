@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "sph/fields.hpp"
+#include "sph/core/fields.hpp"
 
 namespace sph {
 

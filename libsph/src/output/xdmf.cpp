@@ -4,10 +4,10 @@
 
 #include <iterator>
 
-#include "output/durable_file.hpp"
+#include "files/durable_file.hpp"
 #include "output/vertices.hpp"
-#include "sph/error.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/core/error.hpp"
+#include "sph/output/snapshot.hpp"
 
 namespace sph {
 namespace {

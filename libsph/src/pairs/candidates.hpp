@@ -10,7 +10,7 @@
 #include <span>
 
 #include "pairs/cell_bins.hpp"
-#include "sph/simd.hpp"
+#include "sph/core/simd.hpp"
 
 namespace sph {
 

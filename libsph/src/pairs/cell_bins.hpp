@@ -12,7 +12,7 @@
 #include "decomp/grid.hpp"
 #include "pairs/list_slack.hpp"
 #include "pairs/occupied.hpp"
-#include "sph/particles.hpp"
+#include "sph/core/particles.hpp"
 
 namespace sph {
 

@@ -1,4 +1,4 @@
-#include "sph/neighbour_lists.hpp"
+#include "sph/pairs/neighbour_lists.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -6,7 +6,7 @@
 #include "pairs/candidates.hpp"
 #include "pairs/id_rank.hpp"
 #include "pairs/lane_sort.hpp"
-#include "sph/simd.hpp"
+#include "sph/core/simd.hpp"
 
 namespace sph {
 namespace {

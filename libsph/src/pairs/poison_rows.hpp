@@ -2,7 +2,7 @@
 #pragma once
 
 #include "decomp/poison.hpp"
-#include "sph/pass_context.hpp"
+#include "sph/pairs/pass_context.hpp"
 
 namespace sph {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "pairs/id_rank.hpp"
-#include "sph/neighbour_lists.hpp"
+#include "sph/pairs/neighbour_lists.hpp"
 
 namespace sph {
 namespace {

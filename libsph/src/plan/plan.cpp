@@ -1,5 +1,6 @@
 #include "sph/plan/plan.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -30,9 +31,17 @@ constexpr std::array parts{&Plan::drift, &Plan::sums,   &Plan::kick,
                            &Plan::start, &Plan::settle, &Plan::output};
 }
 
+bool may_drift(const Plan& plan) {
+  return std::ranges::any_of(plan.drift, [](const Entry& e) {
+    return std::ranges::any_of(e.stages, [](const Stage& s) { return bool{s.moves}; });
+  });
+}
+
 void append(Plan& plan, Plan more) {
   for (auto part : parts)
     for (Entry& e : more.*part) (plan.*part).push_back(std::move(e));
+  if (more.settling) plan.settling = std::move(more.settling);
+  plan.half_kick = plan.half_kick || more.half_kick;
 }
 
 void append(Plan& plan, Plan more, std::size_t set) {

@@ -8,17 +8,18 @@
 #include <numeric>
 #include <optional>
 
-#include "physics/damping_limit.hpp"
-#include "physics/stability.hpp"
+#include "models/damping_limit.hpp"
+#include "models/stability.hpp"
 #include "run/cost.hpp"
 #include "run/memory_need.hpp"
 #include "run/plan_text.hpp"
 #include "run/run_start.hpp"
 #include "run/speed_warnings.hpp"
-#include "sph/drag/law.hpp"
-#include "sph/grains.hpp"
-#include "sph/placement.hpp"
-#include "sph/simulation.hpp"
+#include "sph/laws/drag/law.hpp"
+#include "sph/laws/eos/law.hpp"
+#include "sph/models/grains.hpp"
+#include "sph/start/placement.hpp"
+#include "sph/step/simulation.hpp"
 #include "start/start_count.hpp"
 #include "start/start_densities.hpp"
 #include "start/start_overlaps.hpp"
@@ -163,7 +164,7 @@ std::string memory_text(const Scene& scene, const Parts& parts, const MemoryNeed
 }
 
 std::string gas_text(const Scene& scene) {
-  if (!scene.has_eos(EosKind::ideal_gas)) return {};
+  if (!has_eos(scene, EosKind::ideal_gas)) return {};
   if (scene.least_growth == 1 && scene.largest_growth == 1)
     return "gas: one smoothing length: particles that a blast parts by more than its kernel keep their heat, "
            "and\n"

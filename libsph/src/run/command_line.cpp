@@ -1,4 +1,4 @@
-#include "sph/command_line.hpp"
+#include "sph/run/command_line.hpp"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,14 @@
 #include <limits>
 
 #include "decomp/memory.hpp"
-#include "scene/keys/reference.hpp"
-#include "scene/units.hpp"
-#include "sph/report.hpp"
-#include "sph/run.hpp"
-#include "sph/self_check.hpp"
-#include "sph/snapshot.hpp"
+#include "keys/reference.hpp"
+#include "keys/units.hpp"
+#include "sph/files/provenance.hpp"
+#include "sph/inspect/inspect.hpp"
+#include "sph/output/snapshot.hpp"
+#include "sph/run/report.hpp"
+#include "sph/run/run.hpp"
+#include "sph/run/self_check.hpp"
 
 namespace sph {
 namespace {

@@ -84,7 +84,7 @@ Performance performance_of(Simulation& s) {
     sent[scheduled.stage->set] += static_cast<double>(bytes_of(scheduled.sends, dim));
     if (const auto& other = scheduled.stage->other)
       sent[other->set] += static_cast<double>(bytes_of(scheduled.other_sends, dim));
-    if (const Simulation::Counters& c = s.counters(); c.solved > 0)
+    if (const PlanRunner::Counters& c = s.counters(); c.solved > 0)
       sent[scheduled.stage->set] +=
           static_cast<double>(c.repeats / c.solved) * static_cast<double>(bytes_of(scheduled.again, dim));
   }
@@ -131,7 +131,7 @@ Performance performance_of(Simulation& s) {
   p.pairs_per_particle = static_cast<double>(sums[1]) / particles;
   p.halo_per_particle = halo / particles;
   p.migrated = sums[2];
-  p.rebuilds = s.counters().rebuilds;
+  p.rebuilds = s.rebuilds();
   p.refreshes = s.refreshes();
   p.iterations = s.counters().iterations;
   p.balance = s.distribution().balance();

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sph/plan/plan.hpp"
-#include "sph/report.hpp"
-#include "sph/simulation.hpp"
+#include "sph/run/report.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 

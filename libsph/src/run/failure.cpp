@@ -1,4 +1,4 @@
-#include "sph/failure.hpp"
+#include "sph/run/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "sph/error.hpp"
+#include "sph/core/error.hpp"
 
 namespace sph {
 namespace {

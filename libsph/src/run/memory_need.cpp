@@ -12,7 +12,9 @@
 
 #include "pairs/occupied.hpp"
 #include "run/cost.hpp"
-#include "sph/distribution.hpp"
+#include "sph/laws/contact/law.hpp"
+#include "sph/laws/eos/law.hpp"
+#include "sph/plan/distribution.hpp"
 
 namespace sph {
 namespace {
@@ -55,7 +57,7 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
   for (std::size_t g = 0; parts.physics && parts.grains && g < scene.groups.size(); ++g)
     if (scene.groups[g].kind == GroupKind::grain) grains += static_cast<double>(count.by_group[g]);
   // Kernels of a gas are mostly as wide as at the start, and lists go by each.
-  const double range = scene.has_eos(EosKind::ideal_gas) ? scene.kernel_radius() : scene.list_range();
+  const double range = has_eos(scene, EosKind::ideal_gas) ? scene.kernel_radius() : scene.list_range();
   const double neighbours =
       parts.physics ? neighbours_within(scene, range + scene.support() * scene.decomposition.skin) : 0;
   const bool dense = 4 * need.cells < 1e18 && Occupied::dense(static_cast<std::size_t>(4 * need.cells),

@@ -4,8 +4,8 @@
 
 #include "decomp/comm.hpp"
 #include "decomp/grid.hpp"
-#include "sph/parts.hpp"
-#include "sph/scene.hpp"
+#include "sph/models/parts.hpp"
+#include "sph/scene/scene.hpp"
 #include "start/start_count.hpp"
 
 namespace sph {

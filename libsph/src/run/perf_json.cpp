@@ -1,9 +1,10 @@
 // perf.json: the numbers of the final table for programs, with what the run was built from.
 #include <nlohmann/json.hpp>
 
-#include "output/durable_file.hpp"
-#include "sph/error.hpp"
-#include "sph/report.hpp"
+#include "files/durable_file.hpp"
+#include "sph/core/error.hpp"
+#include "sph/files/provenance.hpp"
+#include "sph/run/report.hpp"
 
 namespace sph {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "run/cost.hpp"
-#include "sph/fusions.hpp"
+#include "sph/pairs/fusions.hpp"
 
 namespace sph {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "sph/parts.hpp"
-#include "sph/scene.hpp"
+#include "sph/models/parts.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

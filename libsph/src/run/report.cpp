@@ -1,4 +1,4 @@
-#include "sph/report.hpp"
+#include "sph/run/report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,17 +1,17 @@
-#include "sph/run.hpp"
+#include "sph/run/run.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 
+#include "files/agree.hpp"
+#include "models/stability.hpp"
 #include "output/output_schedule.hpp"
-#include "physics/stability.hpp"
-#include "run/agree.hpp"
 #include "run/run_control.hpp"
 #include "run/run_files.hpp"
 #include "run/run_start.hpp"
 #include "run/screen.hpp"
-#include "sph/report.hpp"
+#include "sph/run/report.hpp"
 
 namespace sph {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "sph/run.hpp"
+#include "sph/run/run.hpp"
 
 namespace sph {
 namespace {

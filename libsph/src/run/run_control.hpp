@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "sph/scene.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

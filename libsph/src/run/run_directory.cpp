@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "decomp/cut_policy.hpp"
-#include "output/descriptor.hpp"
-#include "output/durable_file.hpp"
-#include "output/hdf5_file.hpp"
-#include "run/agree.hpp"
+#include "files/agree.hpp"
+#include "files/descriptor.hpp"
+#include "files/durable_file.hpp"
+#include "files/hdf5_file.hpp"
 
 namespace sph {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "decomp/comm.hpp"
-#include "sph/scene.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

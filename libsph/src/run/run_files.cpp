@@ -5,11 +5,11 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
-#include "output/durable_file.hpp"
+#include "files/agree.hpp"
+#include "files/durable_file.hpp"
 #include "output/extra_columns.hpp"
-#include "run/agree.hpp"
 #include "run/run_directory.hpp"
-#include "sph/checkpoint.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
 
 namespace sph {
 namespace {

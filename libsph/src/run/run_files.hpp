@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "sph/monitors.hpp"
-#include "sph/series.hpp"
-#include "sph/simulation.hpp"
-#include "sph/snapshot.hpp"
+#include "sph/output/monitors.hpp"
+#include "sph/output/series.hpp"
+#include "sph/output/snapshot.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <thread>
 
-#include "output/descriptor.hpp"
-#include "output/durable_file.hpp"
-#include "run/agree.hpp"
+#include "files/agree.hpp"
+#include "files/descriptor.hpp"
+#include "files/durable_file.hpp"
 
 namespace sph {
 namespace {

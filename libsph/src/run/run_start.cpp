@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "checkpoint/checkpoint_files.hpp"
-#include "output/durable_file.hpp"
-#include "physics/stability.hpp"
-#include "run/agree.hpp"
+#include "files/agree.hpp"
+#include "files/durable_file.hpp"
+#include "models/stability.hpp"
 #include "run/memory_need.hpp"
 #include "run/run_directory.hpp"
-#include "sph/checkpoint.hpp"
+#include "sph/checkpoint/checkpoint.hpp"
 
 namespace sph {
 namespace {

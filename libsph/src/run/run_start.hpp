@@ -7,7 +7,7 @@
 
 #include "run/run_files.hpp"
 #include "run/run_lock.hpp"
-#include "sph/run.hpp"
+#include "sph/run/run.hpp"
 
 namespace sph {
 

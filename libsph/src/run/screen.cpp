@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "run/agree.hpp"
+#include "files/agree.hpp"
 #include "run/cost.hpp"
-#include "sph/contact/law.hpp"
-#include "sph/drag/law.hpp"
-#include "sph/monitors.hpp"
-#include "sph/report.hpp"
+#include "sph/files/provenance.hpp"
+#include "sph/laws/contact/law.hpp"
+#include "sph/laws/drag/law.hpp"
+#include "sph/output/monitors.hpp"
+#include "sph/run/report.hpp"
 #include "start/start_sounds.hpp"
 
 namespace sph {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "sph/simulation.hpp"
+#include "sph/step/simulation.hpp"
 
 namespace sph {
 

@@ -1,4 +1,4 @@
-#include "sph/self_check.hpp"
+#include "sph/run/self_check.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "sph/error.hpp"
-#include "sph/exact_math.hpp"
-#include "sph/fixed_point.hpp"
-#include "sph/kernels.hpp"
-#include "sph/simd.hpp"
+#include "sph/core/error.hpp"
+#include "sph/core/exact_math.hpp"
+#include "sph/core/fixed_point.hpp"
+#include "sph/core/kernels.hpp"
+#include "sph/core/simd.hpp"
 
 namespace sph {
 namespace {

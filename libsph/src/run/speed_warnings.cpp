@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sph/eos/law.hpp"
+#include "sph/laws/eos/law.hpp"
 
 namespace sph {
 namespace {
@@ -54,7 +54,7 @@ double fall_of(const Scene& scene, double height) {
 
 std::string speed_warnings(const Scene& scene, const std::vector<Height>& heights, double file_speed) {
   constexpr double stiff_enough = 10, rounding = 1e-3;
-  if (scene.of_grains() || scene.has_eos(EosKind::ideal_gas)) return {};
+  if (scene.of_grains() || has_eos(scene, EosKind::ideal_gas)) return {};
   const Speed start = fastest_at_start(scene, file_speed);
   double stiffest = 0;
   for (const Group& g : scene.groups) stiffest = std::max(stiffest, sound_at_rest(g));

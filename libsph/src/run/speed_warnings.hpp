@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sph/scene.hpp"
+#include "sph/scene/scene.hpp"
 #include "start/start_count.hpp"
 
 namespace sph {

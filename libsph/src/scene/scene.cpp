@@ -1,9 +1,7 @@
-#include "sph/scene.hpp"
+#include "sph/scene/scene.hpp"
 
 #include <algorithm>
 #include <cstddef>
-
-#include "sph/eos/law.hpp"
 
 namespace sph {
 
@@ -35,12 +33,6 @@ bool Scene::total_lagrangian() const {
 bool Scene::has_kind(GroupKind k) const {
   for (const Group& g : groups)
     if (g.kind == k) return true;
-  return false;
-}
-
-bool Scene::has_eos(EosKind kind) const {
-  for (const Group& g : groups)
-    if (g.eos->kind == kind) return true;
   return false;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sph/error.hpp"
+#include "sph/core/error.hpp"
 
 namespace sph {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "sph/eos/law.hpp"
-#include "sph/scene.hpp"
+#include "sph/laws/eos/law.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

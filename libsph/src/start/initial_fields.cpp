@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "physics/random.hpp"
-#include "sph/eos/law.hpp"
-#include "sph/exact_math.hpp"
-#include "sph/grain_mass.hpp"
+#include "core/random.hpp"
+#include "sph/core/exact_math.hpp"
+#include "sph/laws/eos/law.hpp"
+#include "sph/scene/grain_mass.hpp"
 
 namespace sph {
 namespace {

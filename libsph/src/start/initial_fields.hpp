@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "decomp/types.hpp"
-#include "sph/particles.hpp"
-#include "sph/scene.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/scene/scene.hpp"
 #include "start/hydrostatic.hpp"
 
 namespace sph {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "decomp/types.hpp"
-#include "sph/scene.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

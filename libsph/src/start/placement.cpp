@@ -1,9 +1,9 @@
-#include "sph/placement.hpp"
+#include "sph/start/placement.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "start/grain_fill.hpp"
+#include "scene/grain_fill.hpp"
 #include "start/initial_fields.hpp"
 #include "start/lattice.hpp"
 #include "start/placement_file.hpp"

@@ -2,9 +2,9 @@
 // particle to its owner.
 #pragma once
 
-#include "sph/distribution.hpp"
-#include "sph/particles.hpp"
-#include "sph/scene.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/plan/distribution.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

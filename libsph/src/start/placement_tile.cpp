@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "output/hdf5_file.hpp"
+#include "files/hdf5_file.hpp"
 #include "start/start_rows.hpp"
 
 namespace sph {

@@ -4,9 +4,9 @@
 // sum of its copies, and keeps what falls into its own box.
 #pragma once
 
-#include "sph/distribution.hpp"
-#include "sph/particles.hpp"
-#include "sph/scene.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/plan/distribution.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

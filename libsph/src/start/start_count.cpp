@@ -7,8 +7,8 @@
 #include <numeric>
 #include <string>
 
-#include "run/agree.hpp"
-#include "start/grain_fill.hpp"
+#include "files/agree.hpp"
+#include "scene/grain_fill.hpp"
 #include "start/lattice.hpp"
 #include "start/placement_tile.hpp"
 #include "start/start_rows.hpp"

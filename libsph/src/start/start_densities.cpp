@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "sph/eos/law.hpp"
-#include "sph/error.hpp"
-#include "sph/findings.hpp"
+#include "sph/core/error.hpp"
+#include "sph/core/findings.hpp"
+#include "sph/laws/eos/law.hpp"
 
 namespace sph {
 

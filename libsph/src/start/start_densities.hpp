@@ -3,8 +3,8 @@
 #pragma once
 
 #include "decomp/comm.hpp"
-#include "sph/particles.hpp"
-#include "sph/scene.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "run/agree.hpp"
+#include "files/agree.hpp"
 #include "start/start_rows.hpp"
 
 namespace sph {

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "decomp/comm.hpp"
-#include "sph/contact_lists.hpp"
-#include "sph/particles.hpp"
-#include "sph/scene.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/pairs/contact_lists.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

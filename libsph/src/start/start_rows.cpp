@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "sph/eos/law.hpp"
+#include "sph/laws/eos/law.hpp"
 
 namespace sph {
 namespace {

@@ -4,7 +4,7 @@
 //         bit
 // rho may be missing (then from the initial pressure) and so may m (the gas content; then the group's).
 // Without u [J/kg] an ideal gas has its start_pressure. Further columns: mass (else rho spacing^dim) and, in
-// HDF5, stress (output/tensor_order.hpp). Grains have radius instead of these, and may have a spin (CSV: wx,
+// HDF5, stress (files/tensor_order.hpp). Grains have radius instead of these, and may have a spin (CSV: wx,
 // wy, wz); their mass follows from radius and density of the group.
 #pragma once
 
@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "decomp/grid.hpp"
-#include "run/agree.hpp"
-#include "sph/particles.hpp"
-#include "sph/scene.hpp"
+#include "files/agree.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/scene/scene.hpp"
 #include "start/initial_fields.hpp"
 
 namespace sph {

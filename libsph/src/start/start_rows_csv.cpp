@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "output/durable_file.hpp"
-#include "scene/nearest.hpp"
+#include "core/nearest.hpp"
+#include "files/durable_file.hpp"
 #include "start/start_rows.hpp"
 
 namespace sph {

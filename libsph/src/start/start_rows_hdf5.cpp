@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "output/hdf5_file.hpp"
-#include "output/tensor_order.hpp"
+#include "files/hdf5_file.hpp"
+#include "files/tensor_order.hpp"
 #include "start/start_rows.hpp"
 
 namespace sph {

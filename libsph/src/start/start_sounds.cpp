@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sph/eos/law.hpp"
+#include "sph/laws/eos/law.hpp"
 #include "start/initial_fields.hpp"
 
 namespace sph {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "decomp/comm.hpp"
-#include "sph/particles.hpp"
-#include "sph/scene.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/scene/scene.hpp"
 #include "start/start_count.hpp"
 
 namespace sph {

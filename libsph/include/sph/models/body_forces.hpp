@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sph/models/sph_constants.hpp"
-#include "sph/surface_gradient.hpp"
+#include "sph/models/surface_gradient.hpp"
 
 namespace sph {
 

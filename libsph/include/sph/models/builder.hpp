@@ -53,7 +53,11 @@ class Builder {
   }
   /// The stages so far are what the first step wants done (Plan::start, Plan::settle).
   void begin_with_these() { plan_.start = plan_.sums; }
-  void settle_with_these() { plan_.settle = plan_.sums; }
+  void settle_with_these(std::shared_ptr<Settling> settling = {}) {
+    plan_.settle = plan_.sums;
+    plan_.settling = std::move(settling);
+  }
+  void begin_with_half_a_kick() { plan_.half_kick = true; }
   /// The last two stages are read by output alone where no step follows (Plan::output).
   void derive_last_two_for_output() { plan_.output.assign(plan_.sums.end() - 2, plan_.sums.end()); }
 

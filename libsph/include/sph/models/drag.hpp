@@ -5,7 +5,7 @@
 //   e_a = 1 - sum_i V_i W_ai                                                        at fluid particles a
 //   F_i = V_i theta_i + zeta_i (u_i - v_i)                                           on grains i
 //   theta_i = sum_a F_a W_ai / S_i, u_i = sum_a V_a u_a W_ai / S_i, S_i = sum_a V_a W_ai, V_a = m_a / rho_a,
-// F_a the forces of the fluid on its particle, pressure and viscosity; zeta is that of the drag law (drag/law.hpp).
+// F_a the forces of the fluid on its particle, pressure and viscosity; zeta is that of the drag law (laws/drag/law.hpp).
 // The fluid gets -F_i V_a W_ai / S_i. These are sums of integers, so that momentum is conserved exactly and no
 // order matters. Drag is taken with the velocity v_i that a grain has after it, and with that u_a which the fluid
 // will have if grains pull at it as in the step before: without that guess a fluid that is driven through grains
@@ -18,7 +18,7 @@
 #include "sph/models/drag_force.hpp"
 #include "sph/models/model.hpp"
 #include "sph/models/sph_constants.hpp"
-#include "sph/set_pair.hpp"
+#include "sph/pairs/set_pair.hpp"
 
 namespace sph {
 

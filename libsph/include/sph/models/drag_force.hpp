@@ -1,8 +1,8 @@
 // The force of a fluid on one grain in it, from the fluid's averages around it: see models/drag.hpp.
 #pragma once
 
-#include "sph/grain_mass.hpp"
-#include "sph/scene.hpp"
+#include "sph/scene/grain_mass.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 

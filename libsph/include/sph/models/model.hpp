@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "decomp/comm.hpp"
-#include "sph/particles.hpp"
+#include "sph/core/particles.hpp"
 #include "sph/plan/plan.hpp"
 #include "sph/plan/reduction.hpp"
 

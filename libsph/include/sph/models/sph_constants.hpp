@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "sph/pass_context.hpp"
+#include "sph/pairs/pass_context.hpp"
 #include "sph/plan/stage.hpp"
-#include "sph/scene.hpp"
+#include "sph/scene/positions.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 
@@ -32,14 +33,5 @@ struct SphConstants {
   double own_concentration = 0;  ///< V W(0) of a particle of volume spacing^D
   double kernel_at_zero = 0;     ///< W(0) without its factor
 };
-
-/// Fixed-point scale of a scene: the finest power of two with which the domain spans at most 2^61 quanta and
-/// the support at most 2^50, so that pair distances convert to double exactly.
-[[nodiscard]] PositionScale position_scale(const Scene& scene);
-/// Extent of the domain in quanta, along a period what is wrapped.
-[[nodiscard]] std::array<std::int64_t, 3> domain_length(const Scene& scene, const PositionScale& scale);
-[[nodiscard]] Wrap wrap_of(const Scene& scene, const PositionScale& scale);
-/// Rows of single precision hold positions without so many low bits.
-[[nodiscard]] int row_position_shift(const Scene& scene, const PositionScale& scale);
 
 }  // namespace sph

@@ -5,7 +5,7 @@
 
 #include "decomp/halo.hpp"
 #include "decomp/timer.hpp"
-#include "sph/particles.hpp"
+#include "sph/core/particles.hpp"
 #include "sph/plan/plan.hpp"
 
 namespace sph {

@@ -2,6 +2,7 @@
 // particles then are, velocities are kicked.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,13 +11,27 @@
 
 namespace sph {
 
+/// A start that stages approach by repetition, lists being made anew after each time, until it changes no more
+/// but by rounding.
+class Settling {
+ public:
+  virtual ~Settling() = default;
+  virtual void prepare(Particles& particles) = 0;
+  /// The largest change of what has settled, relative to itself.
+  [[nodiscard]] virtual double change(const Particles& particles) const = 0;
+  FieldSet prepares;  ///< what prepare() changes
+  FieldSet settles;   ///< what the lists must know
+};
+
 struct Plan {
-  std::vector<Entry> drift;   ///< before lists are looked at
-  std::vector<Entry> sums;    ///< over pairs, each with what follows from it for a particle alone
-  std::vector<Entry> kick;    ///< what moves particles last
-  std::vector<Entry> start;   ///< of `sums`: what the first step wants done
-  std::vector<Entry> settle;  ///< ... what a start is to be brought into balance with
-  std::vector<Entry> output;  ///< of `sums`: what only output reads of a state
+  std::vector<Entry> drift;            ///< before lists are looked at
+  std::vector<Entry> sums;             ///< over pairs, each with what follows from it for a particle alone
+  std::vector<Entry> kick;             ///< what moves particles last
+  std::vector<Entry> start;            ///< of `sums`: what the first step wants done
+  std::vector<Entry> settle;           ///< ... what a start is to be brought into balance with
+  std::vector<Entry> output;           ///< of `sums`: what only output reads of a state
+  std::shared_ptr<Settling> settling;  ///< where `settle` is repeated
+  bool half_kick = false;  ///< velocities of the start are those of its time: half a kick comes first
 };
 
 /// Appends a stage that is no loop.
@@ -30,6 +45,8 @@ inline void append(std::vector<Entry>& entries, Stage stage) {
 [[nodiscard]] double longest_move(const Plan& plan, std::size_t set, const GlobalState& global);
 [[nodiscard]] double longest_move(const std::vector<Entry>& entries, std::size_t set,
                                   const GlobalState& global);
+/// Does a step move particles before it looks at lists?
+[[nodiscard]] bool may_drift(const Plan& plan);
 /// Adds the plan of a model.
 void append(Plan& plan, Plan more);
 /// ... whose particles are those of `set`.

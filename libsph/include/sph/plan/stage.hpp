@@ -15,10 +15,10 @@
 #include "decomp/exact_sum.hpp"
 #include "decomp/memory.hpp"
 #include "decomp/timer.hpp"
-#include "sph/fields.hpp"
-#include "sph/findings.hpp"
-#include "sph/neighbour_lists.hpp"
-#include "sph/particles.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/core/findings.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/pairs/neighbour_lists.hpp"
 #include "sph/plan/view.hpp"
 
 namespace sph {

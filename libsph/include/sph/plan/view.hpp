@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "sph/particles.hpp"
+#include "sph/core/particles.hpp"
 
 namespace sph {
 

@@ -2,7 +2,7 @@
 // F_ij = V_i V_j rho_ij alpha c_ij h (v_ij.x_ij) / (r^2 + 0.01 h^2) grad_i W. Acts like nu = alpha h c / 8.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -5,7 +5,7 @@
 // energy are conserved. Rows of particles interlock: there is friction of a sort.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -9,7 +9,7 @@
 // So linear and angular momentum and energy are conserved, and affine motion feels no hourglass force.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -6,7 +6,7 @@
 // dt. V_i d rho_i is antisymmetric: the pairs exchange density, none is made.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 #include "sph/terms/head.hpp"
 
 namespace sph {

@@ -2,7 +2,7 @@
 // div v. VelocityGradient gives the whole tensor where the constitutive law needs it.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

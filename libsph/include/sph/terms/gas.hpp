@@ -11,7 +11,7 @@
 // than h wide, V_i = (1 - s) / sum_j W_ij over the gas alone, and F_iw = -V_i V_w (p_i + p_w) grad_i W.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -2,7 +2,7 @@
 // [m^2/s^2].
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -4,7 +4,7 @@
 // They do not vanish for constant fields and do not conserve momentum.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 #include "sph/terms/stress.hpp"
 
 namespace sph {

@@ -7,7 +7,7 @@
 // what particles do that are a spacing apart is no curvature that a fluid could resist.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

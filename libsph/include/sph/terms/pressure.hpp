@@ -2,7 +2,7 @@
 // (Colagrossi & Landrini 2003; Grenier et al. 2009).
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

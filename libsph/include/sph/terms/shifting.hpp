@@ -4,7 +4,7 @@
 // e_ij the direction of the pair: 0 for any rigid motion, so that no frame, and no rotation, is in it.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -12,7 +12,7 @@
 // velocities are not their own.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 #include "sph/terms/head.hpp"
 #include "sph/terms/viscosity.hpp"
 

@@ -2,7 +2,7 @@
 // force is its isotropic part.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -5,7 +5,7 @@
 // integral is 1.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 #include "sph/terms/stress.hpp"
 
 namespace sph {

@@ -11,7 +11,7 @@
 // where theirs is negative, -2 V_i V_j p_b grad_i W.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

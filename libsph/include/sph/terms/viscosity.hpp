@@ -14,7 +14,7 @@
 // (Colagrossi et al. 2011), decays at half its rate.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

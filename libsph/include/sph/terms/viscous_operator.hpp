@@ -8,7 +8,7 @@
 // beside one flat wall. Between walls so near that no normal is found, u_i - u_w = u_i - u_wall.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 #include "sph/terms/viscosity.hpp"
 
 namespace sph {

@@ -3,7 +3,7 @@
 // velocity that makes the wall no-slip (wall_mirror.hpp), or the mean sum v W / sum W itself where it slips.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 #include "sph/terms/head.hpp"
 
 namespace sph {
@@ -47,7 +47,7 @@ struct WallExtrapolationByDensity {
 };
 
 /// How much of a moving particle's kernel the walls fill, and the gradient of that: distance and
-/// direction of a flat wall follow (sph/wall_distance.hpp).
+/// direction of a flat wall follow (sph/models/wall_distance.hpp).
 struct WallShare {
   static constexpr std::string_view name = "WallShare";
   static constexpr bool only_beside_walls = true;

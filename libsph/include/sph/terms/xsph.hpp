@@ -4,7 +4,7 @@
 // momentum; a common velocity drifts nobody.
 #pragma once
 
-#include "sph/pair_values.hpp"
+#include "sph/pairs/pair_values.hpp"
 
 namespace sph {
 

@@ -1,0 +1,134 @@
+// Particles of one rank: a decomp::Table whose columns are the scene's fields. Owned rows come first, in the
+// order interior movers, interior walls, boundary movers, boundary walls (each along the Hilbert curve of
+// cells, by id within a cell), then the halo.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "decomp/table.hpp"
+#include "sph/core/fields.hpp"
+
+namespace sph {
+
+template <Field F>
+using field_type = std::conditional_t<
+    info(F).type == Type::f64, double,
+    std::conditional_t<info(F).type == Type::i64, std::int64_t,
+                       std::conditional_t<info(F).type == Type::u64, std::uint64_t, std::uint32_t>>>;
+
+/// Ids of particles run from 0 to this; keys of walls lie above (sph/pairs/contact_lists.hpp).
+inline constexpr std::uint64_t largest_id = (std::uint64_t{1} << 63) - 1;
+
+class Particles {
+ public:
+  Particles(int dim, FieldSet fields) : dim_(dim), fields_(fields) {
+    column_.fill(-1);
+    for (Field f : fields.list())
+      column_[static_cast<std::size_t>(f)] = table_.add_column(std::string(info(f).name), width(f, dim));
+  }
+  [[nodiscard]] int dim() const { return dim_; }
+  [[nodiscard]] FieldSet fields() const { return fields_; }
+  [[nodiscard]] bool has(Field f) const { return fields_.has(f); }
+  [[nodiscard]] std::size_t owned() const { return table_.owned(); }
+  [[nodiscard]] std::size_t rows() const { return table_.rows(); }
+  [[nodiscard]] int column(Field f) const { return column_[static_cast<std::size_t>(f)]; }
+  [[nodiscard]] decomp::Table& table() { return table_; }
+  [[nodiscard]] const decomp::Table& table() const { return table_; }
+
+  /// Pointer to row 0; `components` values a row. nullptr if the scene does not have the field.
+  template <Field F>
+  [[nodiscard]] field_type<F>* data() {
+    return has(F) ? table_.as<field_type<F>>(column(F)) : nullptr;
+  }
+  template <Field F>
+  [[nodiscard]] const field_type<F>* data() const {
+    return has(F) ? table_.as<field_type<F>>(column(F)) : nullptr;
+  }
+
+ private:
+  int dim_;
+  FieldSet fields_;
+  std::array<int, field_count> column_{};
+  decomp::Table table_;
+};
+
+/// Fields of `fields` that are state, in the order of the field table.
+[[nodiscard]] inline FieldSet state_of(FieldSet fields) {
+  FieldSet out;
+  for (Field f : fields.list())
+    if (info(f).state) out |= FieldSet{f};
+  return out;
+}
+
+/// A wall that grains touch, as it is now. The scene says where it started.
+struct WallState {
+  std::array<std::int64_t, 3> offset{};  ///< way since the start [quanta of position]
+  std::array<double, 3> velocity{};      ///< [m/s]
+  std::array<std::int64_t, 3> force{};   ///< of the grains on it in the last step [quanta of force]
+  friend bool operator==(const WallState&, const WallState&) = default;
+};
+
+/// Volume of all particles that move, mass / density in units of spacing^D 2^-26, in scenes that shift
+/// particles and have no free surface; else 0. Integers, so that ranks may add in any order.
+struct FluidVolume {
+  std::int64_t start = 0, now = 0;
+  friend bool operator==(const FluidVolume&, const FluidVolume&) = default;
+};
+
+/// How the particles that move do so together, in scenes that shift them; else 0.
+struct CommonMotion {
+  std::array<double, 3> velocity{};  ///< mean of theirs [m/s]
+  double unlike = 0;                 ///< mean difference from it, of eighth powers [m/s]
+  double largest = 0;                ///< difference from the mean of the step before [m/s]
+  friend bool operator==(const CommonMotion&, const CommonMotion&) = default;
+};
+/// Its sums over a rank's particles, in integers, so that ranks may add in any order: their number, how much
+/// their velocities differ from the mean known before, and the eighth powers of that, in four digits.
+struct MotionSums {
+  std::array<std::int64_t, 8> sums{};
+  double largest = 0;  ///< of the differences [m/s]
+};
+
+/// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
+struct GlobalState {
+  std::int64_t step = 0;
+  double time = 0;              ///< [s]
+  double dt = 0;                ///< of the next step [s]
+  double max_speed = 0;         ///< of all particles after the last step [m/s]
+  double max_acceleration = 0;  ///< [m/s^2]
+  std::vector<WallState> walls;
+  FluidVolume fluid_volume;
+  CommonMotion motion;
+  friend bool operator==(const GlobalState&, const GlobalState&) = default;
+};
+
+/// One fixed-point scale for the scene: positions are integers times a power of two [m].
+struct PositionScale {
+  double quantum = 1;                    ///< [m], a power of two
+  std::array<std::int64_t, 3> origin{};  ///< quanta of the domain's lower corner
+  [[nodiscard]] double metres(std::int64_t x) const { return static_cast<double>(x) * quantum; }
+  /// Rounded to nearest even. |metres / quantum| < 2^62, and the division by a power of two is exact.
+  [[nodiscard]] std::int64_t quanta(double metres) const {
+    return static_cast<std::int64_t>(std::nearbyint(metres / quantum));
+  }
+};
+
+/// Periodic domain in quanta; period 0 on axes that are not periodic. Between rebuilds a particle may be
+/// stored outside the domain; whatever is compared (files, fingerprint) takes its wrapped coordinate.
+struct Wrap {
+  std::array<std::int64_t, 3> origin{};
+  std::array<std::int64_t, 3> period{};
+  /// x brought into [origin, origin + period) on a periodic axis: exact.
+  [[nodiscard]] std::int64_t operator()(int axis, std::int64_t x) const {
+    const auto a = static_cast<std::size_t>(axis);
+    if (period[a] == 0) return x;
+    const std::int64_t above = (x % period[a] - origin[a] % period[a]) % period[a];  // of any x
+    return origin[a] + (above < 0 ? above + period[a] : above);
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,71 @@
+// Bubbly magma  rho = rho_l / (1 + xi (rho_l/rho_g - 1)) where m > m_d         Ida (2009) eqs. (12)-(15)
+// SPH supplies rho; the pressure is the unique root of v(p) = (1-xi)/rho_l + xi RT/p - 1/rho.
+#pragma once
+
+#include "sph/laws/eos/law.hpp"
+
+namespace sph {
+
+/// Bubbly magma. All functions are pure, finite for every finite positive argument and free of libm.
+/// With gas_content 0 the linear law, tension included; otherwise pressure(rho) > 0 for every rho > 0.
+class BubblyEos {
+ public:
+  /// Throws InputError where rho(p) has no inverse (the gas at saturation denser than the liquid).
+  BubblyEos(double density, double bulk_modulus, double gas_content, double gas_rt,
+            double solubility_pressure, double solubility_exponent);
+  [[nodiscard]] double saturation_pressure() const;           ///< p_s m^(1/gamma) [Pa]
+  [[nodiscard]] double density(double pressure) const;        ///< eqs. (13)-(15) [kg/m^3]
+  [[nodiscard]] double pressure(double density) const;        ///< inverse of density() [Pa]
+  [[nodiscard]] double void_fraction(double pressure) const;  ///< psi, eq. (14) [1]
+  [[nodiscard]] double sound_speed(double pressure) const;    ///< sqrt(dp/drho) [m/s]
+  /// Newton or bisection steps that pressure() takes for this density: for tests.
+  [[nodiscard]] int iterations(double density) const;
+
+ private:
+  struct Root {
+    double pressure;
+    int steps;
+  };
+  [[nodiscard]] Root invert(double density) const;
+  [[nodiscard]] double first_guess(double density) const;
+  [[nodiscard]] double dissolved(double pressure) const;  ///< m_d = (p/p_s)^gamma, Ida eq. (14)
+  [[nodiscard]] bool is_gas_free(double pressure) const;
+
+  double rho0_, k_, m_, rt_, ps_, gamma_;
+  double p_sat_, rho_sat_;
+};
+
+/// The equation of state of a bubbly group with this gas content m.
+[[nodiscard]] inline BubblyEos bubbly_eos(const Group& g, double gas_content) {
+  return {g.density, g.bulk_modulus, gas_content, g.gas_rt, g.solubility_pressure, g.solubility_exponent};
+}
+
+struct BubblyMagma : EosLaw {
+  static constexpr std::string_view word = "bubbly";
+  static constexpr EosKind kind = EosKind::bubbly;
+  static constexpr bool constant_sound = false, needs_pressure = true;
+  static constexpr std::string_view remedy =
+      "without pressure bubbly magma is all gas: raise domain.surface_pressure";
+
+  static void check(const Group& g) { (void)bubbly_eos(g, g.gas_content); }
+  static void derive(const Group& g, const EosRows& rows, std::size_t first, std::size_t last) {
+    const BubblyEos usual = bubbly_eos(g, g.gas_content);
+    for (std::size_t i = first; i < last; ++i) {
+      const double gas = rows.gas_content[i];
+      const BubblyEos eos = gas == g.gas_content ? usual : bubbly_eos(g, gas);
+      const double absolute = eos.pressure(rows.density[i]);
+      rows.pressure[i] = absolute - rows.surface_pressure;
+      if (rows.sound_speed != nullptr) rows.sound_speed[i] = eos.sound_speed(absolute);
+      if (rows.void_fraction != nullptr) rows.void_fraction[i] = eos.void_fraction(absolute);
+    }
+  }
+  static EosStart start(const Group& g, double above_surface, double surface_pressure) {
+    return {density(g, above_surface + surface_pressure)};
+  }
+  static double density(const Group& g, double pressure) {
+    return bubbly_eos(g, g.gas_content).density(pressure);
+  }
+  static double energy(const Group&, double /*density*/) { return 0; }  // not followed
+};
+
+}  // namespace sph

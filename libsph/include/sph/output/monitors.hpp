@@ -1,0 +1,54 @@
+// What a scene's monitors say at one moment: the columns of series.csv. Sums are exact and a particle's
+// values come from its owner, so every number has the same bits on any number of ranks.
+//   particle  x, y(, z), vx, vy(, vz), then rho, p(, psi)(, u), or of a grain that spins wx, wy, wz [rad/s]
+//   group     n, then the same as means weighted by mass: sum(m a) / sum(m), each product rounded once; over
+//             the particles that belong to the group now. nan while it is empty. Fragments belong to the
+//             group they joined, so the cylinder and its spray are two groups
+//   energy    kinetic  sum m v^2/2;  potential  sum -m g.x;  elastic  compression of groups with the linear
+//             law, m K/rho_0 (ln(rho/rho_0) + rho_0/rho - 1), which is -int p dV, and V S:S/(4 mu) of the
+//             deviator S of solids (conservative formulation). Walls and bubbly groups do not enter the last.
+//             With ideal gases internal, sum m u, before the last
+//             Of grains: kinetic, rotational  sum m r^2 w^2/5, potential, elastic  the springs of all
+//             contacts that overlap now, with walls and fixed grains too (formulas: contact_records.hpp)
+//   momentum  px, py(, pz)  sum m v
+//   wall      x, y, z, vx, vy, vz, fx, fy, fz: the plane's point now, its velocity, and the force of the
+//             grains on it in the last step [N]
+//   contacts  n  contacts between grains, each once;  walls  those of a grain with a wall or a fixed grain;
+//             z  mean coordination, (2 n + walls) / number of grains
+// Positions [m] are those within the periodic domain; p is the pressure above the surface pressure [Pa].
+// Walls and fixed grains are left out of energy, momentum and the number of grains.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "decomp/exact_sum.hpp"
+#include "sph/step/simulation.hpp"
+
+namespace sph {
+
+class Monitors {
+ public:
+  /// Chooses the particle of each particle monitor: the one nearest to its point, lowest id on ties.
+  /// Collective. Throws InputError if a scene's id does not exist.
+  explicit Monitors(const Simulation& simulation);
+  /// Goes on with particles chosen before, one for each particle monitor of the scene.
+  Monitors(const Simulation& simulation, std::vector<std::uint64_t> ids);
+
+  [[nodiscard]] const std::vector<std::uint64_t>& ids() const { return ids_; }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// Collective; refreshes halo copies, and rebuilds lists, where contacts are asked for.
+  [[nodiscard]] std::vector<double> values(Simulation& simulation) const;
+
+ private:
+  void make_names(const Simulation& simulation);
+
+  std::vector<std::uint64_t> ids_;
+  std::vector<std::string> names_;
+};
+
+/// Kinetic energy of all movers [J]. Collective.
+[[nodiscard]] double kinetic_energy(const Simulation& simulation);
+
+}  // namespace sph

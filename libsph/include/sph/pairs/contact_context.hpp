@@ -1,0 +1,63 @@
+// What a sweep over contacts works on, and what it reports (contact_pass.hpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "sph/core/particles.hpp"
+#include "sph/pairs/contact_lists.hpp"
+
+namespace sph {
+
+/// Force and torque sums of every row, halo copies included: 4 integers a row, or 8 where grains spin.
+using ContactSums = decomp::LargeVector<std::uint64_t>;
+
+/// Everything a compiled contact pass needs besides its laws.
+struct ContactContext {
+  Particles* particles;
+  ContactLists* lists;
+  const double* constants;  ///< [groups * groups][8], see ContactConstants; aligned
+  std::uint32_t groups;
+  std::span<const PlaneNow> planes;
+  std::int64_t* wall_force;  ///< [2][planes][3] quanta of force, low halves and high halves, added to
+  std::uint64_t* sums;
+  double length_quantum, force_quantum, torque_quantum;
+  double dt;
+  double least_force;  ///< see ContactConstants
+  double gravity[3];
+  double largest_overlap;  ///< in radii of the smaller grain
+  bool drifts;             ///< grains drift once they are kicked, while they are in the cache
+};
+
+/// A contact that must not be: that of the lowest ids is kept.
+struct ContactFault {
+  static constexpr std::uint64_t nobody = ~std::uint64_t{0};
+  std::uint64_t id = nobody, partner = nobody;
+  double value = 0, limit = 0;
+  std::array<std::int64_t, 3> x{};  ///< where `id` is [quanta]
+  [[nodiscard]] bool any() const { return id != nobody; }
+  void add(const ContactFault& other) {
+    if (std::pair(other.id, other.partner) < std::pair(id, partner)) *this = other;
+  }
+};
+
+/// What a sweep reports.
+struct ContactSweep {
+  double speed2 = 0, acceleration2 = 0;  ///< NaN stays
+  ContactFault strong, deep;             ///< component of a force [quanta], overlap [m] beyond the limit
+  std::int64_t created = 0, ended = 0;   ///< contacts, each once a rank that sees it
+};
+
+/// A compiled sweep over blocks of contacts: the laws fused.
+using ContactSweepFunction = void (*)(const ContactContext&, std::span<const ContactBlock>, const RowRanges&,
+                                      ContactSweep&);
+struct ContactFusion {
+  ContactSweepFunction sweep;
+  int history;  ///< doubles a contact carries
+  bool spins;
+  std::span<const Parity> parities;  ///< of the history
+};
+
+}  // namespace sph

@@ -1,0 +1,133 @@
+// Contact lists of one rank: every pair of grains, or grain and wall, that may touch before the next rebuild,
+// each pair once. Pairs sit in groups of eight, one SIMD lane each, ordered by blocks of 64 rows: a pair of
+// two owned rows belongs to the block of the smaller one, a pair with a halo row to that of the owned one.
+// When a block's pairs and those of all earlier blocks are done, the sums of its rows are complete.
+//
+// The history of a contact lives in the list, beside its pair, oriented as the pair is. At a rebuild it
+// travels with the grains: every owned grain carries an entry for each contact it has, keyed by the partner's
+// id (or the wall's key), as the carrier sees it: forces and torques as they act on it (pairs/contact.hpp,
+// Parity). It exists exactly while the
+// pair touches: a step ends with grains where the next sweep will find them, so that a pair may have parted
+// since its history was last looked at. Such a history is nobody's any more, near or far; until that sweep it
+// is kept beside the lists, or the state would tell whether lists were rebuilt before it was written.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "decomp/comm.hpp"
+#include "decomp/grid.hpp"
+#include "decomp/memory.hpp"
+#include "decomp/table.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/pairs/contact.hpp"
+#include "sph/pairs/neighbour_lists.hpp"
+
+namespace sph {
+
+/// Partner keys of walls lie above all ids of particles.
+inline constexpr std::uint64_t wall_key = largest_id + 1;
+
+/// Groups of eight pairs (i, j); j is a row, or the index of a wall. Unused lanes hold i = j (rows), or a
+/// wall that does not exist.
+struct ContactGroups {
+  static constexpr std::size_t lanes = 8;
+  static constexpr std::uint32_t no_wall = ~std::uint32_t{0};
+  decomp::LargeVector<std::uint32_t> i, j;  ///< [groups * lanes]
+  std::vector<std::uint8_t> touching;       ///< [groups] bit l: lane l touched in the last step
+  decomp::LargeVector<double> history;      ///< [groups][components][lanes]
+  [[nodiscard]] std::size_t groups() const { return touching.size(); }
+};
+
+/// Consecutive rows of one class and the groups of pairs that belong to them.
+struct ContactBlock {
+  static constexpr std::size_t rows = 64;
+  std::uint32_t first, last;
+  std::size_t pairs, pairs_end, walls, walls_end;  ///< groups
+};
+
+/// A wall as the search and the pass see it.
+struct PlaneNow {
+  std::array<std::int64_t, 3> point;  ///< [quanta]
+  std::array<double, 3> normal, velocity;
+  std::uint32_t group;
+  bool present;
+};
+
+/// Of a point from a plane, along its normal [m].
+[[nodiscard]] double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantum);
+
+/// What must not change while contacts move between ranks, summed over all: both entries of a pair count,
+/// since two ranks may need one each.
+struct ContactCensus {
+  std::uint64_t count = 0, keys = 0;
+  std::uint64_t one_sided =
+      0;  ///< pairs that parted, + from the one side, - from the other: 0 over all ranks
+  friend bool operator==(const ContactCensus&, const ContactCensus&) = default;
+};
+
+class ContactLists {
+ public:
+  /// `parities`: of the doubles that a contact carries.
+  explicit ContactLists(std::span<const Parity> parities)
+      : parities_(parities.begin(), parities.end()), history_(parities.size()) {}
+
+  /// Finds all pairs closer than r_i + r_j + skin, and grains closer than r_i + skin to a wall. Rows of
+  /// `fixed` groups do not touch each other or walls.
+  void build(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
+             std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
+             const std::vector<bool>& fixed, std::span<const PlaneNow> planes);
+
+  /// Histories of the contacts of owned rows, as entries { partner key, history as it acts on the row }.
+  [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
+  /// Puts the entries back after build(); those of owned row r are in row order[r] of `payload`. Those whose
+  /// pair has parted stay beside the lists. Returns what has found its place in either.
+  ContactCensus unpack(const Particles& particles, const decomp::Payload& payload,
+                       std::span<const std::uint32_t> order, double quantum,
+                       std::span<const PlaneNow> planes);
+  /// An entry whose pair does not touch where it is now.
+  struct Parted {
+    std::uint32_t row;
+    std::uint64_t key;  ///< of the partner
+    bool listed;        ///< near enough for the lists, and looked at
+  };
+  [[nodiscard]] std::span<const Parted> parted() const { return parted_; }
+  /// When the sweep begins that would have ended them; returns how many contacts they were of.
+  std::int64_t forget_parted(const std::uint64_t* id);
+  [[nodiscard]] std::int64_t carried() const { return carried_; }  ///< entries that unpack() put back
+  /// What was packed on all ranks, and must be put back on all.
+  [[nodiscard]] static ContactCensus census(const Particles& particles, const decomp::Payload& payload,
+                                            int history);
+
+  [[nodiscard]] std::span<const Parity> parities() const { return parities_; }
+  [[nodiscard]] int history() const { return static_cast<int>(history_); }
+  [[nodiscard]] std::size_t entry_bytes() const { return 8 * (1 + history_); }
+  /// Blocks without halo partners come first.
+  [[nodiscard]] std::span<const ContactBlock> interior() const {
+    return std::span(blocks_).first(interior_blocks_);
+  }
+  [[nodiscard]] std::span<const ContactBlock> boundary() const {
+    return std::span(blocks_).subspan(interior_blocks_);
+  }
+  [[nodiscard]] ContactGroups& pairs() { return pairs_; }
+  [[nodiscard]] ContactGroups& walls() { return walls_; }
+  [[nodiscard]] const ContactGroups& pairs() const { return pairs_; }
+  [[nodiscard]] const ContactGroups& walls() const { return walls_; }
+  [[nodiscard]] std::size_t listed() const { return listed_; }  ///< pairs of grains, padding not counted
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  std::vector<Parity> parities_;
+  std::size_t history_;
+  std::vector<ContactBlock> blocks_;
+  std::size_t interior_blocks_ = 0;
+  ContactGroups pairs_, walls_;
+  std::size_t listed_ = 0;
+  std::int64_t carried_ = 0;
+  std::vector<Parted> parted_;
+  std::vector<std::byte> parted_entries_;
+};
+
+}  // namespace sph

@@ -1,0 +1,371 @@
+// The only loop over contacts: eight pairs at a time, one SIMD lane each. Forces and torques are rounded to
+// quanta and added as integers, so their sums depend on no order; the pair's two sides get exact opposites.
+// Once the pairs and walls of a block of rows are summed its grains are kicked and drift at once, while they
+// are still in the cache: nothing that comes later in the sweep reads them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "sph/core/fixed_point.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/core/simd.hpp"
+#include "sph/pairs/contact.hpp"
+#include "sph/pairs/contact_context.hpp"
+#include "sph/pairs/friction.hpp"
+#include "sph/pairs/rolling.hpp"
+
+namespace sph {
+
+/// Sums in whole quanta, whose bits depend on no order. benchmarks/contacts.cpp has what they cost.
+struct QuantumSums {
+  using Sum = std::uint64_t;
+  static Int64x8 lanes(Simd<double> quanta) { return to_integers(quanta); }
+  static Sum scalar(double quanta) { return static_cast<Sum>(round_to_quanta(quanta)); }
+  static double value(Sum sum) { return static_cast<double>(static_cast<std::int64_t>(sum)); }
+};
+
+template <class NormalLaw, class FrictionLaw, class RollingLaw, bool one_material, class Sums = QuantumSums>
+struct ContactPass {
+  static constexpr int springs = FrictionLaw::history + RollingLaw::history;  // components of history
+  static constexpr bool spins = springs > 0;
+  static constexpr int memories = static_cast<int>(NormalLaw::history.size());
+  static constexpr int history = springs + memories;
+  static constexpr std::array<Parity, static_cast<std::size_t>(history)> parities = [] {
+    std::array<Parity, static_cast<std::size_t>(history)> all{};
+    std::fill_n(all.begin(), springs, Parity::odd);
+    std::copy(NormalLaw::history.begin(), NormalLaw::history.end(), all.begin() + springs);
+    return all;
+  }();
+  static constexpr int stride = spins ? 8 : 4;
+  static constexpr std::size_t lanes = ContactGroups::lanes;
+  using V = Simd<double>;
+  using Sum = typename Sums::Sum;
+
+  static void run(const ContactContext& c, std::span<const ContactBlock> blocks, const RowRanges& ranges,
+                  ContactSweep& sweep) {
+    const Rows rows(c);
+    for (const ContactBlock& block : blocks) {
+      for (std::size_t g = block.pairs; g < block.pairs_end; ++g) add_pairs(c, rows, g, sweep);
+      for (std::size_t g = block.walls; g < block.walls_end; ++g) add_walls(c, rows, g, sweep);
+      const auto moves = [&](RowClass k) {
+        const RowRange& r = ranges[static_cast<std::size_t>(k)];
+        return block.first >= r.first && block.last <= r.last;
+      };
+      if (moves(RowClass::interior_movers) || moves(RowClass::boundary_movers))
+        c.drifts ? move<true>(c, rows, block.first, block.last, sweep)
+                 : move<false>(c, rows, block.first, block.last, sweep);
+      else
+        std::fill(rows.sums + std::size_t{block.first} * stride, rows.sums + std::size_t{block.last} * stride,
+                  Sum{});
+    }
+  }
+
+ private:
+  struct Rows {
+    std::int64_t* x;
+    double *v, *w;
+    const double *radius, *mass;
+    const std::uint32_t* group;
+    Sum* sums;
+    explicit Rows(const ContactContext& c)
+        : x(c.particles->data<Field::position>()),
+          v(c.particles->data<Field::velocity>()),
+          w(c.particles->data<Field::spin>()),
+          radius(c.particles->data<Field::radius>()),
+          mass(c.particles->data<Field::mass>()),
+          group(c.particles->data<Field::group>()),
+          sums(reinterpret_cast<Sum*>(c.sums)) {}
+  };
+
+  /// Forces and torques of eight contacts. Torque on j: roll - r_j couple, on i: -roll - r_i couple.
+  struct Answer {
+    V force[3], couple[3], roll[3];
+  };
+
+  [[gnu::always_inline]] static ContactConstants<V> constants_of(const ContactContext& c,
+                                                                 const std::uint32_t* pair) {
+    V k[8];
+    if constexpr (one_material)
+      for (int n = 0; n < 8; ++n) k[n] = V(c.constants[n]);
+    else
+      load_rows<8>(c.constants, pair, k);
+    return ContactConstants<V>::of_row(k, V(c.least_force));
+  }
+
+  /// The laws, with the history of group `g` before and after. Lanes that do not touch answer zero and lose
+  /// their history.
+  [[gnu::always_inline]] static Answer respond(Contact<V>& contact, const ContactConstants<V>& k,
+                                               ContactGroups& list, std::size_t g, ContactSweep& sweep) {
+    const V gone = V::zero();
+    const auto touching = [&](V x) { return where_less(gone, contact.overlap, x); };
+    Answer out;
+    double* stored = list.history.data() + g * history * lanes;
+    V memory[memories > 0 ? memories : 1];
+    for (int m = 0; m < memories; ++m)
+      std::memcpy(&memory[m].v, stored + (springs + m) * lanes, sizeof memory[m].v);
+    const NormalForce<V> normal = normal_force<NormalLaw>(contact, k, memory);
+    for (int m = 0; m < memories; ++m) {
+      const V kept = touching(memory[m]);
+      std::memcpy(stored + (springs + m) * lanes, &kept.v, sizeof kept.v);
+    }
+    const V push = touching(normal.force);
+    V t[3] = {gone, gone, gone};
+    if constexpr (FrictionLaw::history > 0) {
+      V spring[3];
+      for (int a = 0; a < 3; ++a) std::memcpy(&spring[a].v, stored + a * lanes, sizeof spring[a].v);
+      FrictionLaw::force(contact, k, normal, spring, t);
+      for (int a = 0; a < 3; ++a) {
+        const V kept = touching(spring[a]);
+        std::memcpy(stored + a * lanes, &kept.v, sizeof kept.v);
+        t[a] = touching(t[a]);
+      }
+    }
+    for (int a = 0; a < 3; ++a) out.force[a] = touching(push * contact.normal[a]) + t[a];
+    if constexpr (spins)
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, d = (a + 2) % 3;
+        out.couple[a] = touching(contact.normal[b] * t[d] - contact.normal[d] * t[b]);
+        out.roll[a] = gone;
+      }
+    if constexpr (RollingLaw::history > 0) {
+      double* rolled = stored + FrictionLaw::history * lanes;
+      V spring[3];
+      for (int a = 0; a < 3; ++a) std::memcpy(&spring[a].v, rolled + a * lanes, sizeof spring[a].v);
+      const V change = NormalLaw::rolling_change(contact, k, normal, memory);
+      RollingLaw::torque(contact, k, normal, change, spring, out.roll);
+      for (int a = 0; a < 3; ++a) {
+        const V kept = touching(spring[a]);
+        std::memcpy(rolled + a * lanes, &kept.v, sizeof kept.v);
+        out.roll[a] = touching(out.roll[a]);
+      }
+    }
+    const unsigned now = positive_lanes(contact.overlap), before = list.touching[g];
+    if (now != before) {
+      if constexpr (history > 0) {  // without history nobody remembers at a rebuild who touched
+        sweep.created += std::popcount(now & ~before);
+        sweep.ended += std::popcount(before & ~now);
+      }
+      list.touching[g] = static_cast<std::uint8_t>(now);
+    }
+    return out;
+  }
+
+  /// A force term must stay below it: 4096 of them then fit a sum.
+  static constexpr double largest_force = 0x1p50;
+
+  [[gnu::cold, gnu::noinline]] static void note(const ContactContext& c, std::uint32_t i,
+                                                std::uint64_t partner, double value, double limit,
+                                                ContactFault& fault) {
+    const std::int64_t* x = c.particles->data<Field::position>() + std::size_t{i} * 3;
+    fault.add({c.particles->data<Field::id>()[i], partner, value, limit, {x[0], x[1], x[2]}});
+  }
+  /// Of pairs, those lanes where `excess` is above 0.
+  [[gnu::cold, gnu::noinline]] static void note_pairs(const ContactContext& c, const std::uint32_t* i,
+                                                      const std::uint32_t* j, V excess, V value,
+                                                      ContactFault& fault) {
+    const std::uint64_t* id = c.particles->data<Field::id>();
+    for (int l = 0; l < V::lanes; ++l) {
+      if (!(excess[l] > 0)) continue;
+      const bool ordered = id[i[l]] < id[j[l]];
+      note(c, ordered ? i[l] : j[l], id[ordered ? j[l] : i[l]], value[l], value[l] - excess[l], fault);
+    }
+  }
+
+  static void add_pairs(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
+    ContactGroups& list = c.lists->pairs();
+    const std::uint32_t* i = list.i.data() + g * lanes;
+    const std::uint32_t* j = list.j.data() + g * lanes;
+    prefetch(rows, list, g + 8);
+    const V unit(c.length_quantum);
+    V xi[4], xj[4];
+    load_vectors(reinterpret_cast<const double*>(rows.x), i, xi);
+    load_vectors(reinterpret_cast<const double*>(rows.x), j, xj);
+    Contact<V> contact;
+    V d[3], distance2 = V::zero();
+    for (int a = 0; a < 3; ++a) {
+      d[a] = coordinate_difference(xi[a], xj[a]) * unit;
+      distance2 += d[a] * d[a];
+    }
+    const V ri = load_scalars(rows.radius, i), rj = load_scalars(rows.radius, j);
+    const V distance = sqrt(distance2), inverse = V(1.0) / distance;
+    // Unused lanes hold a row twice: distance 0 does not touch.
+    contact.overlap = where_less(V::zero(), distance2, ri + rj - distance);
+    if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) return;
+    V vi[4], vj[4], rel[3], surface[3] = {V::zero(), V::zero(), V::zero()};
+    load_vectors(rows.v, i, vi);
+    load_vectors(rows.v, j, vj);
+    if constexpr (spins) {
+      V wi[4], wj[4];
+      load_vectors(rows.w, i, wi);
+      load_vectors(rows.w, j, wj);
+      for (int a = 0; a < 3; ++a) {
+        surface[a] = ri * wi[a] + rj * wj[a];
+        contact.roll[a] = wj[a] - wi[a];
+      }
+    }
+    for (int a = 0; a < 3; ++a) {
+      contact.normal[a] = d[a] * inverse;
+      rel[a] = vj[a] - vi[a];
+    }
+    kinematics(contact, rel, surface);
+    const V mi = load_scalars(rows.mass, i), mj = load_scalars(rows.mass, j);
+    contact.mass = mi * mj / (mi + mj);
+    contact.radius = ri * rj / (ri + rj);
+    contact.dt = V(c.dt);
+    std::uint32_t pair[lanes];
+    if constexpr (!one_material)
+      for (std::size_t l = 0; l < lanes; ++l) pair[l] = rows.group[i[l]] * c.groups + rows.group[j[l]];
+    const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
+    const V excess = contact.overlap - V(c.largest_overlap) * min(ri, rj);
+    if (positive_lanes(excess) != 0) note_pairs(c, i, j, excess, contact.overlap, sweep.deep);
+
+    const V force_scale(1 / c.force_quantum);
+    decltype(Sums::lanes(V())) on_i[stride] = {}, on_j[stride] = {};
+    V worst = V::zero();
+    for (int a = 0; a < 3; ++a) {
+      const V f = answer.force[a] * force_scale;
+      worst = max(worst, max(f, -f));
+      on_j[a] = Sums::lanes(f);
+      on_i[a] = -on_j[a];
+    }
+    if constexpr (spins) {
+      const V torque_scale(1 / c.torque_quantum);
+      for (int a = 0; a < 3; ++a) {
+        on_i[4 + a] = Sums::lanes((-answer.roll[a] - ri * answer.couple[a]) * torque_scale);
+        on_j[4 + a] = Sums::lanes((answer.roll[a] - rj * answer.couple[a]) * torque_scale);
+      }
+    }
+    const V beyond = worst - V(largest_force);
+    if (positive_lanes(beyond) != 0) note_pairs(c, i, j, beyond, worst, sweep.strong);
+    add_to_rows<stride>(rows.sums, i, on_i);
+    add_to_rows<stride>(rows.sums, j, on_j);
+  }
+
+  /// separation, slip and roll from the relative velocity and r_i omega_i + r_j omega_j.
+  [[gnu::always_inline]] static void kinematics(Contact<V>& contact, const V (&rel)[3],
+                                                const V (&surface)[3]) {
+    const V(&n)[3] = contact.normal;
+    contact.separation = rel[0] * n[0] + rel[1] * n[1] + rel[2] * n[2];
+    if constexpr (spins) {
+      const V along = contact.roll[0] * n[0] + contact.roll[1] * n[1] + contact.roll[2] * n[2];
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, d = (a + 2) % 3;
+        contact.slip[a] = rel[a] - contact.separation * n[a] - (surface[b] * n[d] - surface[d] * n[b]);
+        contact.roll[a] -= along * n[a];
+      }
+    }
+  }
+
+  static void add_walls(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
+    ContactGroups& list = c.lists->walls();
+    const std::uint32_t* i = list.i.data() + g * lanes;
+    const std::uint32_t* walls = list.j.data() + g * lanes;
+    Contact<V> contact;
+    V rel[3], surface[3];
+    std::uint32_t pair[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::size_t r = i[l];
+      const int k = static_cast<int>(l);
+      const bool used = walls[l] < c.planes.size() && c.planes[walls[l]].present;
+      const PlaneNow& plane = c.planes[used ? walls[l] : 0];
+      double away = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        away += static_cast<double>(rows.x[r * 3 + a] - plane.point[a]) * plane.normal[a];
+        contact.normal[a].v[k] = -plane.normal[a];
+        rel[a].v[k] = plane.velocity[a] - rows.v[r * 3 + a];
+        if constexpr (spins) {
+          surface[a].v[k] = rows.radius[r] * rows.w[r * 3 + a];
+          contact.roll[a].v[k] = -rows.w[r * 3 + a];
+        }
+      }
+      contact.overlap.v[k] = used ? rows.radius[r] - away * c.length_quantum : 0.0;
+      contact.radius.v[k] = rows.radius[r];
+      contact.mass.v[k] = rows.mass[r];
+      pair[l] = rows.group[r] * c.groups + plane.group;
+    }
+    kinematics(contact, rel, surface);
+    contact.dt = V(c.dt);
+    const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const int k = static_cast<int>(l);
+      if (!(contact.overlap[k] > 0)) continue;
+      const double deepest = c.largest_overlap * rows.radius[i[l]];
+      if (contact.overlap[k] > deepest)
+        note(c, i[l], wall_key | walls[l], contact.overlap[k], deepest, sweep.deep);
+      for (int a = 0; a < 3; ++a) {
+        const double f = answer.force[a][k] * (1 / c.force_quantum);
+        if (std::fabs(f) > largest_force)
+          note(c, i[l], wall_key | walls[l], std::fabs(f), largest_force, sweep.strong);
+        const Sum sum = Sums::scalar(f);
+        rows.sums[std::size_t{i[l]} * stride + static_cast<std::size_t>(a)] -= sum;
+        // A wall has any number of contacts: two halves have room for 2^31 of them.
+        const std::size_t at = walls[l] * 3 + static_cast<std::size_t>(a);
+        const auto on_wall = static_cast<std::int64_t>(sum);
+        c.wall_force[at] += on_wall & 0xffffffff;
+        c.wall_force[3 * c.planes.size() + at] += on_wall >> 32;
+        if constexpr (spins) {
+          const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
+          rows.sums[std::size_t{i[l]} * stride + 4 + static_cast<std::size_t>(a)] +=
+              Sums::scalar(torque * (1 / c.torque_quantum));
+        }
+      }
+    }
+  }
+
+  /// What group g reads of its partners and adds to. Both ends of a row of 24 bytes: it may lie in two lines.
+  /// Inlined by force: g++ takes a function that only prefetches for one without effect and drops the call.
+  [[gnu::always_inline]] static void prefetch(const Rows& rows, const ContactGroups& list, std::size_t g) {
+    if (g >= list.groups()) return;
+    const std::uint32_t* j = list.j.data() + g * lanes;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::size_t r = j[l];
+      for (const std::size_t end : {r * 3, r * 3 + 2}) {
+        __builtin_prefetch(rows.x + end);
+        __builtin_prefetch(rows.v + end);
+        if constexpr (spins) __builtin_prefetch(rows.w + end);
+      }
+      __builtin_prefetch(rows.radius + r);
+      __builtin_prefetch(rows.mass + r);
+      if constexpr (!one_material) __builtin_prefetch(rows.group + r);
+      __builtin_prefetch(rows.sums + r * stride, 1);
+    }
+  }
+
+  // v += (F/m + g) dt, omega += T/I dt with I = 2/5 m r^2, then x += v dt in whole quanta.
+  template <bool drifts>
+  static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
+                   ContactSweep& sweep) {
+    const double dt = c.dt;
+    [[maybe_unused]] const double quanta = dt / c.length_quantum;
+    double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
+    for (std::size_t r = first; r < last; ++r) {
+      Sum* sums = rows.sums + r * stride;
+      const double inverse_mass = 1 / rows.mass[r];
+      double v2 = 0, a2 = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double force = Sums::value(sums[a]) * c.force_quantum;
+        const double acceleration = force * inverse_mass + c.gravity[a];
+        const double v = rows.v[r * 3 + a] + acceleration * dt;
+        rows.v[r * 3 + a] = v;
+        if constexpr (drifts) rows.x[r * 3 + a] = moved_by(rows.x[r * 3 + a], round_to_quanta(v * quanta));
+        v2 += v * v;
+        a2 += acceleration * acceleration;
+      }
+      if constexpr (spins) {
+        const double turn = 2.5 * inverse_mass / (rows.radius[r] * rows.radius[r]) * c.torque_quantum * dt;
+        for (std::size_t a = 0; a < 3; ++a) rows.w[r * 3 + a] += Sums::value(sums[4 + a]) * turn;
+      }
+      for (int k = 0; k < stride; ++k) sums[k] = 0;
+      speed2 = v2 <= speed2 ? speed2 : v2;
+      acceleration2 = a2 <= acceleration2 ? acceleration2 : a2;
+    }
+    sweep.speed2 = speed2;
+    sweep.acceleration2 = acceleration2;
+  }
+};
+
+}  // namespace sph

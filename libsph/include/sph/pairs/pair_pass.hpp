@@ -1,0 +1,285 @@
+// The only loop over pairs of SPH particles. One SIMD lane per particle i; its partners j are visited in
+// ascending global id with strictly sequential adds, so a sum depends on ids and on the current state only.
+// Entries beyond the support, and the padding of a list (the particle itself), add exactly +-0 because the
+// kernel's slope is clamped to 0 there. Terms are fused at compile time.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sph/core/fields.hpp"
+#include "sph/core/simd.hpp"
+#include "sph/pairs/neighbour_lists.hpp"
+#include "sph/pairs/pair_rows.hpp"
+#include "sph/pairs/pass_context.hpp"
+
+namespace sph {
+
+template <class T, int D, ValueSet S>
+struct Pair {
+  using Scalar = T;
+  using V = Simd<T>;
+  static constexpr int dim = D;
+  using Layout = RowLayout<D, S>;
+  const V* own;
+  const V* other;
+  V e[D];  ///< (x_j - x_i) / h
+  V r2;    ///< |e|^2
+  V r;     ///< |e|
+  V f;     ///< w'(r) / r, unnormalised; grad_i W = -f e (times the pass's factor); where kernels are of
+           ///< different widths the mean of both
+  // Of terms that read Value::width:
+  V inverse_width;  ///< of i
+  V f_i, f_j,
+      f_of_wall;  ///< f of the kernels of i and of j, and of i beside a wall: then not less than h wide
+  V inverse_width_at_wall;
+  // Of terms that read Value::reference:
+  V reference[D];     ///< X = (X_j - X_i) / h
+  V displacement[D];  ///< u = e - X, exact before it is rounded once
+  V bond;    ///< 1 for two particles of one body within each other's support in the reference state, unless
+             ///< lost
+  V weight;  ///< -w'(|X|) / |X| of a bond, else 0; grad_i W = weight X
+  template <Value v>
+  [[nodiscard]] V i(int k = 0) const {
+    static_assert(S.has(v), "the term did not declare this value in `reads`");
+    return own[Layout::offset(v) + k];
+  }
+  template <Value v>
+  [[nodiscard]] V j(int k = 0) const {
+    static_assert(S.has(v), "the term did not declare this value in `reads`");
+    return other[Layout::offset(v) + k];
+  }
+};
+
+/// The sums of one block of particles: one vector per component of each written field.
+template <class T, int D, FieldSet Writes>
+struct Sums {
+  [[nodiscard]] static constexpr int offset(Field field) {
+    int at = 0;
+    for (int k = 0; k < static_cast<int>(field); ++k)
+      if (Writes.has(static_cast<Field>(k))) at += components(info(static_cast<Field>(k)).shape, D);
+    return at;
+  }
+  static constexpr int size = offset(Field::count_);
+  Simd<T> v[size];
+  template <Field F>
+  void add(int k, Simd<T> x) {
+    v[offset(F) + k] += x;
+  }
+};
+
+template <class Term>
+inline constexpr bool goes_half_a_step_back = requires {
+  Term::half_step_back;
+};
+
+/// Sums of a pass of such terms are 0 in blocks that no wall is near, and not looked for.
+template <class Term>
+inline constexpr bool looks_only_beside_walls = requires {
+  Term::only_beside_walls;
+};
+
+/// Of a block of particles that all have 0 for that value the sums are not needed: they are 0.
+template <class Term>
+inline constexpr bool is_idle_without_a_value = requires {
+  Term::nothing_without;
+};
+
+template <class T, int D, class Kernel, class... Terms>
+struct PairPass {
+  static constexpr ValueSet values = (Terms::reads | ...);
+  static constexpr FieldSet writes = (FieldSet{Terms::writes} | ...);
+  using Layout = RowLayout<D, values>;
+  using V = Simd<T>;
+  // Velocities are those of half a step ago. With them a density would grow thinner in every rotation, by
+  // (omega dt)^2 a step, were the pairs not taken where they were then.
+  static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
+  static constexpr bool only_beside_walls = (looks_only_beside_walls<Terms> && ...);
+  static constexpr bool can_be_idle = (is_idle_without_a_value<Terms> && ...);
+  static constexpr int velocity = half_step_back ? Layout::offset(Value::velocity) : 0;
+
+  static void pack(const PassContext& c, std::size_t first, std::size_t last) {
+    pack_rows<T, D, values>(*c.particles, *c.groups, c.scale, first, last, rows_of(c));
+  }
+
+  /// What a solver changes from one run of the pass to the next.
+  static void repack(const PassContext& c, std::size_t first, std::size_t last) {
+    if constexpr (values.has(Value::direction)) {
+      T* const rows = rows_of(c);
+      const double* direction = c.particles->template data<Field::direction>();
+      for (std::size_t i = first; i < last; ++i)
+        for (int k = 0; k < D; ++k)
+          rows[i * Layout::stride + Layout::offset(Value::direction) + k] =
+              static_cast<T>(direction[i * D + k]);
+    }
+  }
+
+  static void run(const PassContext& c, const RowRange& range) {
+    const T* const rows = rows_of(c);
+    const TermConstants<T> constants = narrow(c.constants);
+    const V unit(static_cast<T>(c.scale.position_unit));
+    const V tiny(static_cast<T>(1e-30));
+    for (std::size_t first = range.first, block = range.first_block; first < range.last;
+         first += V::lanes, ++block) {
+      Sums<T, D, writes> sums;
+      for (V& s : sums.v) s = V::zero();
+      if (only_beside_walls && !c.lists->beside_walls(block)) {
+        store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
+        continue;
+      }
+      std::uint32_t own_rows[V::lanes];
+      for (std::size_t l = 0; l < V::lanes; ++l)
+        own_rows[l] = static_cast<std::uint32_t>(std::min(first + l, range.last - 1));
+      V own[Layout::stride], other[Layout::stride];
+      load_rows<Layout::stride>(rows, own_rows, own);
+      if constexpr (can_be_idle)
+        if (all_zero((own[Layout::offset(Terms::nothing_without)], ...))) {
+          store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
+          continue;
+        }
+      const std::span<const std::uint32_t> entries = c.lists->block(block);
+      for (std::size_t k = 0; k < entries.size(); k += V::lanes) {
+        load_rows<Layout::stride>(rows, entries.data() + k, other);
+        Pair<T, D, values> pair;
+        pair.own = own;
+        pair.other = other;
+        pair.r2 = V::zero();
+        for (int a = 0; a < D; ++a) {
+          pair.e[a] = coordinate_difference(own[a], other[a]) * unit;
+          if constexpr (half_step_back)
+            pair.e[a] -= (other[velocity + a] - own[velocity + a]) * V(constants.half_step);
+          pair.r2 += pair.e[a] * pair.e[a];
+        }
+        pair.r = sqrt(pair.r2);
+        pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
+        if constexpr (values.has(Value::width)) look_at_widths(own, other, pair);
+        if constexpr (values.has(Value::reference))
+          look_at_bond(own, other, unit, V(constants.bond_range), pair);
+        (Terms::template add<Kernel>(pair, constants, sums), ...);
+      }
+      store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
+    }
+  }
+
+ private:
+  static bool all_zero(const V& value) {
+    for (int l = 0; l < static_cast<int>(V::lanes); ++l)
+      if (value[l] != 0) return false;
+    return true;
+  }
+
+  // W(r, h) = alpha / h^D w(r / h): f of a kernel that is s times as wide is w'(r / s) / (r s^(D+1)).
+  static void look_at_widths(const V* own, const V* other, Pair<T, D, values>& pair) {
+    constexpr int width = Layout::offset(Value::width);
+    const V one(static_cast<T>(1)), inverse_r = one / max(pair.r, V(static_cast<T>(1e-30)));
+    const auto slope = [&](V inverse_width) {
+      const V square = inverse_width * inverse_width;
+      const V factor = D == 2 ? square * inverse_width : square * square;
+      return Kernel::template slope<D>(pair.r * inverse_width) * (factor * inverse_r);
+    };
+    pair.inverse_width = one / own[width];
+    pair.inverse_width_at_wall = min(pair.inverse_width, one);
+    pair.f_i = slope(pair.inverse_width);
+    pair.f_j = slope(one / other[width]);
+    pair.f_of_wall = slope(pair.inverse_width_at_wall);
+    pair.f = V(static_cast<T>(0.5)) * (pair.f_i + pair.f_j);
+  }
+
+  static void look_at_bond(const V* own, const V* other, V unit, V range, Pair<T, D, values>& pair) {
+    constexpr int reference = Layout::offset(Value::reference), body = Layout::offset(Value::body);
+    V square = V::zero();
+    for (int a = 0; a < D; ++a) {
+      const V xi = own[reference + a], xj = other[reference + a];
+      pair.reference[a] = coordinate_difference(xi, xj) * unit;
+      pair.displacement[a] =
+          coordinate_difference(stored_difference(xi, own[a]), stored_difference(xj, other[a])) * unit;
+      square += pair.reference[a] * pair.reference[a];
+    }
+    // Differences in rows of single precision are modulo 2^32 units, four to eight times 2^29: particles from
+    // far apart that meet now must not pass for neighbours then.
+    const V near = all_near(own, other);
+    const V distance = sqrt(square), tiny(static_cast<T>(1e-30));
+    // A bond longer than the range is lost even where a list, with its skin, still holds it: how wide lists
+    // are must not decide when a run ends.
+    const V found = where_less(pair.r, range, V(static_cast<T>(1)));
+    const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found * near);
+    pair.bond = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
+    pair.weight = where_equal(own[body], other[body],
+                              -(near * Kernel::template slope<D>(distance) / max(distance, tiny)));
+  }
+
+  /// 1 where the reference positions are less than three cells of 2^29 units apart along each axis, else 0.
+  static V all_near(const V* own, const V* other) {
+    constexpr int cell = Layout::offset(Value::reference_cell);
+    V near(static_cast<T>(1));
+    for (int a = 0; a < D; ++a) {
+      const V apart = other[cell + a] - own[cell + a];
+      near = where_less(apart * apart, V(static_cast<T>(9)), near);
+    }
+    return near;
+  }
+
+  static T* rows_of(const PassContext& c) {
+    return reinterpret_cast<T*>(
+        aligned_scratch(*c.rows, (c.particles->rows() + V::lanes) * Layout::stride * sizeof(T)));
+  }
+
+  static TermConstants<T> narrow(const TermConstants<double>& d) {
+    TermConstants<T> c;
+    for (int a = 0; a < 3; ++a) c.gravity[a] = static_cast<T>(d.gravity[a]);
+    c.viscosity = static_cast<T>(d.viscosity);
+    c.laplacian = static_cast<T>(d.laplacian);
+    c.symmetric = static_cast<T>(d.symmetric);
+    c.density = static_cast<T>(d.density);
+    c.inverse_sound_speed = static_cast<T>(d.inverse_sound_speed);
+    c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
+    c.quadratic_viscosity = static_cast<T>(d.quadratic_viscosity);
+    c.conduction = static_cast<T>(d.conduction);
+    c.interface_damping = static_cast<T>(d.interface_damping);
+    c.background_pressure = static_cast<T>(d.background_pressure);
+    c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
+    c.half_step = static_cast<T>(d.half_step);
+    c.bond_range = static_cast<T>(d.bond_range);
+    c.hourglass = static_cast<T>(d.hourglass);
+    c.contact_range = static_cast<T>(d.contact_range);
+    c.contact_force = static_cast<T>(d.contact_force);
+    c.contact_energy = static_cast<T>(d.contact_energy);
+    return c;
+  }
+
+  template <SumScale S>
+  static double factor(const PassContext& c) {
+    static_assert(S != SumScale::none, "a term writes a field whose sum has no scale in the table of fields");
+    if constexpr (S == SumScale::force) return c.force_factor;
+    if constexpr (S == SumScale::gradient) return c.gradient_factor;
+    if constexpr (S == SumScale::diffusion) return c.diffusion_factor;
+    return 1.0;
+  }
+
+  template <Field F>
+  static void store_field(const PassContext& c, std::size_t first, std::size_t count,
+                          const Sums<T, D, writes>& sums) {
+    if constexpr (writes.has(F)) {
+      constexpr int n = components(info(F).shape, D);
+      const double scale = factor<info(F).sum>(c);
+      double* out = c.particles->template data<F>() + first * n;
+      for (std::size_t l = 0; l < count; ++l)
+        for (int k = 0; k < n; ++k)
+          out[l * n + k] = static_cast<double>(sums.v[sums.offset(F) + k][static_cast<int>(l)]) * scale;
+    }
+  }
+
+  static void store(const PassContext& c, std::size_t first, std::size_t count,
+                    const Sums<T, D, writes>& sums) {
+    [&]<std::size_t... F>(std::index_sequence<F...>) {
+      (store_field<static_cast<Field>(F)>(c, first, count, sums), ...);
+    }
+    (std::make_index_sequence<field_count>());
+  }
+};
+
+}  // namespace sph

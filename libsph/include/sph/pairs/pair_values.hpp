@@ -1,0 +1,158 @@
+// Pair terms by name, what they can read of a particle, and what is constant for a scene in the units of pair rows.
+#pragma once
+
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
+
+#include "sph/core/fields.hpp"
+
+namespace sph {
+
+/// A pair term, by the name of its struct (terms/).
+struct Term {
+  std::string_view name;
+  friend auto operator<=>(const Term&, const Term&) = default;
+};
+template <class T>
+inline constexpr Term term{T::name};
+
+/// What the sum of a term in a pass of its own is (added_term.hpp): an acceleration [m/s^2], with the scale of
+/// a sum of V_j grad W, or a velocity that particles drift with [m/s], with that of a sum of V_j W.
+enum class Effect : std::uint8_t { acceleration, drift };
+
+/// What a term can read of a particle besides its position.
+enum class Value : std::uint8_t {
+  velocity,            ///< [m/s]
+  volume,              ///< mass / density [spacing^D]
+  pressure,            ///< [Pa]
+  density,             ///< [kg/m^3]
+  viscosity,           ///< eta / h [Pa s/m]
+  sound_speed,         ///< [m/s]
+  phase,               ///< index of the group
+  mover,               ///< 1, or 0 for walls
+  stress,              ///< total: -pressure delta + stress field [Pa]
+  heavy,               ///< 1 for the heavier fluids of the scene, 0 for all others
+  pressures,           ///< for lighter and for heavier partners: of walls they differ [Pa]
+  side,                ///< of the interface with tension: 1 or -1, 0 elsewhere
+  capillary,           ///< surface stress sigma (I - n n) |grad C| [Pa]
+  interface_normal,    ///< of the interface with tension, from the first fluid to the second; 0 far from it
+  interface_weight,    ///< h |grad C| V [spacing^D]; 0 far from it
+  curvature,           ///< of the interface with tension [1/m]
+  capillary_pressure,  ///< sigma times it [Pa]
+  potential,           ///< of the central pull [m^2/s^2]
+  reference,           ///< reference position, stored as the position is
+  reference_cell,      ///< the bits of it that a row in single precision has no room for
+  reference_volume,    ///< mass / rho_0 [spacing^D]
+  body,                ///< particles of one body have one number
+  bond_stress,         ///< [Pa]
+  modulus,             ///< K + 4/3 mu of the group [Pa]
+  direction,           ///< what the viscous operator is applied to [m/s]
+  wall_slope,          ///< gradient of a flow that is 0 at the wall and 1 here, times h
+  specific_energy,     ///< of ideal gases, 0 of all else [J/kg]
+  width,               ///< of ideal gases: smoothing length of the particle / h
+  kernel_correction,   ///< 1 / Omega (terms/gas.hpp)
+  velocity_gradient,   ///< h d v_a / d x_b [m/s]
+  shears,              ///< 1 for solids and walls, 0 for fluids
+  count_
+};
+
+class ValueSet {
+ public:
+  constexpr ValueSet() = default;
+  constexpr ValueSet(std::initializer_list<Value> values) {
+    for (Value v : values) bits_ |= 1u << static_cast<int>(v);
+  }
+  [[nodiscard]] constexpr bool has(Value v) const { return ((bits_ >> static_cast<int>(v)) & 1u) != 0; }
+  constexpr ValueSet operator|(ValueSet o) const {
+    ValueSet r;
+    r.bits_ = bits_ | o.bits_;
+    return r;
+  }
+
+  unsigned bits_ = 0;  ///< public only so that a set can be a template argument
+};
+
+[[nodiscard]] constexpr int components(Value v, int dim) {
+  const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
+                      v == Value::direction || v == Value::wall_slope || v == Value::interface_normal;
+  const bool tensor = v == Value::stress || v == Value::capillary;
+  return vector                                                     ? dim
+         : v == Value::pressures                                    ? 2
+         : tensor                                                   ? dim * (dim + 1) / 2
+         : v == Value::bond_stress || v == Value::velocity_gradient ? dim * dim
+                                                                    : 1;
+}
+
+/// The fields a halo copy needs so that its row can be packed.
+[[nodiscard]] constexpr FieldSet fields_behind(ValueSet values) {
+  FieldSet f{Field::position};
+  if (values.has(Value::velocity)) f |= FieldSet{Field::velocity};
+  if (values.has(Value::volume)) f |= FieldSet{Field::mass, Field::density};
+  if (values.has(Value::pressure)) f |= FieldSet{Field::pressure};
+  if (values.has(Value::density)) f |= FieldSet{Field::density};
+  if (values.has(Value::viscosity)) f |= FieldSet{Field::group};
+  if (values.has(Value::sound_speed)) f |= FieldSet{Field::group, Field::sound_speed};
+  if (values.has(Value::phase)) f |= FieldSet{Field::group};
+  if (values.has(Value::mover)) f |= FieldSet{Field::group};
+  if (values.has(Value::stress)) f |= FieldSet{Field::pressure, Field::stress};
+  if (values.has(Value::heavy)) f |= FieldSet{Field::group};
+  if (values.has(Value::pressures)) f |= FieldSet{Field::group, Field::pressure, Field::wall_pressures};
+  if (values.has(Value::side)) f |= FieldSet{Field::group};
+  if (values.has(Value::capillary)) f |= FieldSet{Field::colour_gradient};
+  if (values.has(Value::interface_normal)) f |= FieldSet{Field::group, Field::colour_gradient};
+  if (values.has(Value::interface_weight))
+    f |= FieldSet{Field::group, Field::mass, Field::density, Field::colour_gradient};
+  if (values.has(Value::curvature) || values.has(Value::capillary_pressure))
+    f |= FieldSet{Field::group, Field::curvature};
+  if (values.has(Value::reference) || values.has(Value::reference_cell)) f |= FieldSet{Field::displacement};
+  if (values.has(Value::reference_volume)) f |= FieldSet{Field::mass, Field::group};
+  if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
+  if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
+  if (values.has(Value::direction)) f |= FieldSet{Field::direction};
+  if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
+  if (values.has(Value::width)) f |= FieldSet{Field::smoothing_length};
+  if (values.has(Value::kernel_correction)) f |= FieldSet{Field::kernel_correction};
+  if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
+  if (values.has(Value::shears)) f |= FieldSet{Field::group};
+  return f;
+}
+
+/// What is constant for all particles of a group, by group index.
+struct GroupTable {
+  std::vector<double> viscosity;    ///< [Pa s]
+  std::vector<double> sound_speed;  ///< [m/s]
+  std::vector<double> mover;        ///< 1 or 0
+  std::vector<double> heavy;        ///< 1 or 0
+  std::vector<double> side;         ///< 1, -1 or 0
+  std::vector<double> shears;       ///< 1 or 0
+  double surface_tension = 0;       ///< [N/m]
+  std::vector<double> density;      ///< rho_0 [kg/m^3]
+  std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
+  std::vector<double> modulus;      ///< K + 4/3 mu [Pa]
+};
+
+/// Scales of the rows; see the head of this file.
+struct RowScale {
+  int position_shift;     ///< float rows hold the low 32 bits of quanta >> shift, double rows the quanta
+  double position_unit;   ///< length of one unit of a row's position / h
+  double inverse_volume;  ///< 1 / spacing^D
+  double inverse_h;       ///< 1 / h
+  double quantum = 0;     ///< of the positions [m]
+  double pull = 0;        ///< Scene::central_pull [1/s^2]
+  double pull_centre[3]{};
+};
+
+/// h |grad C| in the layer about the interface, as far as it is not noise; 0 farther off.
+[[nodiscard]] inline double layer_share(const double* colour, int dim, double inverse_h) {
+  constexpr double least = 0.02;
+  double square = 0;
+  for (int a = 0; a < dim; ++a) square += colour[a] * colour[a];
+  const double share = std::sqrt(square) / inverse_h;
+  return share > least ? share : 0.0;
+}
+
+}  // namespace sph

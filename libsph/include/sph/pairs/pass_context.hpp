@@ -1,0 +1,50 @@
+// Everything that a compiled pass over pairs needs besides its terms (pair_pass.hpp).
+#pragma once
+
+#include <cstddef>
+
+#include "decomp/memory.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/pairs/neighbour_lists.hpp"
+#include "sph/pairs/pair_values.hpp"
+
+namespace sph {
+
+/// Constants of the scene that terms read, in the scaled units of pair_rows.hpp.
+template <class T>
+struct TermConstants {
+  T gravity[3];                     ///< g h [m^2/s^2]
+  T viscosity;                      ///< eta / h where all groups share it, times `laplacian` [Pa s/m]
+  T laplacian, symmetric;           ///< scales of the forms of terms/viscosity.hpp
+  T density;                        ///< rho_0 where there is one fluid [kg/m^3]
+  T inverse_sound_speed;            ///< where there is one fluid [s/m]
+  T artificial_viscosity;           ///< alpha
+  T quadratic_viscosity;            ///< beta
+  T conduction;                     ///< alpha_u
+  T interface_damping;              ///< beta of terms/tension_jump.hpp
+  T background_pressure;            ///< twice p_b of terms/tension_jump.hpp [Pa]
+  T inverse_w_spacing;              ///< 1 / w(spacing/h), unnormalised kernel
+  T half_step;                      ///< dt / 2h [s/m]
+  T bond_range;                     ///< largest distance of two bonded particles / h
+  T hourglass;                      ///< stiffness against hourglass modes over the modulus
+  T contact_range;                  ///< distance at which bodies touch / h
+  T contact_force, contact_energy;  ///< scales of terms/body_contact.hpp
+};
+
+/// Everything a compiled pass needs besides its terms.
+struct PassContext {
+  Particles* particles;
+  const NeighbourLists* lists;
+  const GroupTable* groups;
+  RowScale scale;
+  TermConstants<double> constants;
+  double gradient_factor;                ///< spacing^D alpha_D / h^(D+1): scale of a sum of V_j grad W
+  double force_factor;                   ///< spacing^(2D) alpha_D / h^(D+1): scale of a sum of V_i V_j grad W
+  double diffusion_factor;               ///< 2 delta h spacing^D alpha_D / h^(D+2)
+  decomp::LargeVector<std::byte>* rows;  ///< scratch, 64-byte aligned use starts at rows_begin()
+};
+
+/// 64-byte aligned start of the scratch, grown to `bytes`.
+[[nodiscard]] std::byte* aligned_scratch(decomp::LargeVector<std::byte>& scratch, std::size_t bytes);
+
+}  // namespace sph

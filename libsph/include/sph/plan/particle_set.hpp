@@ -1,0 +1,36 @@
+// One kind of particles of a scene (its fluids and solids, or its grains) on one rank: the rows with the
+// fields that its models read, and where copies of them are kept on other ranks.
+#pragma once
+
+#include <vector>
+
+#include "decomp/halo.hpp"
+#include "decomp/migrate.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/pairs/neighbour_lists.hpp"
+#include "sph/plan/halo_exchange.hpp"
+
+namespace sph {
+
+struct ParticleSet {
+  Particles particles;
+  std::vector<bool> stays;  ///< by group: its particles are no movers
+  RowRanges ranges{};       ///< of the owned rows
+  decomp::HaloPlan halo;
+  HaloExchange exchange;
+  decomp::Census census{};  ///< of its start
+
+  /// Brings the halo copies of these fields up to date.
+  void refresh(FieldSet fields, decomp::Timers& timers) {
+    exchange.begin(halo, particles, fields, timers);
+    exchange.end(halo, timers);
+  }
+  /// Its owned particles, over all ranks: what `census` is unless some were lost. Collective.
+  [[nodiscard]] decomp::Census count(const decomp::Comm& comm) const {
+    return decomp::census(comm, particles.table(), particles.column(Field::id));
+  }
+  /// Halo copies of these fields are out of date.
+  void changed(FieldSet fields) { exchange.changed(particles, fields); }
+};
+
+}  // namespace sph

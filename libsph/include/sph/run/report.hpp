@@ -1,0 +1,62 @@
+// The screen and the final report: a short banner, one status line an interval, the table at the end and the
+// same numbers in perf.json. Nothing else goes to stdout but the fingerprint line, last.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "decomp/balancer.hpp"
+#include "decomp/comm.hpp"
+#include "decomp/timer.hpp"
+#include "sph/core/particles.hpp"
+
+namespace sph {
+
+struct Status {
+  GlobalState global;
+  double particle_steps_per_second = 0;
+  double imbalance = 1;       ///< max / mean of computation time
+  double kinetic_energy = 0;  ///< [J]
+  double seconds_left = 0;    ///< wall; negative: unknown
+};
+/// "step 12000  t 1.234 s  dt 1.0e-4  1.9e7 upd/s  imb 1.07  Ekin 3.21e+02 J  left 0:42:10"
+[[nodiscard]] std::string status_line(const Status& status);
+
+/// The cells that ranks share out, and who had which at the end: enough to say whose a position was.
+struct CellLayout {
+  std::array<double, 3> origin{}, edge{};  ///< [m]; the last cell of an axis takes the rest of the domain
+  std::array<std::int64_t, 3> cells{};
+  std::array<bool, 3> periodic{};
+  std::array<int, 2> cut_axes{};  ///< rows, columns
+  std::string cuts;               ///< decomp::to_text
+};
+
+/// Numbers of a finished (or stopped) run. Counters are sums over ranks unless said otherwise.
+struct Performance {
+  std::string scene, fingerprint, precision, formulation;
+  int ranks = 1;
+  std::int64_t steps = 0, particles = 0;  ///< steps of this run, particles in all
+  GlobalState end;
+  double wall_seconds = 0, setup_seconds = 0;  ///< of the steps; before the first, on rank 0
+  double neighbours_per_particle = 0;          ///< listed, mean
+  double pairs_per_particle = 0;               ///< within the support, mean
+  double halo_per_particle = 0;                ///< halo rows / owned rows
+  double refresh_bytes = 0;                    ///< a halo row, a step
+  double halo_bytes_per_step = 0, state_bytes_per_particle = 0, bytes_per_particle = 0,
+         bytes_per_halo_particle = 0;
+  std::int64_t rebuilds = 0, late_rebuilds = 0, migrated = 0, refreshes = 0, iterations = 0;
+  decomp::BalanceAccount balance;
+  double imbalance = 1;        ///< largest / mean CPU time of computation
+  double cost_seconds = 0;     ///< that time, of all ranks together
+  double peak_rank_bytes = 0;  ///< resident memory of the largest rank, all told
+  CellLayout layout;
+  std::vector<decomp::Timers::Row> regions;
+};
+[[nodiscard]] std::string final_table(const Performance& performance);
+void write_perf_json(const std::filesystem::path& path, const Performance& performance);
+
+}  // namespace sph

@@ -1,0 +1,84 @@
+// What a scene of grains says beyond what every scene says: materials, contact law, walls, stages.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sph/scene/law_key.hpp"
+
+namespace sph {
+
+using Double3 = std::array<double, 3>;
+
+struct ContactLaw;  // laws/contact/law.hpp
+
+/// Of a group with kind = "grain": spheres, or only the material of walls.
+struct GrainMaterial {
+  double least_radius = 0, largest_radius = 0;  ///< uniform distribution of the radius between them [m]
+  LawConstants constants{};                     ///< of the contact law, in the order of its keys
+  double restitution = 1;                       ///< of a head-on impact, 0 < e <= 1
+  double friction = 0;                          ///< mu
+  double rolling_friction = 0;                  ///< mu_r
+  bool fixed = false;  ///< glued in space; Group::wall_velocity drags what touches it, as a belt does
+  friend bool operator==(const GrainMaterial&, const GrainMaterial&) = default;
+};
+
+/// Replaces the mixed value of two materials (by default: the smaller friction, rolling friction and
+/// restitution of the two; always the harmonic mean of linear stiffnesses and the sum of Hertz's
+/// compliances).
+struct ContactPair {
+  std::array<int, 2> groups{};
+  std::optional<double> friction, rolling_friction, restitution;
+  friend bool operator==(const ContactPair&, const ContactPair&) = default;
+};
+
+struct ContactControl {
+  const ContactLaw* law = nullptr;       ///< of laws/contact/registry.hpp; of all scenes of grains
+  std::optional<double> normal_damping;  ///< linear law: gamma_n [1/s] for all, instead of restitution
+  double tangential_damping = 0;         ///< of the tangential dashpot, in normal ones
+  double rolling_damping = 0.3;          ///< of the rolling dashpot, in critical ones
+  bool pull = false;                     ///< dashpots may pull at the end of a contact
+  double largest_overlap = 0.2;          ///< in radii of the smaller grain: beyond it the run stops
+  std::vector<ContactPair> pairs;
+  friend bool operator==(const ContactControl&, const ContactControl&) = default;
+};
+
+/// A plane: grains stay on the side to which the normal points. It moves with the prescribed velocity, or, as
+/// a servo, along its normal so that the grains press on it with `force`.
+struct Wall {
+  std::string name;
+  int group = 0;  ///< material
+  Double3 point{}, normal{};
+  Double3 velocity{};           ///< [m/s]; a tangential part drags the grains and moves nothing else
+  std::optional<double> force;  ///< servo: target of the normal force on the wall [N]
+  double servo_gain = 0;        ///< speed per excess of force [m/s/N]
+  double largest_speed = 0;     ///< of a servo [m/s]
+  friend bool operator==(const Wall&, const Wall&) = default;
+};
+
+/// From `begin` on, some walls behave otherwise.
+struct WallChange {
+  int wall = 0;
+  bool remove = false;
+  std::optional<Double3> velocity;
+  std::optional<double> force;
+  friend bool operator==(const WallChange&, const WallChange&) = default;
+};
+struct WallStage {
+  std::string name;
+  double begin = 0;  ///< [s], ascending
+  std::vector<WallChange> walls;
+  friend bool operator==(const WallStage&, const WallStage&) = default;
+};
+
+/// A settled packing that is repeated side by side.
+struct Tile {
+  std::string file;  ///< a snapshot of a run of grains, or a particle file
+  std::array<std::int64_t, 3> repeat{1, 1, 1};
+  friend bool operator==(const Tile&, const Tile&) = default;
+};
+
+}  // namespace sph

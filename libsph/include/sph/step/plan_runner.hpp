@@ -1,0 +1,54 @@
+// Runs the stages of a plan on the sets of a state: halos before boundaries, communication behind the interior.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "decomp/timer.hpp"
+#include "sph/core/findings.hpp"
+#include "sph/models/parts.hpp"
+#include "sph/plan/particle_set.hpp"
+#include "sph/step/list_age.hpp"
+
+namespace sph {
+
+class PlanRunner {
+ public:
+  struct Counters {
+    std::int64_t iterations = 0, solved = 0;  ///< of solvers, and how often they were asked
+    std::int64_t repeats = 0;                 ///< of loops
+  };
+
+  PlanRunner(const decomp::Comm& comm, const Parts& parts, std::vector<ParticleSet>& sets, ListAge& age,
+             decomp::Timers& timers)
+      : comm_(comm), parts_(parts), sets_(sets), age_(age), timers_(timers) {}
+
+  void run(const std::vector<Entry>& entries, GlobalState& global);
+
+  /// What stages get of a set, and of another one beside it.
+  [[nodiscard]] StepState state_of(std::size_t set, GlobalState& global,
+                                   std::optional<std::size_t> other = std::nullopt);
+
+  /// Of this rank since forget_maxima().
+  [[nodiscard]] const StepMaxima& maxima() const { return maxima_; }
+  void forget_maxima() { maxima_ = {}; }
+  [[nodiscard]] const Findings& findings() const { return findings_; }  ///< of this rank
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+ private:
+  void run(const Stage& stage, StepState& state);
+  [[nodiscard]] bool improve(const Entry& loop, GlobalState& global);
+
+  const decomp::Comm& comm_;
+  const Parts& parts_;
+  std::vector<ParticleSet>& sets_;
+  ListAge& age_;
+  decomp::Timers& timers_;
+  decomp::LargeVector<std::byte> rows_;
+  Findings findings_;
+  StepMaxima maxima_;
+  Counters counters_;
+};
+
+}  // namespace sph

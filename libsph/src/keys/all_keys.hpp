@@ -1,0 +1,46 @@
+// The keys of the top level, and the list of all tables in the order in which references show them.
+#pragma once
+
+#include "keys/frame_keys.hpp"
+#include "keys/grain_keys.hpp"
+#include "keys/group_keys.hpp"
+#include "keys/run_keys.hpp"
+#include "keys/start_keys.hpp"
+#include "keys/term_keys.hpp"
+
+namespace sph::keys {
+
+inline constexpr auto top_keys = std::to_array<Key>({
+    {"title", Text{}, "Name of the run.", at<&Scene::name>, Default{"the file's name"}},
+    {"dimension", Whole{2, 3}, "Grains are spheres, in 3.", at<&Scene::dim>, Default{"2; of grains 3"}},
+    {"formulation", Words{formulation_words},
+     "\"conservative\": quiet, conserves momentum; \"ida\": the equations of Ida's paper to the letter, "
+     "for comparison.",
+     at<&Scene::formulation>, sph_only("it is of SPH; grains follow from [contact]")},
+    {"precision", Words{precision_words}, "Arithmetic of pairs: \"mixed\" is single, on double state.",
+     at<&Scene::precision>, sph_only("contacts are always computed in double")},
+    {"domain", Inner{&domain}, "Where everything happens.", Default{"required"}},
+    {"kernel", Inner{&kernel}, "Of fluids and solids.",
+     sph_only("grains act on each other where they touch: there is no kernel"),
+     Default{"required of fluids and solids"}},
+    {"contact", Inner{&contact}, "The law of contacts.", of_grains, Default{"required of grains"}},
+    {"drag", Inner{&drag}, "Of grains in a fluid.", of_mixtures, Default{"required of grains in a fluid"}},
+    {"group", Inner{&group}, "The materials.", Default{"required"}},
+    {"wall", Inner{&wall}, "Planes and boxes that hold grains.", of_grains},
+    {"stage", Inner{&stage}, "Changes of the walls.", of_grains},
+    {"start", Inner{&start}, "The first state.", Default{"required"}},
+    {"terms", Inner{&terms}, "What acts between particles.",
+     sph_only("they are of SPH; grains follow from [contact]")},
+    {"time", Inner{&time}, "Steps and end.", Default{"required"}},
+    {"decomposition", Inner{&decomposition}, "Speed on several ranks."},
+    {"output", Inner{&output}, "Files of the run."},
+    {"monitor", Inner{&monitor}, "Columns of series.csv."},
+});
+inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
+
+inline constexpr std::array<const KeyTable*, 22> all{
+    &top,   &domain,     &kernel, &group,           &fragmentation, &start,        &region, &layer,
+    &tile,  &fill,       &terms,  &surface_tension, &contact,       &contact_pair, &drag,   &wall,
+    &stage, &stage_wall, &time,   &decomposition,   &output,        &monitor};
+
+}  // namespace sph::keys

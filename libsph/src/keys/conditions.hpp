@@ -1,0 +1,53 @@
+// What a scene must be to have some keys. They are asked once the names and kinds of its groups are known.
+#pragma once
+
+#include "keys/key.hpp"
+#include "sph/laws/contact/law.hpp"
+#include "sph/laws/eos/law.hpp"
+#include "sph/scene/scene.hpp"
+
+namespace sph::keys {
+
+/// Scenes of fluids and solids; `why` those of grains alone have no such key.
+constexpr Condition sph_only(std::string_view why) {
+  return {[](const Scene& s) { return s.has_matter(); }, "fluids and solids", why};
+}
+inline constexpr Condition of_fluids = sph_only("it is of fluids");
+inline constexpr Condition of_grains{[](const Scene& s) { return s.has_grains(); }, "grains",
+                                     "only scenes of grains have it, with a [[group]] of kind = \"grain\""};
+inline constexpr Condition of_grains_alone{
+    [](const Scene& s) { return s.of_grains(); }, "grains alone",
+    "only scenes of grains alone have it, where every [[group]] has kind = \"grain\""};
+inline constexpr Condition of_mixtures{[](const Scene& s) { return s.has_grains() && s.has_matter(); },
+                                       "grains in a fluid",
+                                       "only scenes with groups of kind = \"fluid\" and \"grain\" have it"};
+inline constexpr Condition of_lattices{
+    [](const Scene& s) { return s.start.file.empty() && s.start.tile.file.empty(); }, "lattices",
+    "the particles come from start.file or start.tile"};
+inline constexpr Condition of_viscous_forms{
+    [](const Scene& s) { return s.formulation != Formulation::ida && !s.total_lagrangian(); },
+    "fluids and updated solids, not \"ida\"",
+    "formulation = \"ida\" and total-Lagrangian solids have none: remove it"};
+inline constexpr Condition of_flows{
+    [](const Scene& s) { return s.formulation != Formulation::ida && !s.has_kind(GroupKind::solid); },
+    "fluids, not \"ida\"", "it is for scenes without solids, and formulation = \"ida\" has none: remove it"};
+inline constexpr Condition of_gases{[](const Scene& s) { return has_eos(s, EosKind::ideal_gas); },
+                                    "ideal gases", "only scenes with eos = \"ideal_gas\" have it"};
+inline constexpr Condition of_added_terms{
+    [](const Scene& s) {
+      return s.formulation == Formulation::conservative && !s.total_lagrangian() &&
+             !has_eos(s, EosKind::ideal_gas);
+    },
+    "liquids and updated-Lagrangian solids",
+    "it is of liquids and updated-Lagrangian solids, and formulation = \"ida\" has none"};
+inline constexpr Condition of_total{[](const Scene& s) { return s.total_lagrangian(); },
+                                    "total-Lagrangian solids",
+                                    "only scenes of solids with lagrangian = \"total\" have it"};
+inline constexpr Condition of_dashpots{
+    [](const Scene& s) { return s.contact.law == nullptr || s.contact.law->dashpot; }, "laws with a dashpot",
+    "the contact law of the scene has no dashpot: remove it"};
+inline constexpr Condition of_restitution{[](const Scene& s) { return !s.contact.normal_damping; },
+                                          "contacts without normal_damping",
+                                          "contact.normal_damping stands instead of it"};
+
+}  // namespace sph::keys

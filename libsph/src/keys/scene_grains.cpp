@@ -1,0 +1,85 @@
+// [[group]] with kind = "grain".
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "keys/scene_resolve.hpp"
+#include "sph/laws/contact/law.hpp"
+#include "sph/scene/grain_mass.hpp"
+
+namespace sph {
+namespace {
+
+void read_radii(const GroupReader& table, Group& group) {
+  const toml_tree::Node* value = table.find("diameter");
+  if (value == nullptr) return;
+  const toml_tree::Array* range = value->array();
+  double least = 0, largest = 0;
+  if (range == nullptr) {
+    least = largest = table.to_number(*value, keys::group["diameter"], dimension::length);
+    if (!(least > 0)) table.fail("diameter", fmt::format("is {}", least), "it must be positive");
+  } else {
+    if (range->size() != 2)
+      table.fail("diameter", fmt::format("has {} values", range->size()),
+                 "it must be one length, or an array of the least and the largest");
+    least = table.to_number((*range)[0], keys::group["diameter"], dimension::length);
+    largest = table.to_number((*range)[1], keys::group["diameter"], dimension::length);
+    if (!(least > 0)) table.fail("diameter", fmt::format("begins with {}", least), "it must be positive");
+    if (!(least <= largest))
+      table.fail("diameter", fmt::format("runs from {} down to {}", least, largest),
+                 "give the least first, then the largest");
+  }
+  group.grain.least_radius = 0.5 * least;
+  group.grain.largest_radius = 0.5 * largest;
+}
+
+/// A material of walls alone has no diameter, and then no grains that could be heavy or fixed.
+void read_body(const GroupReader& table, Group& group) {
+  read_radii(table, group);
+  const GrainMaterial& g = group.grain;
+  const bool has_grains = g.largest_radius > 0;
+  if (table.has("diameter") && !(g.least_radius > 0))
+    table.fail("diameter", "is below the range of numbers", "check its unit");
+  if (has_grains) table.require("density");
+  const double lightest = grain_mass(group.density, g.least_radius);
+  if (has_grains && !(lightest > 0 && std::isfinite(grain_mass(group.density, g.largest_radius))))
+    table.fail("diameter", "makes a mass beyond the range of numbers", "check its unit and the density's");
+  table.only_if(has_grains || !g.fixed, "fixed",
+                "a material without diameter has no grains: it is for walls");
+  table.only_if(g.fixed, "velocity",
+                "only grains with fixed = true have it; the others start with start.velocity");
+  group.wall_velocity = table.vector("velocity").value_or(Double3{});
+}
+
+void read_contact_material(const GroupReader& table, GrainMaterial& g, const ContactControl& contact) {
+  std::vector<LawWord> laws;
+  for (const ContactLaw* law : contact_laws()) laws.push_back({law->word, law->keys});
+  g.constants = read_law_constants(table, "contact.law", {contact.law->word, contact.law->keys}, laws);
+}
+
+}  // namespace
+
+void read_grain_groups(const TopReader& top, Scene& scene) {
+  const std::vector<GroupReader> tables = top.tables<keys::group>();
+  bool sized = false, mobile = false;
+  const GroupReader* first = nullptr;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    Group& group = scene.groups[k];
+    if (group.kind != GroupKind::grain) continue;
+    if (first == nullptr) first = &tables[k];
+    tables[k].read(group);
+    read_body(tables[k], group);
+    read_contact_material(tables[k], group.grain, scene.contact);
+    tables[k].finish();
+    const bool has_grains = group.grain.largest_radius > 0;
+    sized = sized || has_grains;
+    mobile = mobile || (has_grains && !group.grain.fixed);
+  }
+  if (!sized) first->fail("diameter", "is missing in every group", "give the size of the grains in m");
+  if (!mobile && !scene.has_matter())
+    first->fail("fixed", "is true in every group of grains", "at least one group must be free to move");
+}
+
+}  // namespace sph

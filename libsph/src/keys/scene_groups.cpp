@@ -1,0 +1,218 @@
+// [[group]]: materials, with what each kind needs and what it must not have.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "core/nearest.hpp"
+#include "keys/scene_resolve.hpp"
+#include "sph/laws/eos/law.hpp"
+
+namespace sph {
+namespace {
+
+/// Elastic constants: K from the sound speed, mu from Poisson's ratio, as the paper's readers know them.
+void read_stiffness(const GroupReader& table, Group& group) {
+  using Name = GroupReader::Name<>;
+  table.not_both("bulk_modulus", "sound_speed");
+  table.not_both("poisson_ratio", "shear_modulus");
+  if (group.eos->kind == EosKind::ideal_gas) group.bulk_modulus = group.heat_ratio * group.start_pressure;
+  const std::optional<double> speed = table.number("sound_speed");
+  if (speed) group.bulk_modulus = group.density * *speed * *speed;
+  if (group.bulk_modulus == 0 && !speed && group.eos->kind != EosKind::ideal_gas)
+    table.fail_missing("bulk_modulus", "give it in Pa, or sound_speed in m/s");
+  const std::string_view beyond = "makes a modulus beyond the range of numbers";
+  if (!(group.bulk_modulus > 0 && std::isfinite(group.bulk_modulus)))
+    table.fail(speed                                   ? Name("sound_speed")
+               : group.eos->kind == EosKind::ideal_gas ? Name("start_pressure")
+                                                       : Name("bulk_modulus"),
+               beyond, "check its unit");
+
+  const bool solid = group.kind == GroupKind::solid;
+  table.only_if(solid, "poisson_ratio", "only groups with kind = \"solid\" have it");
+  if (!solid || table.has("shear_modulus")) return;
+  const std::optional<double> nu = table.number("poisson_ratio");
+  if (!nu) table.fail_missing("poisson_ratio", "give it, or shear_modulus in Pa");
+  if (!(*nu > -1 && *nu < 0.5))
+    table.fail("poisson_ratio", fmt::format("is {}", *nu), "it must be between -1 and 0.5, both excluded");
+  group.shear_modulus = 3 * group.bulk_modulus * (1 - 2 * *nu) / (2 * (1 + *nu));
+  if (!(group.shear_modulus > 0 && std::isfinite(group.shear_modulus)))
+    table.fail("poisson_ratio", beyond, "check it and bulk_modulus");
+}
+
+/// `like` supplies what a wall does not say itself; nullptr for groups that must say everything.
+void read_material(const GroupReader& table, Group& group, const Group* like) {
+  if (like != nullptr) {
+    group.density = like->density;
+    group.bulk_modulus = like->bulk_modulus;
+    group.viscosity = like->viscosity;
+    group.bulk_viscosity = like->bulk_viscosity;
+  }
+  const bool wall = group.kind == GroupKind::wall;
+  if (const auto word = table.text("eos");
+      word && group.kind != GroupKind::fluid && *word != linear_eos()->word &&
+      std::ranges::any_of(equations_of_state(), [&](const EquationOfState* e) { return e->word == *word; }))
+    table.fail("eos", fmt::format("is \"{}\"", *word),
+               "only groups with kind = \"fluid\" have another than the linear law");
+  table.read(group);
+  if (like == nullptr) table.require("density");
+  read_stiffness(table, group);
+  std::vector<LawWord> laws;
+  for (const EquationOfState* law : equations_of_state()) laws.push_back({law->word, law->keys});
+  group.eos_constants = read_law_constants(table, "eos", {group.eos->word, group.eos->keys}, laws);
+  table.only_if(wall, "velocity",
+                "only groups with kind = \"wall\" have it; movers start with start.velocity");
+  if (!wall) return;
+  group.wall_velocity = table.vector("velocity").value_or(Double3{});
+  group.slip = table.flag("slip").value_or(false);
+  table.only_if(!group.slip, "velocity", "a wall with slip = true drags nothing along");
+}
+
+/// The solid that a wall is bonded to, -1 for other groups.
+int read_clamps(const GroupReader& table, const Group& group, const std::vector<Group>& groups) {
+  if (group.kind != GroupKind::wall || !table.has("clamps")) return -1;
+  const int solid = *table.index("clamps");
+  table.only_if(false, "velocity", "a clamp holds its solid at rest");
+  table.only_if(false, "slip", "a clamp holds its solid at rest");
+  if (const Group& g = groups[static_cast<std::size_t>(solid)]; g.lagrangian != Lagrangian::total)
+    table.fail("clamps", fmt::format("names \"{}\"", g.name),
+               "it must name a solid with lagrangian = \"total\"");
+  return solid;
+}
+
+/// Total-Lagrangian solids have passes of their own, in which nothing else takes part yet.
+void check_total_lagrangian(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+  const bool any = std::any_of(groups.begin(), groups.end(),
+                               [](const Group& g) { return g.lagrangian == Lagrangian::total; });
+  for (std::size_t k = 0; any && k < groups.size(); ++k) {
+    const Group& g = groups[k];
+    const std::string_view right = "a scene of those has no other matter but walls";
+    if (g.kind == GroupKind::fluid)
+      tables[k].fail("kind", "is \"fluid\" beside total-Lagrangian solids", right);
+    if (g.kind == GroupKind::solid && g.lagrangian == Lagrangian::updated)
+      tables[k].fail("lagrangian", "is \"updated\" beside total-Lagrangian solids", right);
+    if (g.slip)
+      tables[k].fail("slip", "is on", "total-Lagrangian solids touch walls without friction anyway");
+    if (g.kind == GroupKind::solid && g.bulk_viscosity > 0)
+      tables[k].fail("bulk_viscosity", fmt::format("is {}", g.bulk_viscosity),
+                     "solids with lagrangian = \"total\" have viscosity alone");
+  }
+}
+
+void check_target(const Reader<keys::fragmentation>& table, const Group& from, const Group& to) {
+  const auto same = [&](bool equal, std::string_view key) {
+    if (!equal)
+      table.fail("group",
+                 fmt::format("names \"{}\", whose {} differs from that of \"{}\"", to.name, key, from.name),
+                 "fragments keep the equation of state: repeat its values in both groups");
+  };
+  if (to.kind != GroupKind::fluid)
+    table.fail("group", fmt::format("names \"{}\", which is no fluid", to.name), "fragments are a fluid");
+  same(from.eos == to.eos, "eos");
+  same(from.density == to.density, "density");
+  same(from.bulk_modulus == to.bulk_modulus, "bulk_modulus");
+  same(from.gas_rt == to.gas_rt, "gas_rt");
+  same(from.solubility_pressure == to.solubility_pressure, "solubility_pressure");
+  same(from.solubility_exponent == to.solubility_exponent, "solubility_exponent");
+}
+
+void read_fragmentation(const GroupReader& table, std::size_t self, std::vector<Group>& groups) {
+  Group& group = groups[self];
+  if (!table.has("fragmentation")) return;
+  const auto inner = table.table<keys::fragmentation>();
+  inner.read(group);
+  if (group.fragments_to == static_cast<int>(self))
+    inner.fail("group", "names the group itself", "fragments join another group");
+  check_target(inner, group, groups[static_cast<std::size_t>(group.fragments_to)]);
+}
+
+/// What grains act on besides each other: fluids.
+void refuse_bad_company(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+  const auto has = [&](GroupKind k) {
+    return std::ranges::any_of(groups, [k](const Group& g) { return g.kind == k; });
+  };
+  if (!has(GroupKind::grain)) return;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    if (groups[k].kind == GroupKind::solid)
+      tables[k].fail("kind", "is \"solid\" beside grains",
+                     "grains act on fluids and on each other alone: they would pass through it");
+    if (groups[k].kind == GroupKind::wall && !has(GroupKind::fluid))
+      tables[k].fail("kind", "is \"wall\" in a scene of grains alone",
+                     "grains are held by [[wall]], whose material is a group of kind = \"grain\"");
+  }
+}
+
+}  // namespace
+
+std::vector<Group> read_group_names(const TopReader& top) {
+  const std::vector<GroupReader> tables = top.tables<keys::group>();
+  if (tables.empty()) top.fail_missing("group", "describe each material in a [[group]] table");
+  std::vector<Group> groups;
+  std::vector<std::string> names;
+  bool movers = false;
+  for (const GroupReader& table : tables) {
+    Group& group = groups.emplace_back();
+    names.push_back(read_name(table, "group", names));
+    group.name = names.back();
+    group.kind = table.choice<GroupKind>("kind").value_or(GroupKind::wall);
+    movers = movers || group.kind != GroupKind::wall;
+  }
+  for (const GroupReader& table : tables)
+    if (!table.has("kind")) table.fail_missing("kind", "give \"fluid\", \"solid\", \"wall\" or \"grain\"");
+  refuse_bad_company(tables, groups);
+  if (!movers)
+    tables.front().fail("kind", "every group is a wall",
+                        "at least one group must be a fluid, a solid or of grains");
+  return groups;
+}
+
+void read_groups(const TopReader& top, Scene& scene) {
+  const std::vector<GroupReader> tables = top.tables<keys::group>();
+  std::vector<Group>& groups = scene.groups;
+  const Group* first_fluid = nullptr;
+  for (const GroupKind pass : {GroupKind::fluid, GroupKind::solid, GroupKind::wall})
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      Group& group = groups[k];
+      if (group.kind != pass) continue;
+      const int clamped = read_clamps(tables[k], group, groups);
+      const Group* like = clamped >= 0              ? &groups[static_cast<std::size_t>(clamped)]
+                          : pass == GroupKind::wall ? first_fluid
+                                                    : nullptr;
+      read_material(tables[k], group, like);
+      if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &group;
+    }
+  check_total_lagrangian(tables, groups);
+  for (std::size_t k = 0; k < tables.size(); ++k)
+    if (groups[k].kind != GroupKind::grain) read_fragmentation(tables[k], k, groups);
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    if (groups[k].kind == GroupKind::grain) continue;
+    const int target = groups[k].fragments_to;
+    if (target >= 0 && groups[static_cast<std::size_t>(target)].fragments_to >= 0)
+      tables[k].fail("fragmentation", "leads to a group that fragments again",
+                     "fragments must stay what they are");
+    tables[k].finish();
+  }
+}
+
+std::string read_name(const TableReader& table, std::string_view what,
+                      const std::vector<std::string>& earlier) {
+  const Key& key = table.key("name");
+  const std::string name = table.required_text(key);
+  const auto allowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  };
+  bool good = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
+  for (char c : name) good = good && allowed(c);
+  if (!good)
+    table.fail(key, fmt::format("is \"{}\"", name), "a name is a letter followed by letters, digits, _ or -");
+  if (name == "none") table.fail(key, "is \"none\"", "that word means an empty region; choose another name");
+  if (std::find(earlier.begin(), earlier.end(), name) != earlier.end())
+    table.fail(key, fmt::format("\"{}\" is taken by an earlier {}", name, what),
+               fmt::format("give each {} its own name", what));
+  return name;
+}
+
+}  // namespace sph

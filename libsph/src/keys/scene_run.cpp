@@ -1,0 +1,117 @@
+// [decomposition], [output] and [[monitor]]: what changes the speed and the files of a run, never its
+// particles.
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+
+#include "keys/scene_resolve.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+
+/// In 3D the two axes across gravity, so that a column of fluid stays on one rank.
+std::array<int, 2> default_cut_axes(const Scene& scene) {
+  if (scene.dim == 2) return {0, 1};
+  int vertical = 2;
+  for (int a : {1, 0})
+    if (std::fabs(scene.gravity[static_cast<std::size_t>(a)]) >
+        std::fabs(scene.gravity[static_cast<std::size_t>(vertical)]))
+      vertical = a;
+  return vertical == 2 ? std::array{0, 1} : vertical == 1 ? std::array{0, 2} : std::array{1, 2};
+}
+
+using DecompositionReader = Reader<keys::decomposition>;
+using MonitorReader = Reader<keys::monitor>;
+
+int read_axis(const DecompositionReader& table, const toml_tree::Node& value, int dim) {
+  for (int a = 0; a < dim; ++a) {
+    const auto* number = std::get_if<std::int64_t>(&value.value);
+    const auto* word = std::get_if<std::string>(&value.value);
+    if ((number != nullptr && *number == a) ||
+        (word != nullptr && *word == axis_names[static_cast<std::size_t>(a)]))
+      return a;
+  }
+  table.fail("cut_axes", "names an axis that the scene does not have",
+             dim == 2 ? R"(the axes are "x" and "y")" : R"(the axes are "x", "y" and "z")");
+}
+
+std::array<int, 2> read_cut_axes(const DecompositionReader& table, const Scene& scene) {
+  const toml_tree::Node* value = table.find("cut_axes");
+  if (value == nullptr) return default_cut_axes(scene);
+  const toml_tree::Array* array = value->array();
+  if (array == nullptr || array->size() != 2)
+    table.fail("cut_axes", "must be an array of two axes", R"(for example ["x", "y"])");
+  const std::array<int, 2> axes{read_axis(table, (*array)[0], scene.dim),
+                                read_axis(table, (*array)[1], scene.dim)};
+  if (axes[0] == axes[1]) table.fail("cut_axes", "names one axis twice", "name two different axes");
+  return axes;
+}
+
+void check_monitor_name(const MonitorReader& table, const std::string& name,
+                        const std::vector<Monitor>& earlier) {
+  bool good = !name.empty();
+  for (char c : name)
+    good = good && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-');
+  if (!good) table.fail("name", fmt::format("is \"{}\"", name), "a name is made of letters, digits, _ and -");
+  for (const Monitor& other : earlier)
+    if (other.name == name)
+      table.fail("name", fmt::format("\"{}\" is taken by an earlier monitor", name),
+                 "give each its own name");
+}
+
+Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::vector<Monitor>& earlier) {
+  const std::optional<MonitorKind> kind = table.choice<MonitorKind>("kind");
+  const bool grains = scene.has_grains();
+  if (!kind)
+    table.fail_missing("kind",
+                       fmt::format("give \"particle\", \"group\", \"energy\"{}",
+                                   grains ? ", \"momentum\", \"wall\" or \"contacts\"" : " or \"momentum\""));
+  if (!grains && (*kind == MonitorKind::wall || *kind == MonitorKind::contacts))
+    table.fail("kind", "is of grains, and the scene has none",
+               "give \"particle\", \"group\", \"energy\" or \"momentum\"");
+  Monitor monitor;
+  table.read(monitor);
+  if (!table.has("name")) monitor.name = *table.text("kind");
+  check_monitor_name(table, monitor.name, earlier);
+  if (*kind == MonitorKind::particle) {
+    table.not_both("id", "nearest_to");
+    if (!monitor.id && !monitor.nearest_to)
+      table.fail_missing("nearest_to", "give it, or the id of a particle");
+    for (std::size_t a = 0; monitor.nearest_to && a < static_cast<std::size_t>(scene.dim); ++a)
+      if ((*monitor.nearest_to)[a] < scene.lower[a] || (*monitor.nearest_to)[a] > scene.upper[a])
+        table.fail("nearest_to", fmt::format("lies outside the domain in {}", axis_names[a]),
+                   "name a point between domain.lower and domain.upper");
+  }
+  table.finish();
+  return monitor;
+}
+
+}  // namespace
+
+Decomposition read_decomposition(const DecompositionReader& table, const Scene& scene) {
+  constexpr double skin_of_grains = 0.06;  // they stay where they are: short lists count for more
+  Decomposition d;
+  d.cut_axes = read_cut_axes(table, scene);
+  if (scene.of_grains()) d.skin = skin_of_grains;
+  table.read(d);
+  if (d.cuts == CutRule::replay && d.replay.empty())
+    table.fail_missing("replay", "balance = \"replay\" needs the file of recorded cuts");
+  table.only_if(d.cuts == CutRule::replay, "replay", "set balance = \"replay\" too");
+  table.finish();
+  return d;
+}
+
+OutputControl read_output(const TopReader& top, const Reader<keys::output>& table, const Scene& scene) {
+  OutputControl out;
+  table.read(out);
+  table.finish();
+  for (const MonitorReader& m : top.tables<keys::monitor>())
+    out.monitors.push_back(read_monitor(m, scene, out.monitors));
+  return out;
+}
+
+}  // namespace sph

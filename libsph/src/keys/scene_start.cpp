@@ -1,0 +1,221 @@
+// [start]: the lattice and its painted regions, or a particle file; initial velocity and pressure.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "core/nearest.hpp"
+#include "keys/scene_resolve.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr double most_lattice_points = 1e12;
+
+bool can_move(const Group& group) { return group.kind != GroupKind::wall && !group.grain.fixed; }
+
+Region read_region(const Reader<keys::region>& table, const Scene& scene) {
+  Region region;
+  table.read(region);
+  if (const Group* g = region.group < 0 ? nullptr : &scene.groups[static_cast<std::size_t>(region.group)];
+      g != nullptr && g->kind == GroupKind::grain) {
+    if (scene.is_mixture())
+      table.fail("group", fmt::format("names \"{}\", which is of grains", g->name),
+                 "this lattice is that of the fluid: place grains with [[start.grains]]");
+    if (!(g->grain.largest_radius > 0))
+      table.fail("group", fmt::format("names \"{}\", a material without diameter", g->name),
+                 "give that [[group]] the diameter of its grains");
+  }
+  const Start& start = scene.start;
+  bool outside = false;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    const bool box = region.shape == RegionShape::box;
+    if (box && !(region.lower[a] < region.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+    if (region.shape == RegionShape::everywhere) continue;
+    const double least = box ? region.lower[a] : region.centre[a] - region.radius;
+    const double most = box ? region.upper[a] : region.centre[a] + region.radius;
+    outside = outside || most <= start.lower[a] || least >= start.upper[a];
+  }
+  if (outside)
+    table.fail("shape", "lies outside the filled lattice", "move it between start.lower and start.upper");
+  table.finish();
+  return region;
+}
+
+void check_fill(const StartReader& table, const Scene& scene) {
+  const Start& start = scene.start;
+  double points = 1;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    if (!(start.lower[a] < start.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "nothing would be filled");
+    if (start.lower[a] < scene.lower[a])
+      table.fail("lower", fmt::format("reaches below the domain in {}", axis_names[a]),
+                 fmt::format("it must be at least {} there", scene.lower[a]));
+    if (start.upper[a] > scene.upper[a])
+      table.fail("upper", fmt::format("reaches above the domain in {}", axis_names[a]),
+                 fmt::format("it must be at most {} there", scene.upper[a]));
+    points *= (start.upper[a] - start.lower[a]) / scene.spacing;
+  }
+  if (points < 1)
+    table.fail("spacing", fmt::format("is {} m, more than the filled extent", scene.spacing),
+               "reduce it so that particles fit in");
+  if (points > most_lattice_points)
+    table.fail("spacing", fmt::format("is {} m and would make {:.1e} particles", scene.spacing, points),
+               "check its unit");
+}
+
+/// A filled period must hold whole cells of the lattice, or its seam would be wider or narrower than dx.
+void check_seam(const StartReader& table, const Scene& scene) {
+  const Start& start = scene.start;
+  const std::size_t axes = start.lattice == LatticeKind::square ? static_cast<std::size_t>(scene.dim) : 1;
+  for (std::size_t a = 0; a < axes; ++a) {
+    const bool filled = start.lower[a] == scene.lower[a] && start.upper[a] == scene.upper[a];
+    if (!scene.periodic[a] || !filled) continue;
+    const double cells = (scene.upper[a] - scene.lower[a]) / scene.spacing;
+    if (std::fabs(cells - std::nearbyint(cells)) > 1e-6 * cells)
+      table.fail(
+          "spacing",
+          fmt::format("{}divides the periodic length in {} into {:.6g} cells",
+                      table.has("spacing") ? "" : fmt::format("is {:.6g} m by default and ", scene.spacing),
+                      axis_names[a], cells),
+          "choose one that gives a whole number");
+  }
+}
+
+void read_lattice(const StartReader& table, Scene& scene) {
+  Start& start = scene.start;
+  if (start.lattice == LatticeKind::hexagonal && scene.dim != 2)
+    table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\"");
+  if (!table.has("origin")) start.lattice_origin = start.lower;
+  check_fill(table, scene);
+  check_seam(table, scene);
+  const std::vector<Reader<keys::region>> regions = table.tables<keys::region>();
+  if (regions.empty()) table.fail_missing("region", "paint groups with [[start.region]], or give start.file");
+  bool matter = false;
+  for (const auto& r : regions) {
+    start.regions.push_back(read_region(r, scene));
+    const int group = start.regions.back().group;
+    matter = matter || (group >= 0 && can_move(scene.groups[static_cast<std::size_t>(group)]));
+  }
+  if (!matter)
+    table.fail(
+        "region",
+        scene.of_grains() ? "no region paints grains that can move" : "no region paints a fluid or a solid",
+        "paint at least one");
+}
+
+void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
+  const toml_tree::Node* value = table.find("velocity");
+  if (value != nullptr && value->array() != nullptr) {
+    start.velocity = InitialVelocity::uniform;
+    start.uniform_velocity = *table.vector("velocity", dimension::speed);
+  } else if (value != nullptr) {
+    const auto* word = std::get_if<std::string>(&value->value);
+    const std::string what =
+        word == nullptr ? fmt::format("is {}", type_name(*value)) : fmt::format("is \"{}\"", *word);
+    if (scene.of_grains() && (word == nullptr || *word != "rest"))
+      table.fail("velocity", what, "grains start with \"rest\" or an array of speeds");
+    if (word == nullptr)
+      table.fail("velocity", what, "it must be \"rest\", \"taylor_green\" or an array of speeds");
+    if (*word == "taylor_green")
+      start.velocity = InitialVelocity::taylor_green;
+    else if (*word != "rest")
+      table.fail_word(keys::start["velocity"], *word, {"rest", "taylor_green"});
+  }
+  if (start.velocity != InitialVelocity::taylor_green) return;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double periods = (scene.upper[a] - scene.lower[a]) / start.flow_length;
+    if (!scene.periodic[a] || std::fabs(periods - std::nearbyint(periods)) > 1e-9 * periods)
+      table.fail("velocity",
+                 fmt::format("is \"taylor_green\", but {} does not repeat with the flow", axis_names[a]),
+                 "make x and y periodic with lengths that are multiples of flow_length");
+  }
+}
+
+/// surface_height is short for one layer of the first fluid, or of the first solid where there is none.
+std::vector<Layer> read_layers(const StartReader& table, const Scene& scene) {
+  table.not_both("surface_height", "layer");
+  std::vector<Layer> layers;
+  for (const auto& t : table.tables<keys::layer>()) {
+    Layer layer;
+    t.read(layer);
+    const GroupKind kind = scene.groups[static_cast<std::size_t>(layer.group)].kind;
+    if (kind == GroupKind::wall || kind == GroupKind::grain)
+      t.fail("group", kind == GroupKind::wall ? "names a wall" : "names grains",
+             "the layers are what lies on top of each other");
+    if (!layers.empty() && layer.top >= layers.back().top)
+      t.fail("top", fmt::format("is {}, not below that of the layer before", layer.top),
+             "give the layers from the surface downwards");
+    t.finish();
+    layers.push_back(layer);
+  }
+  if (const std::optional<double> surface_height = table.number("surface_height")) {
+    const auto first = [&](GroupKind kind) {
+      return std::find_if(scene.groups.begin(), scene.groups.end(),
+                          [&](const Group& g) { return g.kind == kind; });
+    };
+    const auto fluid = first(GroupKind::fluid);
+    const auto matter = fluid == scene.groups.end() ? first(GroupKind::solid) : fluid;
+    layers.push_back({static_cast<int>(matter - scene.groups.begin()), *surface_height});
+  }
+  return layers;
+}
+
+void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
+  start.layers = read_layers(table, scene);
+  if (start.pressure == InitialPressure::taylor_green && start.velocity != InitialVelocity::taylor_green)
+    table.fail("pressure", "is \"taylor_green\" without that velocity",
+               "set velocity = \"taylor_green\" too");
+  if (start.pressure != InitialPressure::hydrostatic) return;
+  if (start.layers.empty())
+    table.fail_missing("surface_height", "give the height where the hydrostatic pressure is zero");
+  double weight = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    weight += std::fabs(scene.gravity[a]);
+    if (scene.periodic[a] && scene.gravity[a] != 0)
+      table.fail("pressure",
+                 fmt::format("is \"hydrostatic\", but gravity points along the periodic {}", axis_names[a]),
+                 "start from \"zero\" where a body force drives the flow");
+  }
+  if (weight == 0)
+    table.fail("pressure", "is \"hydrostatic\" without gravity", "set domain.gravity or start from \"zero\"");
+}
+
+}  // namespace
+
+void read_start(const StartReader& table, Scene& scene) {
+  Start& start = scene.start;
+  const bool tile = scene.of_grains() && table.has("tile");
+  const bool from_file = tile || table.has("file");
+  if (tile) {
+    const auto inner = table.table<keys::tile>();
+    inner.read(start.tile);
+    inner.finish();
+  }
+  if (!from_file) {
+    start.lower = scene.lower;
+    start.upper = scene.upper;
+  }
+  using Name = StartReader::Name<>;
+  for (const Name key :
+       {Name("lattice"), Name("origin"), Name("lower"), Name("upper"), Name("region"), Name("jitter")})
+    table.only_if(!from_file, key,
+                  fmt::format("the particles come from start.{}", table.has("file") ? "file" : "tile"));
+  table.read(start);
+  table.not_both("file", "tile");
+  if (scene.is_mixture())
+    table.only_if(false, "file", "grains in a fluid start from a lattice and [[start.grains]]");
+  table.only_if(table.has("file"), "free_surface", "it is for start.file; of a lattice it is known");
+  if (!from_file) read_lattice(table, scene);
+  if (scene.of_grains() && from_file) table.only_if(false, "velocity", "the velocities come from the file");
+  read_velocity(table, scene, start);
+  if (scene.has_matter()) read_pressure(table, scene, start);
+  start.fills = read_fills(table, scene);
+  table.finish();
+}
+
+}  // namespace sph

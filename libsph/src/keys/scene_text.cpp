@@ -1,0 +1,79 @@
+// The resolved scene as TOML: what keys/ cannot write alone stands here.
+#include <fmt/format.h>
+
+#include <cstddef>
+
+#include "keys/scene_writer.hpp"
+#include "sph/laws/eos/law.hpp"
+#include "sph/terms/added_term.hpp"
+
+namespace sph {
+namespace {
+
+void write_group(SceneWriter& out, const Group& g) {
+  out.table(keys::group, g);
+  for (std::size_t k = 0; k < g.eos->keys.size(); ++k) out.number(g.eos->keys[k].name, g.eos_constants[k]);
+  if (g.kind == GroupKind::wall && g.slip)
+    out.raw("slip", "true");
+  else if (g.kind == GroupKind::wall && g.clamps < 0)
+    out.vector("velocity", g.wall_velocity);
+  if (g.fragmentation_void_fraction) out.table(keys::fragmentation, g);
+}
+
+void write_start(SceneWriter& out, const Scene& scene) {
+  const Start& s = scene.start;
+  out.header(keys::start);
+  out.number("spacing", scene.spacing);
+  out.keys(keys::start, s);
+  const bool velocity_of_file = scene.of_grains() && (!s.file.empty() || !s.tile.file.empty());
+  if (s.velocity == InitialVelocity::uniform)
+    out.vector("velocity", s.uniform_velocity);
+  else if (!velocity_of_file)
+    out.text("velocity", s.velocity == InitialVelocity::rest ? "rest" : "taylor_green");
+  if (!s.tile.file.empty()) out.table(keys::tile, s.tile);
+  for (const Layer& layer : s.layers) out.table(keys::layer, layer);
+  for (const Region& region : s.regions) out.table(keys::region, region);
+  for (const GrainFill& fill : s.fills) out.table(keys::fill, fill);
+}
+
+void write_terms(SceneWriter& out, Terms terms) {
+  if (!terms.implicit_viscosity) terms.viscosity_tolerance = 0;  // not written
+  out.table(keys::terms, terms);
+  for (std::size_t k = 0; k < terms.added.size(); ++k)
+    if (terms.added[k] > 0) out.number(added_terms()[k]->word, terms.added[k]);
+  if (terms.surface_tension.between[0] >= 0) out.table(keys::surface_tension, terms.surface_tension);
+}
+
+void write_output(SceneWriter& out, const Scene& scene) {
+  out.table(keys::output, scene.output);
+  for (const Monitor& m : scene.output.monitors) out.table(keys::monitor, m);
+}
+
+}  // namespace
+
+std::string to_toml(const Scene& scene) {
+  SceneWriter out(scene);
+  out.keys(keys::top, scene);
+  out.table(keys::domain, scene);
+  if (scene.central_pull > 0) out.vector("pull_centre", scene.pull_centre);
+  if (scene.has_matter()) out.table(keys::kernel, scene);
+  if (scene.has_grains()) write_contacts(out, scene);
+  if (scene.is_mixture()) write_drag(out, scene.drag);
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::grain)
+      write_material(out, g, *scene.contact.law);
+    else
+      write_group(out, g);
+  if (scene.has_grains()) write_walls(out, scene);
+  write_start(out, scene);
+  if (scene.has_matter()) write_terms(out, scene.terms);
+  TimeControl time = scene.time;
+  if (time.dt) time.cfl = 0;  // not written
+  out.table(keys::time, time);
+  out.table(keys::decomposition, scene.decomposition);
+  out.raw("cut_axes", fmt::format("[{}]", fmt::join(scene.decomposition.cut_axes, ", ")));
+  write_output(out, scene);
+  return out.take();
+}
+
+}  // namespace sph

@@ -1,0 +1,254 @@
+// From TOML to a resolved Scene: top level, kernel, domain, time, and the checks between tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+
+#include "keys/scene_resolve.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr double least_h_over_dx = 0.5;
+constexpr double most_h_over_dx = 4;
+constexpr int least_periodic_cells = 3;
+constexpr double most_spacings = 1e7;
+constexpr std::uintmax_t largest_scene_bytes = std::uintmax_t{1} << 22;
+constexpr double diameters_apart = 1.1;  ///< default spacing of grains: they start without touching
+
+/// All tables but the arrays, made first: a misspelt key is reported before anything that is missing.
+struct Tables {
+  TopReader top;
+  KernelReader kernel;
+  DomainReader domain;
+  StartReader start;
+  TermsReader terms;
+  Reader<keys::time> time;
+  Reader<keys::decomposition> decomposition;
+  Reader<keys::output> output;
+  Reader<keys::contact> contact;
+  Reader<keys::drag> drag;
+  Tables(const toml_tree::Node& root, const Scene& scene)
+      : top(root, "", scene),
+        kernel(top.table<keys::kernel>()),
+        domain(top.table<keys::domain>()),
+        start(top.table<keys::start>()),
+        terms(top.table<keys::terms>()),
+        time(top.table<keys::time>()),
+        decomposition(top.table<keys::decomposition>()),
+        output(top.table<keys::output>()),
+        contact(top.table<keys::contact>()),
+        drag(top.table<keys::drag>()) {
+    (void)top.tables<keys::group>();
+    (void)top.tables<keys::monitor>();
+    (void)start.tables<keys::region>();
+    (void)start.table<keys::tile>();
+    (void)start.tables<keys::fill>();
+    (void)contact.tables<keys::contact_pair>();
+    (void)top.tables<keys::wall>();
+    for (const auto& stage : top.tables<keys::stage>()) (void)stage.tables<keys::stage_wall>();
+  }
+};
+
+void read_pull(const DomainReader& table, Scene& scene) {
+  table.only_if(scene.central_pull > 0, "pull_centre", "give central_pull too");
+  scene.pull_centre = table.vector("pull_centre").value_or(Double3{});
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (scene.central_pull > 0 && scene.periodic[a])
+      table.fail("central_pull", fmt::format("would jump across the period in {}", axis_names[a]),
+                 "use it in domains without periods");
+}
+
+void read_domain(const DomainReader& table, Scene& scene) {
+  table.read(scene);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (!(scene.lower[a] < scene.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the domain is empty");
+  read_pull(table, scene);
+  table.finish();
+}
+
+void read_kernel(const KernelReader& table, Scene& scene) {
+  table.not_both("smoothing_length", "h_over_dx");
+  set_growth(scene);
+  table.read(scene);
+  const std::optional<double> ratio = table.number("h_over_dx");
+  const bool has_h = table.has("smoothing_length");
+  if (!has_h && !ratio)
+    table.fail_missing("h_over_dx", "give it (1.0 to 1.2 is usual), or smoothing_length in m");
+  if (!has_h) scene.smoothing_length = *ratio * scene.spacing;
+  const double found = has_h ? scene.smoothing_length / scene.spacing : *ratio;
+  constexpr double rounding = 1e-12;  // a limit that is given as h/dx must pass when it comes back as h
+  if (found < least_h_over_dx * (1 - rounding) || found > most_h_over_dx * (1 + rounding)) {
+    const std::string what = fmt::format("makes h/dx = {:.6g}", found);
+    const std::string right = fmt::format("it must be {} to {} spacings", least_h_over_dx, most_h_over_dx);
+    if (has_h) table.fail("smoothing_length", what, right);
+    table.fail("h_over_dx", what, right);
+  }
+  table.finish();
+}
+
+void read_time(const Reader<keys::time>& table, Scene& scene) {
+  table.read(scene.time);
+  table.not_both("dt", "cfl");
+  if (!scene.time.until && !scene.time.steps) table.fail_missing("until", "give the end in s, or steps");
+  table.finish();
+}
+
+/// Cells are counted in integers of fixed width: a domain beyond all reason would overflow them.
+void check_extent(const DomainReader& domain, const Scene& scene) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (const double spacings = (scene.upper[a] - scene.lower[a]) / scene.spacing; spacings > most_spacings)
+      domain.fail("upper", fmt::format("the domain is {:.1e} spacings long in {}", spacings, axis_names[a]),
+                  fmt::format("at most {:.0e} are possible: check the units here and of start.spacing",
+                              most_spacings));
+}
+
+/// A particle must not meet two images of another, and the halo on either side must be another cell.
+void check_periods(const Tables& tables, const Scene& scene) {
+  const double cell = scene.list_range() + scene.support() * scene.decomposition.skin;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    const double length = scene.upper[a] - scene.lower[a];
+    if (scene.periodic[a] && length < least_periodic_cells * cell)
+      tables.domain.fail("periodic",
+                         fmt::format("the period of {} m in {} is shorter than {} cells of {:.6g} m", length,
+                                     axis_names[a], least_periodic_cells, cell),
+                         fmt::format("lengthen the domain, or reduce {} or decomposition.skin",
+                                     scene.of_grains()          ? "the grains"
+                                     : scene.largest_growth > 1 ? "kernel.largest_growth, start.spacing"
+                                                                : "start.spacing"));
+  }
+}
+
+void check_file(const TableReader& table, std::string_view name, const std::string& path) {
+  if (path.empty()) return;
+  const Key& key = table.key(name);
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status))
+    table.fail(key, fmt::format("\"{}\" is a directory", path), "give a file");
+  // A pipe would be opened for ever, a device read for ever.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    table.fail(key, fmt::format("\"{}\" is a pipe or a device", path), "give a file");
+  if (!std::ifstream(path))
+    table.fail(key, fmt::format("\"{}\" cannot be read", path), "give an existing file");
+}
+
+void read_top(const TopReader& top, Scene& scene) {
+  scene.groups = read_group_names(top);
+  scene.dim = scene.has_grains() ? 3 : 2;
+  top.read(scene);
+  if (scene.has_grains() && scene.dim != 3)
+    top.fail("dimension", "is 2", "grains are spheres: leave it out or give 3");
+}
+
+void read_fluids_and_solids(const Tables& tables, Scene& scene) {
+  tables.start.require("spacing");
+  scene.spacing = *tables.start.number("spacing");
+  check_extent(tables.domain, scene);
+  read_groups(tables.top, scene);
+  read_kernel(tables.kernel, scene);
+  const std::vector<GroupReader> groups = tables.top.tables<keys::group>();
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (scene.formulation == Formulation::ida && scene.groups[k].slip)
+      groups[k].fail("slip", "is on", "formulation = \"ida\" has none: remove it");
+  if (scene.central_pull > 0 && (scene.has_kind(GroupKind::wall) || scene.has_kind(GroupKind::solid)))
+    tables.domain.fail("central_pull", "acts on fluids alone, and the scene has walls or solids",
+                       "use gravity there");
+}
+
+void read_grains(const Tables& tables, Scene& scene) {
+  read_contact_law(tables.contact, scene);
+  read_grain_groups(tables.top, scene);
+  scene.contact.pairs = read_contact_pairs(tables.contact);
+  if (!scene.is_mixture()) {
+    scene.spacing = tables.start.number("spacing").value_or(diameters_apart * scene.support());
+    check_extent(tables.domain, scene);
+  }
+  scene.walls = read_walls(tables.top, scene);
+  scene.stages = read_stages(tables.top, scene);
+}
+
+/// Bodies start free of stress, in equations of their own.
+void check_total_lagrangian(const Tables& tables, const Scene& scene) {
+  if (!scene.total_lagrangian()) return;
+  if (scene.formulation == Formulation::ida)
+    tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
+  if (scene.surface_pressure > 0)
+    tables.domain.fail("surface_pressure", fmt::format("is {}", scene.surface_pressure),
+                       "solids with lagrangian = \"total\" start free of stress: remove it");
+  if (scene.start.pressure != InitialPressure::zero)
+    tables.start.fail("pressure", "is of fluids", "solids with lagrangian = \"total\" start free of stress");
+}
+
+Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_files) {
+  if (root.table()->empty())
+    toml_tree::fail(fmt::format("{}:1:1", file), "scene", "the file is empty", "describe the scene in TOML");
+  Scene scene;
+  scene.file = file;
+  scene.name = std::filesystem::path(file).stem().string();
+  const Tables tables(root, scene);
+  read_top(tables.top, scene);
+  read_domain(tables.domain, scene);
+  if (scene.has_matter()) read_fluids_and_solids(tables, scene);
+  if (scene.has_grains()) read_grains(tables, scene);
+  if (scene.is_mixture()) read_drag(tables.top, tables.drag, scene);
+  read_start(tables.start, scene);
+  if (scene.has_matter()) read_terms(tables.terms, scene);
+  read_time(tables.time, scene);
+  scene.decomposition = read_decomposition(tables.decomposition, scene);
+  scene.output = read_output(tables.top, tables.output, scene);
+  fit_growth(tables.kernel, scene, least_periodic_cells);
+  check_periods(tables, scene);
+  check_total_lagrangian(tables, scene);
+  check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
+  check_implicit_viscosity(tables.terms, scene);
+  scene.free_surface = scene.has_matter() && has_free_surface(scene);
+  scene.open = scene.terms.shifting && scene.free_surface;
+  if (check_files) {
+    check_file(tables.start, "file", scene.start.file);
+    check_file(tables.start.table<keys::tile>(), "file", scene.start.tile.file);
+    check_file(tables.decomposition, "replay", scene.decomposition.replay);
+  }
+  return scene;
+}
+
+Scene parse_and_resolve(const std::string& text, const std::string& name,
+                        const std::vector<std::string>& overrides, bool check_files) {
+  toml_tree::Node root = toml_tree::parse(text, name);
+  for (const std::string& option : overrides) toml_tree::apply_override(root, option);
+  return resolve(root, name, check_files);
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& name,
+                  const std::vector<std::string>& overrides) {
+  return parse_and_resolve(text, name, overrides, false);
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  const auto unreadable = [&](std::string_view what) {
+    toml_tree::fail(fmt::format("{}:1:1", path), "scene", what, "give the path of a TOML scene");
+  };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) unreadable("there is no such file");
+  if (std::filesystem::is_directory(status)) unreadable("is a directory");
+  if (!std::filesystem::is_regular_file(status)) unreadable("is a pipe or a device");
+  if (const std::uintmax_t bytes = std::filesystem::file_size(path, error); bytes > largest_scene_bytes)
+    unreadable(fmt::format("has {} bytes, and no scene has more than {}", bytes, largest_scene_bytes));
+  std::ifstream in(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) unreadable("cannot be read");
+  return parse_and_resolve(text, path, overrides, true);
+}
+
+}  // namespace sph

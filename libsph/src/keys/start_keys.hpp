@@ -1,0 +1,103 @@
+// Keys of [start] and of the tables in it.
+#pragma once
+
+#include "keys/conditions.hpp"
+
+namespace sph::keys {
+
+inline constexpr auto region_keys = std::to_array<Key>({
+    {"group", NameOf{"group", true}, "What it paints; \"none\" leaves it empty.", index_at<&Region::group>,
+     required},
+    {"shape", Words{region_shape_words}, "What it covers.", at<&Region::shape>},
+    {"lower", Vector{dimension::length}, "Of a box: lower <= x < upper.", at<&Region::lower>,
+     where("shape", "box"), required},
+    {"upper", Vector{dimension::length}, "Of a box.", at<&Region::upper>, where("shape", "box"), required},
+    {"centre", Vector{dimension::length}, "Of a ball: |x - centre| < radius.", at<&Region::centre>,
+     where("shape", "ball"), required},
+    {"radius", Number{dimension::length, positive}, "Of a ball.", at<&Region::radius>, where("shape", "ball"),
+     required},
+});
+inline constexpr Table<Region> region{
+    {"start.region", true, "A lattice point belongs to the last region that contains it.", region_keys}};
+
+inline constexpr auto layer_keys = std::to_array<Key>({
+    {"group", NameOf{"group"}, "What lies there.", index_at<&Layer::group>, required},
+    {"top", Number{dimension::length},
+     "Height of its top against gravity, of the first that of zero pressure.", at<&Layer::top>, required},
+});
+inline constexpr Table<Layer> layer{
+    {"start.layer", true, "Hydrostatic pressure: fluids on top of each other, from the surface downwards.",
+     layer_keys}};
+
+inline constexpr auto tile_keys = std::to_array<Key>({
+    {"file", File{}, "A snapshot of a run of grains, or a particle file.", at<&Tile::file>, required},
+    {"repeat", Copies{},
+     "Copies along each axis, like [4, 2, 1]; where there are several, a copy is as long as its share of "
+     "the domain.",
+     at<&Tile::repeat>, required},
+});
+inline constexpr Table<Tile> tile{
+    {"start.tile", false, "A settled packing of grains side by side.", tile_keys}};
+
+inline constexpr auto fill_keys = std::to_array<Key>({
+    {"group", NameOf{"group", false, true}, "A group of grains.", index_at<&GrainFill::group>, required},
+    {"lower", Vector{dimension::length}, "Extent that is filled.", at<&GrainFill::lower>, required},
+    {"upper", Vector{dimension::length}, "Its other corner.", at<&GrainFill::upper>, required},
+    {"spacing", Number{dimension::length, positive}, "Between the grains of a cubic lattice.",
+     at<&GrainFill::spacing>, required},
+});
+inline constexpr Table<GrainFill> fill{
+    {"start.grains", true, "Grains in a fluid: a lattice of their own, in a box.", fill_keys}};
+
+inline constexpr auto start_keys = std::to_array<Key>({
+    {"spacing", Number{dimension::length, positive}, "dx, the distance between particles at the start.",
+     Default{"required; of grains 1.1 of the largest diameter"}},
+    {"file", File{},
+     "Instead of a lattice: HDF5 or CSV with id, x, v, group, rho, m, u, of grains id, x, v, group, radius "
+     "and perhaps spin (CSV: id,x,y,z,vx,vy,vz,group,radius,wx,wy,wz). HDF5 may also have stress, in 3D "
+     "with an attribute components = \"xx yy zz xy yz xz\", as in snapshots.",
+     at<&Start::file>},
+    {"tile", Inner{&tile}, "Instead of a lattice: a settled packing of grains side by side.",
+     of_grains_alone},
+    {"lattice", Words{lattice_kind_words}, "\"square\" is cubic in 3D; \"hexagonal\" is of 2D.",
+     at<&Start::lattice>, of_lattices},
+    {"origin", Vector{dimension::length}, "A corner of a lattice cell: particles sit at its centre.",
+     at<&Start::lattice_origin>, of_lattices, Default{"lower"}},
+    {"lower", Vector{dimension::length}, "Extent that is filled.", at<&Start::lower>, of_lattices,
+     Default{"the domain's"}},
+    {"upper", Vector{dimension::length}, "Its other corner.", at<&Start::upper>, of_lattices,
+     Default{"the domain's"}},
+    {"jitter",
+     Number{dimension::none, {.least = 0, .most = 0.5, .below_most = true, .is = "it is in spacings,"}},
+     "Uniform random displacement of movers in each direction, in spacings. Flows without a surface need "
+     "about 0.05.",
+     at<&Start::jitter>, of_lattices},
+    {"seed", Whole{}, "Of the jitter, and of the radii of grains.", at<&Start::seed>},
+    {"free_surface", Flag{}, "With a file: whether there is one.", at<&Start::free_surface>, of_fluids,
+     Default{"true unless all axes are periodic"}},
+    {"velocity",
+     Special{
+         R"("rest", "taylor_green" or an array of speeds)", R"("rest")",
+         R"({"anyOf": [{"enum": ["rest", "taylor_green"]}, {"type": "array", "items": {"type": ["number", "string"]}}]})"},
+     "Of all movers [m/s]. Grains start with \"rest\" or an array; those of a file or a tile have their own.",
+     Default{"\"rest\""}},
+    {"flow_speed", Number{dimension::speed, positive}, "Of \"taylor_green\": its largest speed U.",
+     at<&Start::flow_speed>, of_fluids},
+    {"flow_length", Number{dimension::length, positive}, "Of \"taylor_green\": its period L.",
+     at<&Start::flow_length>, of_fluids},
+    {"pressure", Words{initial_pressure_words}, "\"taylor_green\" goes with that velocity.",
+     at<&Start::pressure>, of_fluids},
+    {"surface_height", Number{dimension::length},
+     "Hydrostatic: height of zero pressure, against gravity, under the first fluid.", of_fluids,
+     Default{"required there, or layers"}},
+    {"layer", Inner{&layer}, "Hydrostatic, instead of surface_height.", of_fluids},
+    {"region", Inner{&region}, "Paints the lattice.", of_lattices,
+     Default{"required, unless file or tile is given"}},
+    {"grains", Inner{&fill}, "Places grains in a fluid.", of_mixtures,
+     Default{"required of grains in a fluid"}},
+});
+inline constexpr Table<Start> start{
+    {"start", false, "The first state: a lattice painted by regions, a file, or a tile of grains.",
+     start_keys}};
+
+}  // namespace sph::keys

@@ -1,0 +1,111 @@
+// How far grains and walls may go in a step, and what is wrong where contacts are lost or too deep at once.
+//
+// Two grains that move by m each see each other in time if the chord that they may jump, 2 m, belongs to an
+// overlap below the largest one allowed, lambda r: m^2 = (2 r)^2 - (2 r - lambda r)^2 for two of the smallest
+// radius r, and m <= r, or they could change places. Larger ones have longer chords.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sph/core/error.hpp"
+#include "sph/models/grains.hpp"
+
+namespace sph {
+namespace {
+
+double least_radius(const Scene& scene) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const Group& g : scene.groups)
+    if (g.grain.least_radius > 0) radius = std::min(radius, g.grain.least_radius);
+  return radius;
+}
+
+double speed_along(const Double3& velocity, const Double3& normal) {
+  double along = 0;
+  for (std::size_t a = 0; a < 3; ++a) along += velocity[a] * normal[a];
+  return std::fabs(along);
+}
+
+}  // namespace
+
+double longest_grain_move(const Scene& scene) {
+  const double lambda = scene.contact.largest_overlap;
+  return std::min(1.0, std::sqrt(4 * lambda - lambda * lambda)) * least_radius(scene);
+}
+
+std::string grain_move_text(const Scene& scene, double way) {
+  return fmt::format(
+      "it moves {:.6g} m in a step, and could pass others unseen beyond {:.6g} m, {:.2g} radii of the "
+      "smallest "
+      "grain; reduce time.dt",
+      way, longest_grain_move(scene), longest_grain_move(scene) / least_radius(scene));
+}
+
+double grain_step(const Scene& scene) { return scene.time.dt.value_or(grain_time_steps(scene).recommended); }
+
+void check_wall_speeds(const Scene& scene) {
+  const double dt = grain_step(scene), limit = longest_grain_move(scene);
+  const auto check = [&](const Wall& wall, const std::string& key, double speed) {
+    if (speed * dt <= limit) return;
+    throw InputError(fmt::format("{}: {}: wall \"{}\" at {:.6g} m/s: {}, or this speed", scene.file, key,
+                                 wall.name, speed, grain_move_text(scene, speed * dt)));
+  };
+  for (const Wall& wall : scene.walls) {
+    check(wall, "wall.velocity", speed_along(wall.velocity, wall.normal));
+    check(wall, "wall.largest_speed", wall.largest_speed);
+  }
+  for (const WallStage& stage : scene.stages)
+    for (const WallChange& change : stage.walls) {
+      const Wall& wall = scene.walls[static_cast<std::size_t>(change.wall)];
+      if (change.velocity)
+        check(wall, fmt::format("stage \"{}\": velocity", stage.name),
+              speed_along(*change.velocity, wall.normal));
+    }
+}
+
+void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles) {
+  const double dt = grain_step(scene), limit = longest_grain_move(scene);
+  const double* v = particles.data<Field::velocity>();
+  Findings found;
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    if (scene.groups[particles.data<Field::group>()[i]].grain.fixed) continue;
+    double speed2 = 0;
+    for (std::size_t a = 0; a < 3; ++a) speed2 += v[i * 3 + a] * v[i * 3 + a];
+    const double way = std::sqrt(speed2) * dt;
+    const std::uint64_t id = particles.data<Field::id>()[i];
+    if (!(way <= limit))
+      found.add(id, [&] {
+        return fmt::format("start: grain {} has a speed of {:.6g} m/s: {}, or this speed", id,
+                           std::sqrt(speed2), grain_move_text(scene, way));
+      });
+  }
+  if (const std::string text = found.agree(comm); !text.empty()) throw InputError(scene.file + ": " + text);
+}
+
+void Grains::find_lost(const Particles& p, const GlobalState& global, double skin, Findings& lost) const {
+  const double* v = p.data<Field::velocity>();
+  for (const ContactLists::Parted& parted : lists_.parted()) {
+    const bool with_wall = (parted.key & wall_key) != 0;
+    if (parted.listed || (with_wall && !wall_now(parted.key & ~wall_key, global).present)) continue;
+    const std::size_t i = parted.row;
+    const double own =
+        std::sqrt(v[i * 3] * v[i * 3] + v[i * 3 + 1] * v[i * 3 + 1] + v[i * 3 + 2] * v[i * 3 + 2]);
+    // A wall's speed may have changed since; it is never above the limit.
+    const double way =
+        own * global.dt + (with_wall ? longest_move_ : global.max_speed * global.dt) + 4 * scale_.quantum;
+    if (1.0001 * way > skin) continue;
+    const std::uint64_t id = p.data<Field::id>()[i];
+    lost.add(id, [&] {
+      return fmt::format(
+          "the contact of grain {} {} with {} was lost when the lists were rebuilt; reduce "
+          "time.dt or raise decomposition.skin",
+          id, text_of_place(p.data<Field::position>() + i * 3),
+          with_wall ? fmt::format("wall \"{}\"", scene_->walls[parted.key & ~wall_key].name)
+                    : fmt::format("grain {}", parted.key));
+    });
+  }
+}
+
+}  // namespace sph

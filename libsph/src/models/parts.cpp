@@ -1,0 +1,46 @@
+#include "sph/models/parts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "sph/laws/drag/law.hpp"
+
+namespace sph {
+
+Parts::Parts(const Scene& scene, const PositionScale& scale) {
+  std::vector<bool> stays;
+  for (const Group& g : scene.groups) stays.push_back(g.kind == GroupKind::wall || g.grain.fixed);
+  if (scene.has_matter()) {
+    physics.emplace(sets.size(), scene, scale);
+    sph_pairs.emplace(sets.size(), *physics);
+    sets.push_back({physics->fields(), stays});
+    models.push_back(&*physics);
+    pairs.push_back(&*sph_pairs);
+  }
+  if (scene.has_grains()) {
+    grains.emplace(sets.size(), scene, scale);
+    sets.push_back({grain_fields(scene), stays});
+    models.push_back(&*grains);
+    pairs.push_back(&*grains);
+  }
+  if (scene.is_mixture() && scene.drag.law->resistance != nullptr) {
+    drag.emplace(physics->set(), grains->set(), scene, scale, physics->constants());
+    sets[physics->set()].fields |= Drag::of_fluid;
+    sets[grains->set()].fields |= Drag::of_grains;
+    models.push_back(&*drag);
+    pairs.push_back(&*drag);
+    append(plan, drag->porosity_plan());
+  }
+  if (physics) append(plan, physics->plan(), physics->set());
+  if (grains) append(plan, grains->plan(), grains->set());
+  if (drag) append(plan, drag->force_plan());
+  for (Model* m : models) m->reserve(reduction);
+}
+
+double Parts::longest_step() const {
+  double dt = std::numeric_limits<double>::infinity();
+  for (const Model* m : models) dt = std::min(dt, m->longest_step(reduction));
+  return dt;
+}
+
+}  // namespace sph

@@ -1,0 +1,183 @@
+// Histories on their way: packed with their grains before rows move, put back into the new lists after it.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "sph/pairs/contact_lists.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::size_t lanes = ContactGroups::lanes;
+
+/// splitmix64's finaliser: makes keys whose sum tells contacts apart.
+std::uint64_t mix(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+void count(ContactCensus& census, std::uint64_t carrier, std::uint64_t partner) {
+  ++census.count;
+  census.keys += mix(mix(carrier) + partner);
+}
+
+std::uint64_t key_of(const std::byte* entry) {
+  std::uint64_t key;
+  std::memcpy(&key, entry, sizeof key);
+  return key;
+}
+
+/// As the sweep finds it, to the last bit: do the grains overlap where they are now?
+bool touch(const std::int64_t* a, const std::int64_t* b, double radii, double quantum) {
+  double distance2 = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double d = static_cast<double>(b[k] - a[k]) * quantum;
+    distance2 += d * d;
+  }
+  return distance2 > 0 && radii - std::sqrt(distance2) > 0;
+}
+
+/// Lists hold a history as it acts on j; i has its own view of it.
+double seen(double value, Parity parity, bool by_i) { return by_i && parity == Parity::odd ? -value : value; }
+
+}  // namespace
+
+double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantum) {
+  double d = 0;
+  for (std::size_t a = 0; a < 3; ++a) d += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
+  return d * quantum;
+}
+
+decomp::Payload ContactLists::pack(const Particles& p) const {
+  decomp::Payload payload;
+  const std::size_t owned = p.owned();
+  payload.offset.assign(owned + 1, 0);
+  if (history_ == 0) return payload;
+  const auto each = [this](auto&& visit) {
+    for (const ContactGroups* g : {&pairs_, &walls_})
+      for (std::size_t k = 0; k < g->groups(); ++k)
+        for (unsigned bits = g->touching[k]; bits != 0; bits &= bits - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          visit(*g, k, lane, g->i[k * lanes + lane], g->j[k * lanes + lane]);
+        }
+  };
+  each([&](const ContactGroups& g, std::size_t, std::size_t, std::uint32_t i, std::uint32_t j) {
+    payload.offset[i + 1] += entry_bytes();
+    if (&g == &pairs_ && j < owned) payload.offset[j + 1] += entry_bytes();
+  });
+  for (const Parted& parted : parted_) payload.offset[parted.row + 1] += entry_bytes();
+  for (std::size_t r = 0; r < owned; ++r) payload.offset[r + 1] += payload.offset[r];
+  payload.bytes.resize(payload.offset.back());
+  std::vector<std::uint64_t> at(payload.offset.begin(), payload.offset.end() - 1);
+  const std::uint64_t* id = p.data<Field::id>();
+  const auto put = [&](std::uint32_t row, std::uint64_t key, const double* history, bool is_i) {
+    std::byte* out = payload.bytes.data() + at[row];
+    at[row] += entry_bytes();
+    std::memcpy(out, &key, sizeof key);
+    for (std::size_t c = 0; c < history_; ++c) {
+      // + 0: a zero keeps no sign, since which of the two it got depended on the orientation of the pair.
+      const double value = seen(history[c * lanes], parities_[c], is_i) + 0.0;
+      std::memcpy(out + 8 * (1 + c), &value, sizeof value);
+    }
+  };
+  each([&](const ContactGroups& g, std::size_t k, std::size_t lane, std::uint32_t i, std::uint32_t j) {
+    const double* history = g.history.data() + k * history_ * lanes + lane;
+    put(i, &g == &walls_ ? wall_key | j : id[j], history, true);
+    if (&g == &pairs_ && j < owned) put(j, id[i], history, false);
+  });
+  for (std::size_t n = 0; n < parted_.size(); ++n) {
+    std::memcpy(payload.bytes.data() + at[parted_[n].row], parted_entries_.data() + n * entry_bytes(),
+                entry_bytes());
+    at[parted_[n].row] += entry_bytes();
+  }
+  return payload;
+}
+
+ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& payload,
+                                   std::span<const std::uint32_t> order, double quantum,
+                                   std::span<const PlaneNow> planes) {
+  ContactCensus found;
+  parted_.clear();
+  parted_entries_.clear();
+  if (payload.bytes.empty()) return found;
+  const std::uint64_t* id = p.data<Field::id>();
+  const std::int64_t* x = p.data<Field::position>();
+  const double* radius = p.data<Field::radius>();
+  enum class Fate : std::uint8_t { unlisted, apart, kept };
+  std::vector<Fate> fate(payload.bytes.size() / entry_bytes(), Fate::unlisted);
+  const auto entry_of = [&](std::uint32_t row, std::uint64_t key) {
+    const std::uint64_t end = payload.offset[order[row] + 1];
+    std::uint64_t at = payload.offset[order[row]];
+    while (at < end && key_of(payload.bytes.data() + at) != key) at += entry_bytes();
+    return at < end ? std::optional(at) : std::nullopt;
+  };
+  for (ContactGroups* g : {&pairs_, &walls_})
+    for (std::size_t k = 0; k < g->i.size(); ++k) {
+      const std::uint32_t i = g->i[k], j = g->j[k];
+      const bool with_wall = g == &walls_;
+      if (with_wall ? j == ContactGroups::no_wall : i == j) continue;
+      const std::uint64_t wanted = with_wall ? wall_key | j : id[j];
+      const std::optional<std::uint64_t> at = entry_of(i, wanted);
+      if (!at) continue;
+      const bool kept =
+          with_wall ? radius[i] - distance_from(planes[j], x + std::size_t{i} * 3, quantum) > 0
+                    : touch(x + std::size_t{i} * 3, x + std::size_t{j} * 3, radius[i] + radius[j], quantum);
+      const Fate what = kept ? Fate::kept : Fate::apart;
+      fate[*at / entry_bytes()] = what;
+      const bool both = !with_wall && j < p.owned();
+      if (both)
+        if (const auto other = entry_of(j, id[i])) fate[*other / entry_bytes()] = what;
+      if (!kept) continue;
+      g->touching[k / lanes] = static_cast<std::uint8_t>(g->touching[k / lanes] | 1u << (k % lanes));
+      double* history = g->history.data() + k / lanes * history_ * lanes + k % lanes;
+      for (std::size_t c = 0; c < history_; ++c) {
+        double value;
+        std::memcpy(&value, payload.bytes.data() + *at + 8 * (1 + c), sizeof value);
+        history[c * lanes] = seen(value, parities_[c], true);
+      }
+      count(found, id[i], wanted);
+      if (both) count(found, wanted, id[i]);
+    }
+  carried_ = static_cast<std::int64_t>(found.count);
+  for (std::uint32_t row = 0; row < p.owned(); ++row)
+    for (std::uint64_t at = payload.offset[order[row]]; at < payload.offset[order[row] + 1];
+         at += entry_bytes()) {
+      if (fate[at / entry_bytes()] == Fate::kept) continue;
+      const std::byte* entry = payload.bytes.data() + at;
+      const std::uint64_t key = key_of(entry);
+      parted_.push_back({row, key, fate[at / entry_bytes()] == Fate::apart});
+      parted_entries_.insert(parted_entries_.end(), entry, entry + entry_bytes());
+      count(found, id[row], key);
+      if ((key & wall_key) == 0)
+        found.one_sided += id[row] < key ? mix(mix(id[row]) + key) : -mix(mix(key) + id[row]);
+    }
+  return found;
+}
+
+// A pair with both sides on this rank has two entries.
+std::int64_t ContactLists::forget_parted(const std::uint64_t* id) {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs;
+  for (const Parted& parted : parted_) pairs.push_back(std::minmax(id[parted.row], parted.key));
+  std::ranges::sort(pairs);
+  const auto contacts = std::distance(pairs.begin(), std::unique(pairs.begin(), pairs.end()));
+  parted_.clear();
+  parted_entries_.clear();
+  return contacts;
+}
+
+ContactCensus ContactLists::census(const Particles& p, const decomp::Payload& payload, int history) {
+  ContactCensus census;
+  const std::uint64_t* id = p.data<Field::id>();
+  for (std::size_t row = 0; row < payload.rows(); ++row)
+    for (std::uint64_t at = payload.offset[row]; at < payload.offset[row + 1];
+         at += 8 * (1 + static_cast<std::size_t>(history)))
+      count(census, id[row], key_of(payload.bytes.data() + at));
+  return census;
+}
+
+}  // namespace sph

@@ -1,0 +1,124 @@
+#include "sph/pairs/contact_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "pairs/candidates.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::size_t lanes = ContactGroups::lanes;
+/// Radii in the order of the bins and in their units, each with half of what lists reach beyond: the skin, and
+/// the rounding of positions to float (the bins' limit is 1 and that).
+std::vector<float> reaches(const Particles& p, const CellBins& bins, double skin, double unit) {
+  std::vector<float> out(p.rows() + CellBins::padding, 0.0f);
+  const double* radius = p.data<Field::radius>();
+  const float slack = 0.5f * (bins.limit() - 1.0f);
+  for (std::size_t k = 0; k < p.rows(); ++k)
+    out[k] = static_cast<float>((radius[bins.rows()[k]] + 0.5 * skin) / unit) + slack;
+  return out;
+}
+
+/// Appends to groups of contacts whose old entries are overwritten, not cleared.
+class Writer {
+ public:
+  explicit Writer(ContactGroups& g) : g_(g) {}
+  [[nodiscard]] std::size_t groups() const { return n_ / lanes; }
+  /// Where the next `room` partners may be written before add() says how many of them were.
+  [[nodiscard]] std::uint32_t* partners(std::size_t room) {
+    if (g_.j.size() < n_ + room) {
+      const std::size_t size = std::max(n_ + room, g_.j.size() + g_.j.size() / 2);
+      g_.i.resize(size);
+      g_.j.resize(size);
+    }
+    return g_.j.data() + n_;
+  }
+  void add(std::uint32_t i, std::size_t count) {
+    std::fill_n(g_.i.data() + n_, count, i);
+    n_ += count;
+  }
+  /// Fills the last group with pairs (i, j) that are none.
+  void pad(std::uint32_t i, std::uint32_t j) {
+    const std::size_t rest = (lanes - n_ % lanes) % lanes;
+    std::fill_n(partners(rest), rest, j);
+    add(i, rest);
+  }
+  void finish(std::size_t history) {
+    g_.i.resize(n_);
+    g_.j.resize(n_);
+    g_.touching.assign(groups(), 0);
+    g_.history.assign(n_ * history, 0.0);
+  }
+
+ private:
+  ContactGroups& g_;
+  std::size_t n_ = 0;
+};
+
+}  // namespace
+
+void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const decomp::Box& own_cells,
+                         std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
+                         const std::vector<bool>& fixed, std::span<const PlaneNow> planes) {
+  const CellBins bins(p, grid, own_cells, reach);
+  const std::vector<float> reach_of = reaches(p, bins, skin, static_cast<double>(reach) * quantum);
+  const CandidateTable candidates{bins, bins.rows().data(), reach_of.data()};
+  const auto* group = p.data<Field::group>();
+  const auto* x = p.data<Field::position>();
+  const double* radius = p.data<Field::radius>();
+  blocks_.clear();
+  Writer pairs(pairs_), walls(walls_);
+  listed_ = 0;
+  std::uint32_t cell = ~std::uint32_t{0};
+  CellBins::Runs all_runs;
+  std::span<const CellBins::Run> runs;
+  for (const RowRange& range : ranges) {
+    if (&range == &ranges[static_cast<std::size_t>(RowClass::boundary_movers)])
+      interior_blocks_ = blocks_.size();
+    for (std::size_t first = range.first; first < range.last; first += ContactBlock::rows) {
+      ContactBlock block{static_cast<std::uint32_t>(first),
+                         static_cast<std::uint32_t>(std::min(first + ContactBlock::rows, range.last)),
+                         pairs.groups(),
+                         0,
+                         walls.groups(),
+                         0};
+      for (std::uint32_t row = block.first; row < block.last; ++row) {
+        const bool is_fixed = fixed[group[row]];
+        if (bins.bin(row) != cell) runs = bins.runs(cell = bins.bin(row), all_runs);
+        const std::size_t place = bins.place(row);
+        const float at[3] = {bins.x(0)[place], bins.x(1)[place], bins.x(2)[place]};
+        std::uint32_t* const partner = pairs.partners(CandidateTable::room(runs));
+        std::size_t n = candidates.find<3, Keep::above>(runs, at, reach_of[place], row, partner);
+        if (is_fixed)
+          n = static_cast<std::size_t>(
+              std::remove_if(partner, partner + n, [&](std::uint32_t j) { return fixed[group[j]]; }) -
+              partner);
+        pairs.add(row, n);
+        listed_ += n;
+        for (std::uint32_t w = 0; w < planes.size() && !is_fixed; ++w)
+          if (planes[w].present && distance_from(planes[w], x + row * 3, quantum) < radius[row] + skin) {
+            *walls.partners(1) = w;
+            walls.add(row, 1);
+          }
+      }
+      pairs.pad(block.first, block.first);
+      walls.pad(block.first, ContactGroups::no_wall);
+      block.pairs_end = pairs.groups();
+      block.walls_end = walls.groups();
+      blocks_.push_back(block);
+    }
+  }
+  pairs.finish(history_);
+  walls.finish(history_);
+}
+
+std::size_t ContactLists::bytes() const {
+  std::size_t sum = blocks_.capacity() * sizeof(ContactBlock);
+  for (const ContactGroups* g : {&pairs_, &walls_})
+    sum += (g->i.capacity() + g->j.capacity()) * 4 + g->touching.capacity() + g->history.capacity() * 8;
+  return sum;
+}
+
+}  // namespace sph

@@ -1,5 +1,0 @@
-#include "pairs/fusion_list.hpp"
-
-namespace sph {
-std::vector<Fusion> fusions_2d_double() { return FusionList<double, 2>::all(); }
-}  // namespace sph

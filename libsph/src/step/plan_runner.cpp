@@ -1,0 +1,72 @@
+#include "sph/step/plan_runner.hpp"
+
+namespace sph {
+
+StepState PlanRunner::state_of(std::size_t set, GlobalState& global, std::optional<std::size_t> other) {
+  ParticleSet& of = sets_[set];
+  const bool sums = parts_.sph_pairs && parts_.sph_pairs->set() == set;
+  return {{of.ranges, global, maxima_, findings_},
+          of.particles,
+          other ? &sets_[*other].particles : nullptr,
+          sums ? &parts_.sph_pairs->lists() : nullptr,
+          rows_};
+}
+
+void PlanRunner::run(const std::vector<Entry>& entries, GlobalState& global) {
+  for (const Entry& entry : entries) {
+    int iteration = 0;
+    do {
+      for (const Stage& stage : entry.stages) {
+        StepState state =
+            state_of(stage.set, global, stage.other ? std::optional(stage.other->set) : std::nullopt);
+        state.iteration = iteration;
+        run(stage, state);
+      }
+      ++iteration;
+    } while (entry.solver && improve(entry, global));
+  }
+}
+
+void PlanRunner::run(const Stage& stage, StepState& state) {
+  ParticleSet& set = sets_[stage.set];
+  const auto work = [&](Side side) {
+    const auto timing = timers_.time(stage.region);
+    stage.work(state, side);
+  };
+  ParticleSet* other = stage.other ? &sets_[stage.other->set] : nullptr;
+  if (stage.refresh.empty() && other == nullptr) {
+    work(Side::all);
+  } else {
+    set.exchange.begin(set.halo, set.particles, stage.refresh, timers_);
+    if (other != nullptr) other->exchange.begin(other->halo, other->particles, stage.other->refresh, timers_);
+    work(Side::interior);
+    set.exchange.end(set.halo, timers_);
+    if (other != nullptr) other->exchange.end(other->halo, timers_);
+    work(Side::boundary);
+  }
+  if (stage.moves) age_.add(stage.set, stage.moves(state.global));
+  set.changed(stage.writes);
+}
+
+// Are the stages of the loop to be run once more?
+bool PlanRunner::improve(const Entry& loop, GlobalState& global) {
+  const std::size_t set = loop.stages.front().set;
+  StepState state = state_of(set, global);
+  const auto products = [&] {
+    const auto timing = timers_.time(decomp::Region::update);
+    return loop.solver->products(state);
+  }();
+  {
+    const auto timing = timers_.time(decomp::Region::reduce);
+    decomp::ExactSum::all_reduce(comm_, products);
+  }
+  const auto timing = timers_.time(decomp::Region::update);
+  const bool again = loop.solver->improve(state);
+  sets_[set].changed(loop.improves);
+  if (again) ++counters_.repeats;
+  if (again && !products.empty()) ++counters_.iterations;
+  if (!again) ++counters_.solved;
+  return again;
+}
+
+}  // namespace sph

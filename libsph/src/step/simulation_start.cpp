@@ -1,0 +1,159 @@
+// Set-up of a simulation: from the scene's start or from a checkpoint.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sph/plan/united.hpp"
+#include "sph/scene/positions.hpp"
+#include "sph/start/placement.hpp"
+#include "sph/step/simulation.hpp"
+#include "step/guards.hpp"
+
+namespace sph {
+namespace {
+
+// Passes over movers write nothing to walls, whose partners read all the same: nothing is what they read.
+void forget_sums(Particles& particles) {
+  for (const Field f : particles.fields().list())
+    if (!info(f).state)
+      std::memset(particles.table().column(particles.column(f)).data(), 0,
+                  particles.owned() * width(f, particles.dim()));
+}
+
+}  // namespace
+
+// For tests of the balance: this rank's cores are slower by scene.decomposition.slowness.
+void Simulation::add_dawdling() {
+  const double slowness = scene_.decomposition.slowness;
+  if (slowness <= 1 || scene_.decomposition.slow_rank != comm_.rank()) return;
+  append(parts_.plan.kick,
+         {"dawdle", decomp::Region::update, {}, {}, [this, slowness, before = 0.0](StepState&, Side) mutable {
+            const double until = before + slowness * (timers_.cost() - before);
+            while (timers_.cost() < until) {
+            }
+            before = timers_.cost();
+          }});
+}
+
+Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
+    : State(comm, scene, position_scale(scene)) {
+  for (ParticleSet& set : sets_) place_particles(scene_, scale_, distribution_, set.particles);
+  double dt = std::numeric_limits<double>::infinity();
+  for (Model* m : parts_.models) dt = std::min(dt, m->start(comm_, sets_[m->set()].particles, global_));
+  global_.dt = dt;
+  try {
+    for (std::size_t set = 0; set < sets_.size(); ++set)
+      guard_motion(*this, std::fmax(longest_move(parts_.plan.drift, set, global_), age_.look_back()));
+  } catch (const GuardError& error) {
+    throw InputError(scene_.file + ": start: " + error.what());
+  }
+  begin();
+  for (const Model* m : parts_.models) m->check_start(comm_, runner_.state_of(m->set(), global_));
+  settle();
+}
+
+Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint)
+    : State(comm, scene, checkpoint.record.scale) {
+  if (sets_.size() == 1) {
+    read_checkpoint(comm_, checkpoint, sets_.front().particles, has_history() ? &arrived_ : nullptr);
+  } else {
+    Particles all(scene_.dim, fields_of(sets_));
+    read_checkpoint(comm_, checkpoint, all, has_history() ? &arrived_ : nullptr);
+    divide(all, scene_, sets_, arrived_, parts_.grains ? parts_.grains->set() : sets_.size());
+  }
+  global_ = checkpoint.record.global;
+  begin();
+}
+
+void Simulation::begin() {
+  add_dawdling();
+  for (ParticleSet& set : sets_) set.census = set.count(comm_);
+  if (particle_count() == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
+  distribution_.cut_by_counts(sets_);
+  scatter();
+  for (ParticleSet& set : sets_) forget_sums(set.particles);
+  for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
+  // Sorts the rows: what drifts needs to know which of them move.
+  rebuild();
+  Findings outside;
+  for (const ParticleSet& set : sets_) outside.add(distribution_.outside(set.particles));
+  if (const std::string text = outside.agree(comm_); !text.empty())
+    throw InputError(scene_.file + ": start: " + text);
+  runner_.run(parts_.plan.start, global_);
+  runner_.findings().stop(comm_);
+  stale_ = may_drift(parts_.plan);
+}
+
+// Every row, with what its pairs carry, to the rank that owns it.
+void Simulation::scatter() {
+  for (std::size_t k = 0; k < sets_.size(); ++k) {
+    const bool carries =
+        std::ranges::any_of(parts_.pairs, [&](const SetPair* p) { return p->set() == k && p->carries(); });
+    if (carries && arrived_.rows() == 0) arrived_.offset.assign(particles(k).owned() + 1, 0);
+    distribution_.scatter(sets_[k].particles, carries ? &arrived_ : nullptr);
+  }
+}
+
+std::int64_t Simulation::refreshes() const {
+  std::int64_t n = 0;
+  for (const ParticleSet& set : sets_) n += set.exchange.refreshes();
+  return n;
+}
+
+void Simulation::derive_for_output() {
+  const std::vector<Entry>& stages = parts_.plan.output;
+  if (stages.empty()) return;
+  ParticleSet& set = sets_[stages.front().stages.front().set];
+  Particles& particles = set.particles;
+  const auto copy = [&](const double* values, std::size_t components) {
+    return values == nullptr ? std::vector<double>()
+                             : std::vector<double>(values, values + components * particles.owned());
+  };
+  double* velocity = particles.data<Field::velocity>();
+  double* mirror = particles.data<Field::wall_mirror>();
+  const std::vector<double> velocities = copy(velocity, static_cast<std::size_t>(scene_.dim)),
+                            mirrors = copy(mirror, 1);
+  runner_.run(stages, global_);
+  std::copy(velocities.begin(), velocities.end(), velocity);
+  std::copy(mirrors.begin(), mirrors.end(), mirror);
+  for (const Entry& entry : stages)
+    for (const Stage& stage : entry.stages) set.changed(stage.writes);
+}
+
+// What a start cannot say of a particle alone.
+void Simulation::settle() {
+  const Plan& plan = parts_.plan;
+  if (plan.settle.empty()) return;
+  if (plan.settling) {
+    approach(*plan.settling, plan.settle.front().stages.front().set);
+    return;
+  }
+  runner_.run(plan.settle, global_);
+  if (const std::string text = runner_.findings().agree(comm_); !text.empty())
+    throw InputError(scene_.file + ": start: " + text);
+  for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
+  runner_.run(plan.start, global_);
+}
+
+// How many repetitions it takes follows from the scene alone: the largest change is that of all ranks.
+void Simulation::approach(Settling& settling, std::size_t set) {
+  constexpr int most = 100;
+  constexpr double rounding = 1e-13;
+  for (int k = 0; k < most; ++k) {
+    settling.prepare(sets_[set].particles);
+    sets_[set].changed(settling.prepares);
+    runner_.run(parts_.plan.settle, global_);
+    std::array<double, 1> change{settling.change(particles(set))};
+    comm_.max(change);
+    refresh_halo(settling.settles, set);
+    for (SetPair* pair : parts_.pairs)
+      if (pair->set() == set) pair->rebuild(particles(set), list_setting(*pair), {}, {});
+    if (change[0] < rounding) break;
+  }
+}
+
+}  // namespace sph

@@ -1,0 +1,49 @@
+#include "sph/pairs/fusions.hpp"
+
+#include <algorithm>
+
+#include "sph/terms/added_term.hpp"
+
+namespace sph {
+
+std::vector<Fusion> fusions_2d_float();
+std::vector<Fusion> fusions_2d_double();
+std::vector<Fusion> fusions_3d_float();
+std::vector<Fusion> fusions_3d_double();
+
+const std::vector<Fusion>& all_fusions() {
+  static const std::vector<Fusion> all = [] {
+    std::vector<Fusion> list;
+    for (const auto& part :
+         {fusions_2d_float(), fusions_2d_double(), fusions_3d_float(), fusions_3d_double()})
+      list.insert(list.end(), part.begin(), part.end());
+    for (const AddedTerm* t : added_terms()) list.insert(list.end(), t->fusions.begin(), t->fusions.end());
+    return list;
+  }();
+  return all;
+}
+
+const Fusion& find_fusion(int dim, Precision precision, KernelShape kernel, const std::vector<Term>& terms) {
+  const auto sorted = [](std::vector<Term> t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  for (const Fusion& f : all_fusions())
+    if (f.dim == dim && f.precision == precision && f.kernel == kernel && sorted(f.terms) == sorted(terms))
+      return f;
+  std::string line = kernel == KernelShape::quintic       ? "fuse<Quintic"
+                     : kernel == KernelShape::wendland_c2 ? "fuse<WendlandC2"
+                                                          : "fuse<WendlandC4";
+  for (Term t : terms) line += ", " + std::string(t.name);
+  throw InputError("this combination of terms is not compiled; add the line \"" + line +
+                   ">(),\" to libsph/src/terms/fusion_list.hpp and rebuild");
+}
+
+std::byte* aligned_scratch(decomp::LargeVector<std::byte>& scratch, std::size_t bytes) {
+  constexpr std::size_t alignment = 64;
+  if (scratch.size() < bytes + alignment) scratch.resize(bytes + bytes / 8 + alignment);
+  const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());
+  return scratch.data() + (alignment - address % alignment) % alignment;
+}
+
+}  // namespace sph
