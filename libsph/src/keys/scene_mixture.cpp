@@ -27,14 +27,14 @@ GrainFill read_fill(const Reader<keys::fill>& table, const Scene& scene) {
                  fmt::format("reaches out of the domain in {}", axis_names[a]),
                  fmt::format("the domain is {} to {} there", scene.lower[a], scene.upper[a]));
   }
-  if (count(fill) == 0)
-    table.fail("spacing", fmt::format("is {} m, more than twice the filled extent", fill.spacing),
-               "reduce it so that grains fit in");
   double grains = 1;
   for (std::size_t a = 0; a < 3; ++a) grains *= (fill.upper[a] - fill.lower[a]) / fill.spacing;
   if (grains > most_grains)
     table.fail("spacing", fmt::format("is {} m and would make {:.1e} grains", fill.spacing, grains),
                "check its unit");
+  if (count(fill) == 0)
+    table.fail("spacing", fmt::format("is {} m, more than twice the filled extent", fill.spacing),
+               "reduce it so that grains fit in");
   table.finish();
   return fill;
 }

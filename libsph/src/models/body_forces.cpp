@@ -12,8 +12,10 @@ Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
   const Scene& scene = *constants_->scene;
   const std::int64_t* x = p.get<Field::position>();
   const double pull = scene.central_pull, control = tension_control(p, i);
+  const double* grains = p.get<Field::grain_pull>();
   Double3 acceleration = scene.gravity;
   for (std::size_t a = 0; a < d; ++a) {
+    if (grains != nullptr) acceleration[a] += grains[i * d + a];
     if (pull != 0) acceleration[a] -= pull * (constants_->scale.metres(x[i * d + a]) - scene.pull_centre[a]);
     if (control != 0) acceleration[a] += control * p.get<Field::spread>()[i * (d + 2) + a];
   }

@@ -12,6 +12,7 @@
 #include "sph/core/fixed_point.hpp"
 #include "sph/core/kernels.hpp"
 #include "sph/laws/drag/law.hpp"
+#include "sph/models/physics.hpp"
 #include "sph/scene/grain_mass.hpp"
 
 namespace sph {
@@ -19,11 +20,18 @@ namespace {
 
 constexpr double porosity_quantum = 0x1p-50;
 constexpr double least_porosity = 0.1;
+constexpr double least_open = 0.25;      // of the kernel beside walls: less is in a corner, or behind a face
 constexpr double largest_part = 0x1p50;  // [quanta]: 8192 of them fit a sum
 
 template <class Kernel>
 void kernel_values(double factor, std::span<double> q_to_value) {
   for (double& q : q_to_value) q = factor * Kernel::template value<3>(q);
+}
+
+/// How the share of the kernel that is below a surface grows with the depth of its centre, there: the integral
+/// of the kernel over a plane [1/h].
+double surface_slope(KernelShape kernel) {
+  return kernel == KernelShape::quintic ? 239.0 / 420 : kernel == KernelShape::wendland_c2 ? 0.75 : 55.0 / 64;
 }
 
 }  // namespace
@@ -39,7 +47,8 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
   const DragLaw& law = *scene.drag.law;
   // As if it took the heaviest grain, or the fluid in its place, to the speed of sound within h, or dragged a grain
   // in a packed bed with that speed.
-  double largest = 0, rate = 0;
+  double largest = 0;
+  PushLimits packed;
   const double sound = *std::ranges::max_element(constants.groups.sound_speed);
   for (const Group& g : scene.groups) {
     if (g.kind != GroupKind::grain || !(g.grain.largest_radius > 0)) continue;
@@ -51,31 +60,36 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
       largest = std::max({largest, heavy * sound * sound / scene.smoothing_length, fast * sound});
       const double d = 2 * g.grain.least_radius, volume = volume_of(g.grain.least_radius);
       const double zeta = law.resistance({DragForce::packed, 0, f.density, f.viscosity, d});
-      rate = std::max(rate, zeta * (1 - DragForce::packed) / (volume * DragForce::packed * f.density));
+      const double solid = (1 - DragForce::packed) / DragForce::packed;
+      packed.rate = std::max(packed.rate, zeta * solid / (volume * f.density));
+      const double lighter = g.grain.fixed ? 0.0 : solid * f.density / g.density;
+      packed.sound = std::max(packed.sound, sound * std::sqrt(1 + lighter));
     }
   }
   force_quantum_ = std::ldexp(1.0, std::ilogb(largest) + 1 - 50);
-  first_step_ = rate > 0 ? DragForce::usual_share / rate : std::numeric_limits<double>::infinity();
+  first_step_ = step_of(packed);
+  surface_slope_ = surface_slope(scene.kernel);
 }
 
-Plan Drag::porosity_plan() {
-  Plan plan;
+void Drag::add_porosity_to(std::vector<Entry>& sums, std::size_t at, bool first) {
+  std::vector<Entry> stages;
   Stage porosity{
       "porosity", decomp::Region::contacts, {}, {Field::porosity}, [this](StepState& s, Side side) {
         deposit_porosity(s, side);
       }};
   porosity.set = other();
   porosity.other = {set(), {Field::position}};
-  Stage fill{"fluid between grains",
-             decomp::Region::update,
-             {},
-             {Field::mass, Field::density},
-             [this](StepState& s, Side) { fill_between_grains(s); }};
-  fill.set = other();
-  append(plan.sums, porosity);
-  append(plan.settle, porosity);
-  append(plan.settle, fill);
-  return plan;
+  append(stages, porosity);
+  if (first) {
+    Stage fill{"fluid between grains",
+               decomp::Region::update,
+               {},
+               {Field::mass, Field::density},
+               [this](StepState& s, Side) { fill_between_grains(s); }};
+    fill.set = other();
+    append(stages, fill);
+  }
+  sums.insert(sums.begin() + static_cast<std::ptrdiff_t>(at), stages.begin(), stages.end());
 }
 
 Plan Drag::force_plan() {
@@ -88,14 +102,14 @@ Plan Drag::force_plan() {
   on_grains.set = set();
   on_grains.other = {other(),
                      {Field::position, Field::velocity, Field::density, Field::mass, Field::group,
-                      Field::force, Field::porosity, Field::liquid_density, Field::grain_pull}};
+                      Field::force, Field::porosity, Field::liquid_density, Field::sound_speed}};
   Stage on_fluid{"grains on fluid",
                  decomp::Region::contacts,
                  {},
-                 {Field::velocity, Field::grain_pull},
+                 {Field::velocity, Field::grain_pull, Field::grain_drag},
                  [this](StepState& s, Side side) { push_fluid(s, side); }};
   on_fluid.set = other();
-  on_fluid.other = {set(), {Field::position, Field::fluid_force, Field::fluid_share}};
+  on_fluid.other = {set(), FieldSet{Field::position} | of_grains};
   append(plan.kick, on_grains);
   append(plan.kick, on_fluid);
   return plan;
@@ -107,21 +121,39 @@ double Drag::start(const decomp::Comm&, Particles&, GlobalState&) {
 }
 
 bool Drag::report(const StepState&, Reduction& reduction) {
-  reduction[rate_] = fastest_;
+  reduction[rate_] = limits_.rate;
+  reduction[sound_] = limits_.sound;
   return true;
 }
 
 double Drag::longest_step(const Reduction& reduction) const {
   if (scene_->time.dt) return *scene_->time.dt;
-  return reduction[rate_] > 0 ? DragForce::usual_share / reduction[rate_]
-                              : std::numeric_limits<double>::infinity();
+  return step_of({reduction[rate_], reduction[sound_]});
+}
+
+// Sound in the fluid alone has the scene's own share of h; in the mixture it may have a little more.
+double Drag::step_of(const PushLimits& limits) const {
+  const double cfl = std::max(scene_->time.cfl, std::min(1.25 * scene_->time.cfl, 1.0));
+  double dt = std::numeric_limits<double>::infinity();
+  if (limits.rate > 0) dt = DragForce::usual_share / limits.rate;
+  if (limits.sound > 0) dt = std::min(dt, cfl * scene_->smoothing_length / limits.sound);
+  return dt;
 }
 
 void Drag::guard_step(const Reduction& reduction, const GlobalState& global) const {
-  if (!(reduction[rate_] * global.dt > DragForce::largest_share)) return;
-  throw GuardError(fmt::format(
-      "{}grains take the fluid along within {:.3g} s, less than a time step; set time.dt to {:.3g} s or less",
-      step_text(global.step), 1 / reduction[rate_], 0.9 * DragForce::usual_share / reduction[rate_]));
+  const double h = scene_->smoothing_length;
+  if (reduction[rate_] * global.dt > DragForce::largest_share)
+    throw GuardError(fmt::format(
+        "{}grains take the fluid along within {:.3g} s, less than a time step; set time.dt to {:.3g} s or "
+        "less",
+        step_text(global.step), 1 / reduction[rate_], 0.9 * DragForce::usual_share / reduction[rate_]));
+  if (reduction[sound_] * global.dt > courant_limit(*scene_) * h)
+    throw GuardError(
+        fmt::format("{}sound, which grains lighter than the fluid make faster, passes {:.3g} m in a time "
+                    "step, more than {} "
+                    "times the smoothing length; set time.dt to {:.3g} s or less",
+                    step_text(global.step), reduction[sound_] * global.dt, courant_limit(*scene_),
+                    0.9 * courant_recommended * h / reduction[sound_]));
 }
 
 template <class Function>
@@ -156,6 +188,24 @@ void Drag::find_kernel(const Particles& grains, std::size_t i, const Particles& 
     kernel_values<WendlandC4>(WendlandC4::normalisation<3> / h3, kernel_);
 }
 
+// How much of a grain is below the surface follows from how much of the kernel around it is fluid, walls aside: half
+// of it where the surface is at its centre, and beside that its slope times the depth. find_weights() has been asked.
+Drag::Share Drag::share_of(std::size_t i, double radius, const Particles& fluid) const {
+  constexpr double least = 0.02;  // of the kernel: what is beside a wall and dry
+  const auto* group = fluid.data<Field::group>();
+  const std::span<const std::uint32_t> rows = listed(i);
+  const double wall_volume = scene_->spacing * scene_->spacing * scene_->spacing;
+  double wet = 0, walls = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    wet += weights_[k];
+    if (constants_->is_wall(group[rows[k]])) walls += wall_volume * kernel_[k];
+  }
+  const double open = 1 - walls;
+  const double depth = (wet / open - 0.5) / surface_slope_ * scene_->smoothing_length / radius;
+  if (!(wet > least) || !(open > least) || depth <= -1) return {0, 0};
+  return {1 / wet, depth >= 1 ? 1.0 : 0.25 * (2 + depth * (3 - depth * depth))};
+}
+
 // Grains of the halo are those of other ranks: each adds to the fluid of this rank alone.
 void Drag::deposit_porosity(StepState& s, Side side) {
   const Particles &fluid = s.particles, &grains = *s.other;
@@ -170,8 +220,12 @@ void Drag::deposit_porosity(StepState& s, Side side) {
   });
   if (side == Side::interior) return;
   double* porosity = s.particles.data<Field::porosity>();
+  // Behind walls are no grains: what they leave of the kernel is all that there is.
+  const double* walls = fluid.data<Field::wall_share>();
   for_movers(s.ranges, [&](std::size_t i) {
-    porosity[i] = 1 - static_cast<double>(deposits_[i]) * porosity_quantum;
+    const double open =
+        walls == nullptr ? 1.0 : std::max(1 - scene_->smoothing_length * walls[i * 4 + 3], least_open);
+    porosity[i] = 1 - static_cast<double>(deposits_[i]) * porosity_quantum / open;
     if (porosity[i] >= least_porosity) return;
     s.findings.add(fluid.data<Field::id>()[i], [&] {
       std::array<double, 3> at;
@@ -198,12 +252,14 @@ void Drag::fill_between_grains(const StepState& s) const {
   });
 }
 
-// Of rows [first, last) of the fluid.
+// Of rows [first, last) of the fluid; what is wall takes no part.
 void Drag::find_volumes(const Particles& fluid, std::size_t first, std::size_t last) {
   const double* mass = fluid.data<Field::mass>();
   const double* density = fluid.data<Field::density>();
+  const auto* group = fluid.data<Field::group>();
   volumes_.resize(fluid.rows());
-  for (std::size_t j = first; j < last; ++j) volumes_[j] = mass[j] / density[j];
+  for (std::size_t j = first; j < last; ++j)
+    volumes_[j] = constants_->is_wall(group[j]) ? 0.0 : mass[j] / density[j];
 }
 
 void Drag::find_weights(const Particles& grains, std::size_t i, const Particles& fluid) {
@@ -214,42 +270,41 @@ void Drag::find_weights(const Particles& grains, std::size_t i, const Particles&
 }
 
 // Sums in the order of ids; find_weights() has been asked.
-FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Particles& fluid,
-                              double dt) const {
+FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Particles& fluid) const {
   const std::span<const std::uint32_t> rows = listed(i);
   const double* v = fluid.data<Field::velocity>();
-  const double* pull = fluid.data<Field::grain_pull>();
   const double* force = fluid.data<Field::force>();
   const double* porosity = fluid.data<Field::porosity>();
   const double* liquid = fluid.data<Field::liquid_density>();
+  const double* sound = fluid.data<Field::sound_speed>();
   const auto* group = fluid.data<Field::group>();
+  FluidAround out;
   double weight = 0, square = 0, e = 0, rho = 0, eta = 0;
   Double3 u{}, stress{};
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const std::size_t j = rows[k];
     const double w = kernel_[k], vw = weights_[k];
+    if (!(vw > 0)) continue;
+    const std::size_t j = rows[k];
     weight += vw;
     square += vw * w;
     e += vw * porosity[j];
     rho += vw * liquid[j];
     eta += vw * scene_->groups[group[j]].viscosity;
+    out.sound = std::max(out.sound, sound != nullptr ? sound[j] : constants_->groups.sound_speed[group[j]]);
     for (std::size_t a = 0; a < 3; ++a) {
-      u[a] += vw * (v[j * 3 + a] + dt * pull[j * 3 + a]);
+      u[a] += vw * v[j * 3 + a];
       stress[a] += w * force[j * 3 + a];
     }
   }
-  FluidAround out;
-  if (!(weight > 0)) return out;
-  out.share = 1 / weight;
-  out.immersed = std::min(1.0, 2 * weight);
+  const double per_weight = 1 / weight;
   for (std::size_t a = 0; a < 3; ++a) {
-    out.velocity[a] = u[a] * out.share;
-    out.stress[a] = stress[a] * out.share;
+    out.velocity[a] = u[a] * per_weight;
+    out.stress[a] = stress[a] * per_weight;
   }
-  out.porosity = e * out.share;
-  out.own = volume_of(grains.data<Field::radius>()[i]) * square * out.share;
-  out.density = rho * out.share;
-  out.viscosity = eta * out.share;
+  out.porosity = e * per_weight;
+  out.own = volume_of(grains.data<Field::radius>()[i]) * square * per_weight;
+  out.density = rho * per_weight;
+  out.viscosity = eta * per_weight;
   return out;
 }
 
@@ -259,7 +314,7 @@ double Drag::quanta_a_weight(double force, double share) const { return force * 
 void Drag::push_grains(StepState& s, Side side) {
   const Particles& fluid = *s.other;
   Particles& grains = s.particles;
-  if (side != Side::boundary) fastest_ = 0;
+  if (side != Side::boundary) limits_ = {};
   if (side != Side::boundary) find_volumes(fluid, 0, fluid.owned());
   if (side != Side::interior) find_volumes(fluid, fluid.owned(), fluid.rows());
   const double* mass = grains.data<Field::mass>();
@@ -267,23 +322,29 @@ void Drag::push_grains(StepState& s, Side side) {
   const auto* group = grains.data<Field::group>();
   double* v = grains.data<Field::velocity>();
   double* force = grains.data<Field::fluid_force>();
+  double* drag = grains.data<Field::fluid_drag>();
   double* share = grains.data<Field::fluid_share>();
   const double dt = s.global.dt;
   double speed2 = 0;
   const auto push_one = [&](std::size_t i) {
-    find_weights(grains, i, fluid);
-    const FluidAround around = look_around(grains, i, fluid, dt);
-    share[i] = around.share;
     const bool fixed = scene_->groups[group[i]].grain.fixed;
-    Double3 f{};
-    if (around.share > 0) {
+    Double3 f{}, d{};
+    find_weights(grains, i, fluid);
+    const Share in = share_of(i, radius[i], fluid);
+    share[i] = in.per_weight;
+    if (in.immersed > 0) {
+      FluidAround around = look_around(grains, i, fluid);
+      around.immersed = in.immersed;
       const Push push = push_(around, {2 * radius[i], mass[i], v + i * 3, fixed}, dt);
       f = push.force;
-      fastest_ = std::max(fastest_, push.rate);
+      d = push.drag;
+      limits_.rate = std::max(limits_.rate, push.limits.rate);
+      limits_.sound = std::max(limits_.sound, push.limits.sound);
     }
     std::array<std::int64_t, 3> sum{};
     for (std::size_t a = 0; a < 3; ++a) {
       force[i * 3 + a] = f[a];
+      drag[i * 3 + a] = d[a];
       if (!(std::fabs(f[a]) < largest_part * force_quantum_)) {
         s.findings.add(grains.data<Field::id>()[i], [&] {
           return fmt::format(
@@ -292,10 +353,10 @@ void Drag::push_grains(StepState& s, Side side) {
               "reduce time.dt",
               step_text(s.global.step), grains.data<Field::id>()[i], f[a], largest_part * force_quantum_);
         });
-        force[i * 3 + a] = 0;
+        force[i * 3 + a] = drag[i * 3 + a] = 0;
         continue;
       }
-      const double quanta = quanta_a_weight(f[a], around.share);
+      const double quanta = quanta_a_weight(f[a], share[i]);
       for (const double weight : weights_) sum[a] += round_to_quanta(quanta * weight);
     }
     if (fixed) return;
@@ -315,30 +376,38 @@ void Drag::push_grains(StepState& s, Side side) {
 void Drag::push_fluid(StepState& s, Side side) {
   Particles& fluid = s.particles;
   const Particles& grains = *s.other;
-  if (side != Side::boundary) deposits_.assign(fluid.owned() * 3, 0);
+  if (side != Side::boundary) deposits_.assign(fluid.owned() * 6, 0);
   const double* mass = fluid.data<Field::mass>();
   const double* force = grains.data<Field::fluid_force>();
+  const double* on_grain = grains.data<Field::fluid_drag>();
   const double* share = grains.data<Field::fluid_share>();
   for_grains(grains, side, [&](std::size_t i) {
+    if (share[i] == 0) return;
     find_weights(grains, i, fluid);
     const std::span<const std::uint32_t> rows = listed(i);
-    Double3 quanta{};
-    for (std::size_t a = 0; a < 3; ++a) quanta[a] = quanta_a_weight(force[i * 3 + a], share[i]);
+    std::array<double, 6> quanta{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      quanta[a] = quanta_a_weight(force[i * 3 + a], share[i]);
+      quanta[3 + a] = quanta_a_weight(on_grain[i * 3 + a], share[i]);
+    }
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (rows[k] >= fluid.owned()) continue;
-      std::int64_t* sum = deposits_.data() + std::size_t{rows[k]} * 3;
-      for (std::size_t a = 0; a < 3; ++a) sum[a] -= round_to_quanta(quanta[a] * weights_[k]);
+      std::int64_t* sum = deposits_.data() + std::size_t{rows[k]} * 6;
+      for (std::size_t a = 0; a < 6; ++a) sum[a] -= round_to_quanta(quanta[a] * weights_[k]);
     }
   });
   if (side == Side::interior) return;
   double* v = fluid.data<Field::velocity>();
   double* pull = fluid.data<Field::grain_pull>();
+  double* drag = fluid.data<Field::grain_drag>();
   double speed2 = 0;
   for_movers(s.ranges, [&](std::size_t i) {
     double v2 = 0;
     for (std::size_t a = 0; a < 3; ++a) {
-      pull[i * 3 + a] = static_cast<double>(deposits_[i * 3 + a]) * force_quantum_ / mass[i];
-      v[i * 3 + a] += s.global.dt * pull[i * 3 + a];
+      const double before = pull[i * 3 + a];
+      pull[i * 3 + a] = static_cast<double>(deposits_[i * 6 + a]) * force_quantum_ / mass[i];
+      drag[i * 3 + a] = static_cast<double>(deposits_[i * 6 + 3 + a]) * force_quantum_ / mass[i];
+      v[i * 3 + a] += s.global.dt * (pull[i * 3 + a] - before);
       v2 += v[i * 3 + a] * v[i * 3 + a];
     }
     speed2 = larger(v2, speed2);

@@ -57,7 +57,7 @@ Push DragForce::operator()(const FluidAround& around, const GrainInFluid& grain,
   Double3 moved{}, relative{};
   double speed2 = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    moved[a] = grain.v[a] + (grain.fixed ? 0.0 : volume * around.stress[a] / mass_over_dt);
+    moved[a] = grain.v[a] + (grain.fixed ? 0.0 : volume * around.immersed * around.stress[a] / mass_over_dt);
     relative[a] = around.velocity[a] - moved[a];
     speed2 += relative[a] * relative[a];
   }
@@ -71,19 +71,24 @@ Push DragForce::operator()(const FluidAround& around, const GrainInFluid& grain,
                            ? screen * self_mobility_ / (around.viscosity * h * (1 + 0.53 * reynolds)) * zeta
                            : 0.0;
     const double left = 1 - std::min(own, most);
-    resistance = zeta / left * (1 - screen * around.own);
+    resistance = around.immersed * zeta / left * (1 - screen * around.own);
     const double slowed = grain.fixed ? before : before / (1 + resistance / mass_over_dt);
     speed = std::sqrt(speed * (slowed / left));
   }
   const double lag = grain.fixed ? 1.0 : 1 / (1 + resistance / mass_over_dt);
-  Double3 force{};
-  for (std::size_t a = 0; a < 3; ++a)
-    force[a] = around.immersed * (volume * around.stress[a] + resistance * lag * relative[a]);
+  Push push{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    push.drag[a] = resistance * lag * relative[a];
+    push.force[a] = around.immersed * volume * around.stress[a] + push.drag[a];
+  }
   // With n grains per volume the fluid takes on their velocity at the rate n z / rho, less where they take on its
   // own in the same step: dt n z / (1 + dt z / m) / rho is to stay below the usual share.
   const double taken = solid / (volume * around.porosity * around.density);
   const double given = grain.fixed ? 0.0 : usual_share / grain.mass;
-  return {force, resistance * (taken - given)};
+  // Where pressure moves grains of the density rho_s, too, sound has the speed c sqrt(1 + (1 - e) rho / (e rho_s)).
+  const double lighter = grain.fixed ? 0.0 : solid * around.density * volume / (around.porosity * grain.mass);
+  push.limits = {resistance * (taken - given), around.sound * std::sqrt(1 + std::max(lighter, 0.0))};
+  return push;
 }
 
 }  // namespace sph

@@ -1,4 +1,4 @@
-// The fluid around each grain: lists of its rows in the order of ids, without those of walls.
+// The fluid, and walls, around each grain: lists of rows in the order of ids.
 #include "pairs/candidates.hpp"
 #include "pairs/id_rank.hpp"
 #include "sph/models/drag.hpp"
@@ -29,8 +29,9 @@ void Drag::rebuild(const Particles& grains, const ListSetting& setting, const de
     std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(n));
     for (std::size_t k = 0; k < n; ++k) {
       const std::uint32_t row = order.row_of_rank[found[k]];
-      const bool of_other_rank = i >= grains.owned() && row >= fluid.owned();
-      if (!constants_->is_wall(group[row]) && !of_other_rank) entries_.push_back(row);
+      // A grain of another rank acts on the fluid of this one alone.
+      const bool of_no_use = i >= grains.owned() && (row >= fluid.owned() || constants_->is_wall(group[row]));
+      if (!of_no_use) entries_.push_back(row);
     }
     first_.push_back(entries_.size());
   }

@@ -11,6 +11,7 @@
 
 #include "sph/core/error.hpp"
 #include "sph/models/grains.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
 namespace {
@@ -26,6 +27,13 @@ double speed_along(const Double3& velocity, const Double3& normal) {
   double along = 0;
   for (std::size_t a = 0; a < 3; ++a) along += velocity[a] * normal[a];
   return std::fabs(along);
+}
+
+/// As far as it is known before there are particles; infinite where no grain moves.
+double step_of_scene(const Scene& scene) {
+  const double dt = grain_step(scene);
+  if (scene.time.dt || !scene.has_matter()) return dt;
+  return std::min(dt, scene.time.cfl * scene.smoothing_length / std::ranges::max(sounds_at_rest(scene)));
 }
 
 }  // namespace
@@ -46,7 +54,10 @@ std::string grain_move_text(const Scene& scene, double way) {
 double grain_step(const Scene& scene) { return scene.time.dt.value_or(grain_time_steps(scene).recommended); }
 
 void check_wall_speeds(const Scene& scene) {
-  const double dt = grain_step(scene), limit = longest_grain_move(scene);
+  const double dt = step_of_scene(scene), limit = longest_grain_move(scene);
+  if (std::ranges::all_of(scene.groups,
+                          [](const Group& g) { return g.kind != GroupKind::grain || g.grain.fixed; }))
+    return;
   const auto check = [&](const Wall& wall, const std::string& key, double speed) {
     if (speed * dt <= limit) return;
     throw InputError(fmt::format("{}: {}: wall \"{}\" at {:.6g} m/s: {}, or this speed", scene.file, key,
@@ -66,7 +77,7 @@ void check_wall_speeds(const Scene& scene) {
 }
 
 void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles) {
-  const double dt = grain_step(scene), limit = longest_grain_move(scene);
+  const double dt = step_of_scene(scene), limit = longest_grain_move(scene);
   const double* v = particles.data<Field::velocity>();
   Findings found;
   for (std::size_t i = 0; i < particles.owned(); ++i) {

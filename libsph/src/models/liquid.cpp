@@ -100,7 +100,8 @@ void add_kinematics(Builder& b) {
                           : solid       ? term<VelocityGradient>
                           : weighted(s) ? term<WeightedDivergence>
                                         : term<Divergence>,
-                          s.central_pull > 0                 ? term<PulledDensityDiffusion>
+                          s.is_mixture()                     ? term<MixtureDensityDiffusion>
+                          : s.central_pull > 0               ? term<PulledDensityDiffusion>
                           : single && !solid && !weighted(s) ? term<UniformDensityDiffusion>
                                                              : term<DensityDiffusion>};
   if (s.terms.shifting) terms.push_back(term<Concentration>);

@@ -29,9 +29,16 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
     sets[grains->set()].fields |= Drag::of_grains;
     models.push_back(&*drag);
     pairs.push_back(&*drag);
-    append(plan, drag->porosity_plan());
   }
-  if (physics) append(plan, physics->plan(), physics->set());
+  if (physics) {
+    Plan of_fluid = physics->plan();
+    if (drag) {
+      of_fluid.settle.assign(of_fluid.sums.begin(), of_fluid.sums.begin() + physics->before_densities());
+      drag->add_porosity_to(of_fluid.settle, of_fluid.settle.size(), true);
+      drag->add_porosity_to(of_fluid.sums, static_cast<std::size_t>(physics->before_densities()), false);
+    }
+    append(plan, std::move(of_fluid), physics->set());
+  }
   if (grains) append(plan, grains->plan(), grains->set());
   if (drag) append(plan, drag->force_plan());
   for (Model* m : models) m->reserve(reduction);

@@ -134,7 +134,11 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   groups.surface_tension = of.terms.surface_tension.coefficient;
   terms = {};
   // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
-  for (std::size_t a = 0; a < 3; ++a) terms.gravity[a] = of.periodic[a] ? 0.0 : of.gravity[a] * h;
+  for (std::size_t a = 0; a < 3; ++a) {
+    terms.gravity[a] = of.periodic[a] ? 0.0 : of.gravity[a] * h;
+    row_scale.gravity[a] = of.gravity[a];
+    row_scale.head[a] = of.periodic[a] ? 0.0 : h;
+  }
   terms.laplacian = 1 / kernel.second;
   terms.symmetric = (of.dim + 2) / kernel.fourth;
   terms.viscosity = fluid->viscosity / h * terms.laplacian;

@@ -64,12 +64,14 @@ struct WallPressures {
 // spacings before a face, no particle moves towards it faster than c y / 10h, and beyond that not at all,
 // whatever the other forces. So walls take energy and never give any, at any time step; what is behind a face
 // comes out by its pressure. In corners, where the walls' gradient is less than their share tells, rest has a
-// larger share.
+// larger share. With grains in the fluid it is no force, which they would take their share of, but `at_once` a
+// velocity.
+template <bool at_once>
 struct Hold {
   static constexpr FieldSet reads =
-      BodyForces::reads |
-      FieldSet{Field::wall_share, Field::mass, Field::velocity, Field::sound_speed, Field::group};
-  static constexpr FieldSet writes{Field::force};
+      BodyForces::reads | FieldSet{Field::wall_share,  Field::mass,  Field::velocity,
+                                   Field::sound_speed, Field::group, Field::force};
+  static constexpr FieldSet writes{at_once ? Field::velocity : Field::force};
   const SphConstants* constants;
   const BodyForces* body_forces;
   std::shared_ptr<const WallDistance> distance;
@@ -80,12 +82,12 @@ struct Hold {
     const double dt = step.global.dt;
     const auto d = static_cast<std::size_t>(p.dim());
     const double h = scene.smoothing_length, before = 0.4 * scene.spacing / h;
-    const double* share = p.get<Field::wall_share>();
-    const double* mass = p.get<Field::mass>();
-    const double* v = p.get<Field::velocity>();
-    const double* sound = p.get<Field::sound_speed>();
-    const auto* group = p.get<Field::group>();
-    double* force = p.get<Field::force>();
+    const double* share = p.template get<Field::wall_share>();
+    const double* mass = p.template get<Field::mass>();
+    const auto* v = p.template get<Field::velocity>();
+    const double* sound = p.template get<Field::sound_speed>();
+    const auto* group = p.template get<Field::group>();
+    const auto* force = p.template get<Field::force>();
     for_movers(step.ranges, [&](std::size_t i) {
       const double* s = share + i * (d + 1);
       if (!(s[d] > 0) || scene.groups[group[i]].kind != GroupKind::fluid) return;
@@ -103,7 +105,11 @@ struct Hold {
       const double most = c * std::fmax(approach * (face - distance->depth(h * s[d])), 0.0);
       const double excess = way / length - most;
       if (!(excess > 0)) return;
-      for (std::size_t a = 0; a < d; ++a) force[i * d + a] -= mass[i] * excess / dt * (s[a] / length);
+      for (std::size_t a = 0; a < d; ++a)
+        if constexpr (at_once)
+          p.template get<Field::velocity>()[i * d + a] -= excess * (s[a] / length);
+        else
+          p.template get<Field::force>()[i * d + a] -= mass[i] * excess / dt * (s[a] / length);
     });
   }
 };
@@ -117,8 +123,10 @@ void add_walls(Builder& b, bool weighted) {
     update.of_wall = std::make_shared<const WallMirror>(s);
     b.add_fields({Field::wall_mirror});
   }
-  std::vector<Term> terms{term<WallExtrapolation>};
-  if (weighted) terms.push_back(term<WallExtrapolationByDensity>);
+  const bool mixture = s.is_mixture();
+  std::vector<Term> terms{mixture ? term<MixtureWallExtrapolation> : term<WallExtrapolation>};
+  if (weighted)
+    terms.push_back(mixture ? term<MixtureWallExtrapolationByDensity> : term<WallExtrapolationByDensity>);
   b.add_sums("walls", terms, Builder::Rows::walls);
   b.add_update("wall pressures", std::move(update));
   b.derive_last_two_for_output();
@@ -128,9 +136,11 @@ void add_wall_share(Builder& b) { b.add_sums("wall distance", {term<WallShare>})
 
 void add_walls_that_hold(Builder& b) {
   const Scene& s = b.scene();
-  b.add_update("walls hold",
-               Hold{&b.constants(), &b.body_forces(),
-                    std::make_shared<const WallDistance>(s.kernel, s.dim, s.spacing / s.smoothing_length)});
+  const auto distance = std::make_shared<const WallDistance>(s.kernel, s.dim, s.spacing / s.smoothing_length);
+  if (s.is_mixture())
+    b.add_update("walls hold", Hold<true>{&b.constants(), &b.body_forces(), distance});
+  else
+    b.add_update("walls hold", Hold<false>{&b.constants(), &b.body_forces(), distance});
 }
 
 }  // namespace sph

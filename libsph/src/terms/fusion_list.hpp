@@ -47,9 +47,22 @@ struct FusionList {
     };
   }
 
+  /// Grains are spheres.
+  template <class Kernel>
+  static std::vector<Fusion> mixtures() {
+    if constexpr (D == 3)
+      return {
+          fuse<Kernel, Divergence, MixtureDensityDiffusion>(),
+          fuse<Kernel, Divergence, MixtureDensityDiffusion, Concentration>(),
+          fuse<Kernel, MixtureWallExtrapolation>(),
+      };
+    return {};
+  }
+
   static std::vector<Fusion> all() {
     std::vector<Fusion> list = fluids<Quintic>();
-    for (auto& more : {fluids<WendlandC2>(), fluids<WendlandC4>()})
+    for (auto& more : {fluids<WendlandC2>(), fluids<WendlandC4>(), mixtures<Quintic>(),
+                       mixtures<WendlandC2>(), mixtures<WendlandC4>(), mixtures_of_several()})
       list.insert(list.end(), more.begin(), more.end());
     for (Fusion f : {
              fuse<Quintic, Divergence, DensityDiffusion, ColourGradient>(),
@@ -87,6 +100,20 @@ struct FusionList {
     for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>()})
       list.insert(list.end(), more.begin(), more.end());
     return list;
+  }
+
+  static std::vector<Fusion> mixtures_of_several() {
+    if constexpr (D == 3)
+      return {
+          fuse<Quintic, MixtureWallExtrapolation, MixtureWallExtrapolationByDensity>(),
+          fuse<Quintic, WeightedDivergence, MixtureDensityDiffusion>(),
+          fuse<Quintic, WeightedDivergence, MixtureDensityDiffusion, Concentration>(),
+          fuse<Quintic, Divergence, MixtureDensityDiffusion, ColourGradient>(),
+          fuse<Quintic, Divergence, MixtureDensityDiffusion, Concentration, ColourGradient>(),
+          fuse<Quintic, WeightedDivergence, MixtureDensityDiffusion, ColourGradient>(),
+          fuse<Quintic, WeightedDivergence, MixtureDensityDiffusion, Concentration, ColourGradient>(),
+      };
+    return {};
   }
 
   /// Fluids of different viscosity or density, and solids.

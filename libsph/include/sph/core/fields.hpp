@@ -59,7 +59,9 @@ enum class Field : std::uint8_t {
   porosity,
   liquid_density,
   grain_pull,
+  grain_drag,
   fluid_force,
+  fluid_drag,
   fluid_share,
   count_
 };
@@ -199,8 +201,12 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of a fluid with grains in it: density over porosity"},
     {Field::grain_pull, "grain_pull", "m/s^2", Type::f64, Shape::vector, true, false,
      "of a fluid with grains in it: what they accelerated it by in the step before"},
+    {Field::grain_drag, "grain_drag", "m/s^2", Type::f64, Shape::vector, true, false,
+     "of a fluid with grains in it: drag's part of that"},
     {Field::fluid_force, "fluid_force", "N", Type::f64, Shape::vector, false, true,
      "of the fluid on a grain in it: its stress over the grain's volume, and drag"},
+    {Field::fluid_drag, "fluid_drag", "N", Type::f64, Shape::vector, false, false,
+     "of the fluid on a grain in it: drag alone"},
     {Field::fluid_share, "fluid_share", "1", Type::f64, Shape::scalar, false, false,
      "of a grain: 1 over the sum of the kernel over the volumes of the fluid around it, 0 if there is none"},
 }};

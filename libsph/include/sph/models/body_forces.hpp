@@ -1,5 +1,5 @@
-// What accelerates a particle besides its pairs: gravity, a central pull, and, beside a free surface where
-// particles are shifted, the control of tension.
+// What accelerates a particle besides its pairs: gravity, a central pull, grains in the fluid as far as known from the
+// step before (models/drag.hpp), and, beside a free surface where particles are shifted, the control of tension.
 #pragma once
 
 #include "sph/models/sph_constants.hpp"
@@ -9,8 +9,8 @@ namespace sph {
 
 class BodyForces {
  public:
-  static constexpr FieldSet reads{Field::position, Field::pressure, Field::density, Field::mass,
-                                  Field::spread};
+  static constexpr FieldSet reads{Field::position, Field::pressure, Field::density,
+                                  Field::mass,     Field::spread,   Field::grain_pull};
   using Particles = View<reads, FieldSet{}>;
 
   explicit BodyForces(const SphConstants& constants);

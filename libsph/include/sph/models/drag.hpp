@@ -2,14 +2,16 @@
 // with the pressure shared by both: model A of Gidaspow 1994). Where grains leave the share e of the volume, the
 // porosity, to the fluid, its density rho is that of its mass in all of the volume, and its pressure follows
 // from rho / e:
-//   e_a = 1 - sum_i V_i W_ai                                                        at fluid particles a
-//   F_i = V_i theta_i + zeta_i (u_i - v_i)                                           on grains i
+//   e_a = 1 - sum_i V_i W_ai / O_a                                                      at fluid particles a
+//   F_i = b_i [V_i theta_i + zeta_i (u_i - v_i)]                                        on grains i
 //   theta_i = sum_a F_a W_ai / S_i, u_i = sum_a V_a u_a W_ai / S_i, S_i = sum_a V_a W_ai, V_a = m_a / rho_a,
-// F_a the forces of the fluid on its particle, pressure and viscosity; zeta is that of the drag law (laws/drag/law.hpp).
-// The fluid gets -F_i V_a W_ai / S_i. These are sums of integers, so that momentum is conserved exactly and no
-// order matters. Drag is taken with the velocity v_i that a grain has after it, and with that u_a which the fluid
-// will have if grains pull at it as in the step before: without that guess a fluid that is driven through grains
-// would be dragged as if it were faster than it is.
+// F_a the forces of the fluid on its particle, pressure and viscosity; zeta is that of the drag law (laws/drag/law.hpp);
+// O_a is what walls leave of the kernel; b_i is 1, less for grains that are partly above the fluid. The fluid gets
+// -F_i V_a W_ai / S_i. These are sums of integers, so that momentum is conserved exactly and no order matters.
+// The fluid is kicked with what grains pulled at it in the step before (body_forces.hpp), which implicit viscosity
+// then spreads; drag is taken with that velocity of the fluid, and with the v_i that a grain has after it; what has
+// changed of the pull comes on top. Without that guess a fluid that is driven through grains would be dragged as if it
+// were faster than it is.
 #pragma once
 
 #include <cstdint>
@@ -24,16 +26,18 @@ namespace sph {
 
 class Drag final : public Model, public SetPair {
  public:
-  static constexpr FieldSet of_fluid{Field::porosity, Field::liquid_density, Field::grain_pull};
-  static constexpr FieldSet of_grains{Field::fluid_force, Field::fluid_share};
+  static constexpr FieldSet of_fluid{Field::porosity, Field::liquid_density, Field::grain_pull,
+                                     Field::grain_drag};
+  static constexpr FieldSet of_grains{Field::fluid_force, Field::fluid_drag, Field::fluid_share};
 
   Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const PositionScale& scale,
        const SphConstants& constants);
   Drag(const Drag&) = delete;  // its stages hold on to it
   Drag& operator=(const Drag&) = delete;
 
-  /// Before the sums of the fluid: its pressures want the porosity.
-  [[nodiscard]] Plan porosity_plan();
+  /// The fluid's densities and pressures want the porosity, which wants the share of walls: puts its stage in front of
+  /// entry `at`; `first`: the fluid has been placed as if it had all of the volume.
+  void add_porosity_to(std::vector<Entry>& sums, std::size_t at, bool first);
   /// After all other forces.
   [[nodiscard]] Plan force_plan();
 
@@ -41,7 +45,10 @@ class Drag final : public Model, public SetPair {
   [[nodiscard]] double bed_step() const { return first_step_; }
 
   // As a model.
-  void reserve(Reduction& reduction) override { rate_ = reduction.add_maximum(); }
+  void reserve(Reduction& reduction) override {
+    rate_ = reduction.add_maximum();
+    sound_ = reduction.add_maximum();
+  }
   [[nodiscard]] double start(const decomp::Comm&, Particles&, GlobalState&) override;
   [[nodiscard]] bool report(const StepState&, Reduction& reduction) override;
   [[nodiscard]] double longest_step(const Reduction& reduction) const override;
@@ -55,6 +62,11 @@ class Drag final : public Model, public SetPair {
   void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
 
  private:
+  struct Share {
+    double per_weight;  ///< 1 / S
+    double immersed;    ///< b
+  };
+  [[nodiscard]] Share share_of(std::size_t grain, double radius, const Particles& fluid) const;
   /// Kernel of a grain and the fluid particles in its list.
   void find_kernel(const Particles& grains, std::size_t i, const Particles& fluid);
   [[nodiscard]] std::span<const std::uint32_t> listed(std::size_t grain) const {
@@ -68,10 +80,10 @@ class Drag final : public Model, public SetPair {
   void find_volumes(const Particles& fluid, std::size_t first, std::size_t last);
   /// ... and volumes times it.
   void find_weights(const Particles& grains, std::size_t i, const Particles& fluid);
-  [[nodiscard]] FluidAround look_around(const Particles& grains, std::size_t i, const Particles& fluid,
-                                        double dt) const;
+  [[nodiscard]] FluidAround look_around(const Particles& grains, std::size_t i, const Particles& fluid) const;
   void push_grains(StepState& s, Side side);
   void push_fluid(StepState& s, Side side);
+  [[nodiscard]] double step_of(const PushLimits& limits) const;
   [[nodiscard]] double quanta_a_weight(double force, double share) const;
 
   const Scene* scene_;
@@ -80,8 +92,10 @@ class Drag final : public Model, public SetPair {
   DragForce push_;
   double force_quantum_;
   double first_step_;
-  Reduction::Maximum rate_{};
-  double fastest_ = 0;  ///< rate at which the fluid takes on the velocity of the grains, in this step [1/s]
+  double
+      surface_slope_;  ///< of the share of the kernel that is fluid, where its surface is at the centre [1/h]
+  Reduction::Maximum rate_{}, sound_{};
+  PushLimits limits_;                     ///< of this step
   std::vector<std::uint64_t> first_;      ///< of each grain's entries
   std::vector<std::uint32_t> entries_;    ///< rows of the fluid, ascending by id
   std::vector<double> kernel_, weights_;  ///< of one grain's entries

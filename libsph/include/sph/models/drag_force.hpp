@@ -8,14 +8,14 @@ namespace sph {
 
 /// What the fluid around a grain is, on average over the kernel.
 struct FluidAround {
-  double share = 0;      ///< 1 / S
-  double immersed = 0;   ///< fades out where there is hardly any fluid
+  double immersed = 0;   ///< share of the grain that is in it
   Double3 velocity{};    ///< [m/s]
   Double3 stress{};      ///< force of the fluid's stress on a volume [N/m^3]
   double porosity = 1;   ///< what the grain itself takes up included
   double own = 0;        ///< of 1 - porosity: what the grain itself makes of it
   double density = 0;    ///< of the fluid itself [kg/m^3]
   double viscosity = 0;  ///< [Pa s]
+  double sound = 0;      ///< the fastest [m/s]
 };
 
 struct GrainInFluid {
@@ -24,9 +24,16 @@ struct GrainInFluid {
   bool fixed;
 };
 
+/// What bounds the time step.
+struct PushLimits {
+  double rate = 0;   ///< at which grains like this one take the fluid along [1/s]
+  double sound = 0;  ///< of the mixture [m/s]
+};
+
 struct Push {
   Double3 force;  ///< [N]
-  double rate;    ///< at which grains like this one take the fluid along [1/s]
+  Double3 drag;   ///< its part that is not stress [N]
+  PushLimits limits;
 };
 
 [[nodiscard]] constexpr double volume_of(double radius) { return grain_mass(1, radius); }

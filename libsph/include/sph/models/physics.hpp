@@ -38,6 +38,8 @@ class Physics final : public Model {
 
   [[nodiscard]] FieldSet fields() const { return builder_.fields(); }
   [[nodiscard]] const Plan& plan() const { return builder_.plan(); }
+  /// Entries of its sums that come before the densities.
+  [[nodiscard]] std::ptrdiff_t before_densities() const { return before_densities_; }
   [[nodiscard]] const SphConstants& constants() const { return constants_; }
 
   /// Pressure and what else follows from the state of a particle alone.
@@ -66,7 +68,8 @@ class Physics final : public Model {
   void add_end_of_step();
 
   const Scene* scene_;
-  bool gas_;               ///< there is an ideal gas
+  bool gas_;  ///< there is an ideal gas
+  std::ptrdiff_t before_densities_ = 0;
   bool stiffens_ = false;  ///< some sound speed grows with the pressure
   SphConstants constants_;
   Materials materials_;

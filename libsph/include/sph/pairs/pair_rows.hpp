@@ -52,6 +52,8 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const auto* width = p.data<Field::smoothing_length>();
   const auto* correction = p.data<Field::kernel_correction>();
   const auto* gradient = p.data<Field::velocity_gradient>();
+  const auto* liquid = p.data<Field::liquid_density>();
+  const auto* grain_drag = p.data<Field::grain_drag>();
   const auto coordinate = [&](std::int64_t quanta) {
     if constexpr (sizeof(T) == 4)
       return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
@@ -146,6 +148,12 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
         put(Value::velocity_gradient, k,
             groups.mover[group[i]] == 0 ? 0.0 : gradient[i * D * D + k] / scale.inverse_h);
     if constexpr (S.has(Value::shears)) put(Value::shears, 0, groups.shears[group[i]]);
+    if constexpr (S.has(Value::rest_gradient))  // of walls it is not known, nor wanted
+      for (int k = 0; k < D; ++k)
+        put(Value::rest_gradient, k,
+            groups.mover[group[i]] == 0
+                ? 0.0
+                : liquid[i] * (scale.gravity[k] + grain_drag[i * D + k]) * scale.head[k]);
   }
 }
 

@@ -57,6 +57,7 @@ enum class Value : std::uint8_t {
   kernel_correction,   ///< 1 / Omega (terms/gas.hpp)
   velocity_gradient,   ///< h d v_a / d x_b [m/s]
   shears,              ///< 1 for solids and walls, 0 for fluids
+  rest_gradient,       ///< of the pressure of a fluid with grains in it (terms/head.hpp), times h [Pa]
   count_
 };
 
@@ -78,7 +79,8 @@ class ValueSet {
 
 [[nodiscard]] constexpr int components(Value v, int dim) {
   const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
-                      v == Value::direction || v == Value::wall_slope || v == Value::interface_normal;
+                      v == Value::direction || v == Value::wall_slope || v == Value::interface_normal ||
+                      v == Value::rest_gradient;
   const bool tensor = v == Value::stress || v == Value::capillary;
   return vector                                                     ? dim
          : v == Value::pressures                                    ? 2
@@ -118,6 +120,7 @@ class ValueSet {
   if (values.has(Value::kernel_correction)) f |= FieldSet{Field::kernel_correction};
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   if (values.has(Value::shears)) f |= FieldSet{Field::group};
+  if (values.has(Value::rest_gradient)) f |= FieldSet{Field::liquid_density, Field::grain_drag};
   return f;
 }
 
@@ -144,6 +147,8 @@ struct RowScale {
   double quantum = 0;     ///< of the positions [m]
   double pull = 0;        ///< Scene::central_pull [1/s^2]
   double pull_centre[3]{};
+  double gravity[3]{};  ///< [m/s^2]
+  double head[3]{};     ///< h, 0 along periods [m]
 };
 
 /// h |grad C| in the layer about the interface, as far as it is not noise; 0 farther off.

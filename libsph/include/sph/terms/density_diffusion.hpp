@@ -11,17 +11,21 @@
 
 namespace sph {
 
-/// rest: g.(x_j - x_i) or its like, which p_j - p_i over the density is where nothing flows.
+/// rise: p_j - p_i where nothing flows.
 template <class P, class S>
-void exchange_density(const P& p, typename P::V rest, S& sums) {
+void exchange_density(const P& p, typename P::V rise, S& sums) {
   using V = typename P::V;
-  const V rho =
-      V(typename P::Scalar(0.5)) * (p.template i<Value::density>() + p.template j<Value::density>());
-  const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * rest;
+  const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rise;
   const V sound = max(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
   const V rate = p.template j<Value::volume>() * p.f * (excess / sound);
   sums.template add<Field::diffusion>(
       0, where_equal(p.template i<Value::phase>(), p.template j<Value::phase>(), rate));
+}
+
+template <class P>
+[[nodiscard]] typename P::V density_between(const P& p) {
+  return typename P::V(typename P::Scalar(0.5)) *
+         (p.template i<Value::density>() + p.template j<Value::density>());
 }
 
 struct DensityDiffusion {
@@ -31,7 +35,7 @@ struct DensityDiffusion {
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    exchange_density(p, head(p, c), sums);
+    exchange_density(p, density_between(p) * head(p, c), sums);
   }
 };
 
@@ -43,8 +47,21 @@ struct PulledDensityDiffusion {
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    exchange_density(p, p.template i<Value::potential>() - p.template j<Value::potential>() + head(p, c),
-                     sums);
+    const auto rest = p.template i<Value::potential>() - p.template j<Value::potential>() + head(p, c);
+    exchange_density(p, density_between(p) * rest, sums);
+  }
+};
+
+/// The same of a fluid with grains in it. With the weight of the fluid alone all of a bed would sink, at the rate
+/// 2 delta h g phi / c.
+struct MixtureDensityDiffusion {
+  static constexpr std::string_view name = "MixtureDensityDiffusion";
+  static constexpr ValueSet reads{Value::volume, Value::pressure, Value::sound_speed, Value::phase,
+                                  Value::rest_gradient};
+  static constexpr Field writes = Field::diffusion;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    exchange_density(p, rise_between_grains(p), sums);
   }
 };
 

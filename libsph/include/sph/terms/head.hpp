@@ -14,4 +14,25 @@ template <class P, class C>
   return sum;
 }
 
+/// The pressure at j less that at i of a fluid with grains in it, where grad p = rho_l (g + d) at rest and in steady
+/// flow: rho_l is the density of the fluid itself, d what drag accelerates it by, and grains carry their share of
+/// grad p (models/drag.hpp).
+template <class P>
+[[nodiscard]] typename P::V rise_between_grains(const P& p) {
+  using V = typename P::V;
+  V sum = V::zero();
+  for (int k = 0; k < P::dim; ++k)
+    sum += (p.template i<Value::rest_gradient>(k) + p.template j<Value::rest_gradient>(k)) * p.e[k];
+  return V(typename P::Scalar(0.5)) * sum;
+}
+
+/// The same of a wall i, of which nothing is known.
+template <class P>
+[[nodiscard]] typename P::V rise_from_wall(const P& p) {
+  using V = typename P::V;
+  V sum = V::zero();
+  for (int k = 0; k < P::dim; ++k) sum += p.template j<Value::rest_gradient>(k) * p.e[k];
+  return sum;
+}
+
 }  // namespace sph

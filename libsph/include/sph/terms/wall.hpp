@@ -8,20 +8,39 @@
 
 namespace sph {
 
+/// `rise`: p_f - p_w at rest.
+template <class Kernel, class P, class S>
+void extrapolate(const P& p, typename P::V rise, S& sums) {
+  using V = typename P::V;
+  const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
+  sums.template add<Field::wall_sums>(0, w);
+  sums.template add<Field::wall_sums>(1, w * (p.template j<Value::pressure>() - rise));
+  for (int k = 0; k < P::dim; ++k)
+    sums.template add<Field::wall_sums>(2 + k, w * p.template j<Value::velocity>(k));
+  for (int k = 0; k < P::dim; ++k) sums.template add<Field::wall_sums>(2 + P::dim + k, w * p.e[k]);
+}
+
+template <class Kernel, class P, class S>
+void extrapolate_by_density(const P& p, typename P::V rise, S& sums) {
+  using V = typename P::V;
+  const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
+  const V wp = w * (p.template j<Value::pressure>() - rise);
+  for (int k = 0; k < 2; ++k) {
+    const V wanted(static_cast<typename P::Scalar>(k));
+    sums.template add<Field::wall_sums_by_density>(2 * k,
+                                                   where_equal(p.template j<Value::heavy>(), wanted, w));
+    sums.template add<Field::wall_sums_by_density>(2 * k + 1,
+                                                   where_equal(p.template j<Value::heavy>(), wanted, wp));
+  }
+}
+
 struct WallExtrapolation {
   static constexpr std::string_view name = "WallExtrapolation";
   static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::density, Value::mover};
   static constexpr Field writes = Field::wall_sums;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
-    sums.template add<Field::wall_sums>(0, w);
-    sums.template add<Field::wall_sums>(
-        1, w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head(p, c)));
-    for (int k = 0; k < P::dim; ++k)
-      sums.template add<Field::wall_sums>(2 + k, w * p.template j<Value::velocity>(k));
-    for (int k = 0; k < P::dim; ++k) sums.template add<Field::wall_sums>(2 + P::dim + k, w * p.e[k]);
+    extrapolate<Kernel>(p, p.template j<Value::density>() * head(p, c), sums);
   }
 };
 
@@ -33,16 +52,27 @@ struct WallExtrapolationByDensity {
   static constexpr Field writes = Field::wall_sums_by_density;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
-    const V wp = w * (p.template j<Value::pressure>() - p.template j<Value::density>() * head(p, c));
-    for (int k = 0; k < 2; ++k) {
-      const V wanted(static_cast<typename P::Scalar>(k));
-      sums.template add<Field::wall_sums_by_density>(2 * k,
-                                                     where_equal(p.template j<Value::heavy>(), wanted, w));
-      sums.template add<Field::wall_sums_by_density>(2 * k + 1,
-                                                     where_equal(p.template j<Value::heavy>(), wanted, wp));
-    }
+    extrapolate_by_density<Kernel>(p, p.template j<Value::density>() * head(p, c), sums);
+  }
+};
+
+/// The same of a fluid with grains in it, whose pressure carries their weight and drag.
+struct MixtureWallExtrapolation {
+  static constexpr std::string_view name = "MixtureWallExtrapolation";
+  static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::mover, Value::rest_gradient};
+  static constexpr Field writes = Field::wall_sums;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    extrapolate<Kernel>(p, rise_from_wall(p), sums);
+  }
+};
+struct MixtureWallExtrapolationByDensity {
+  static constexpr std::string_view name = "MixtureWallExtrapolationByDensity";
+  static constexpr ValueSet reads{Value::pressure, Value::mover, Value::heavy, Value::rest_gradient};
+  static constexpr Field writes = Field::wall_sums_by_density;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    extrapolate_by_density<Kernel>(p, rise_from_wall(p), sums);
   }
 };
 
