@@ -71,6 +71,13 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
                                     : delta * j.volume * (i.pressure - j.pressure + rho * rest) /
                                           std::max(i.sound, j.sound) * slope / r);
     }
+    case key("MixtureDensityDiffusion"):
+      return one(Field::diffusion, 0,
+                 i.group != j.group
+                     ? 0.0
+                     : delta * j.volume *
+                           (i.pressure - j.pressure + 0.5 * (i.rest_gradient + j.rest_gradient).dot(x)) /
+                           std::max(i.sound, j.sound) * slope / r);
     case key("UniformDensityDiffusion"): {
       const Group& fluid = scene_.groups[light];
       return one(Field::diffusion, 0,
@@ -86,10 +93,14 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("ColourGradient"):
       return vector(Field::colour_gradient, 0, i.side * j.side == -1 ? Vec(j.volume * grad) : Vec(0 * grad));
     case key("WallExtrapolation"):
-    case key("WallExtrapolationByDensity"): {
+    case key("WallExtrapolationByDensity"):
+    case key("MixtureWallExtrapolation"):
+    case key("MixtureWallExtrapolationByDensity"): {
       if (!j.mover) return;
-      const double part = bare(w_ij), of_pressure = part * (j.pressure - j.density * gravity);
-      if (term.name == "WallExtrapolationByDensity") {
+      const bool mixture = term.name.starts_with("Mixture");
+      const double rise = mixture ? j.rest_gradient.dot(x) : j.density * gravity;
+      const double part = bare(w_ij), of_pressure = part * (j.pressure - rise);
+      if (term.name.ends_with("ByDensity")) {
         one(Field::wall_sums_by_density, j.heavy ? 2 : 0, part);
         return one(Field::wall_sums_by_density, j.heavy ? 3 : 1, of_pressure);
       }

@@ -39,7 +39,7 @@ void PairOracle::load() {
   all_.resize(p.rows());
   for (std::size_t row = 0; row < p.rows(); ++row) {
     PairParticle& q = all_[row];
-    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope}) v->setZero();
+    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient}) v->setZero();
     for (Mat* m : {&q.stress, &q.bond_stress, &q.gradient}) m->setZero();
     const std::uint32_t group = p.data<Field::group>()[row];
     const Group& g = scene_.groups[group];
@@ -52,6 +52,9 @@ void PairOracle::load() {
       q.colour(e) = get(Field::colour_gradient, row, a);
       q.direction(e) = get(Field::direction, row, a);
       q.slope(e) = get(Field::wall_slope, row, a);
+      if (g.kind != GroupKind::wall)
+        q.rest_gradient(e) =
+            get(Field::liquid_density, row, 0) * (scene_.gravity[a] + get(Field::grain_drag, row, a));
       for (std::size_t b = 0; b < d; ++b) {
         const auto f = static_cast<Eigen::Index>(b);
         const int s =
@@ -152,6 +155,8 @@ bool PairOracle::defined(Term term, std::size_t row) const {
   switch (key(term.name)) {
     case key("WallExtrapolation"):
     case key("WallExtrapolationByDensity"):
+    case key("MixtureWallExtrapolation"):
+    case key("MixtureWallExtrapolationByDensity"):
       return !p.mover;
     case key("WeightedPressure"):
     case key("GasPressure"):

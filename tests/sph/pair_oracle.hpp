@@ -25,7 +25,7 @@ using Mat = Eigen::Matrix3d;
 /// One particle, as its fields and its group have it. What the fusion does not read is 0.
 struct PairParticle {
   std::array<std::int64_t, 3> x{}, reference{};  ///< [quanta]
-  Vec v, colour, direction, slope;
+  Vec v, colour, direction, slope, rest_gradient;
   Mat stress, bond_stress, gradient;  ///< stress: the total one
   double mass, density, pressure, volume, sound, energy, width, correction, curvature, viscosity;
   double rest_volume, modulus;

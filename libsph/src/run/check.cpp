@@ -215,6 +215,7 @@ std::string courant_text(const Scene& scene, const Physics& physics, const std::
 
 std::string contact_step_text(const Scene& scene, double dt) {
   const GrainTimeSteps steps = grain_time_steps(scene);
+  if (!std::isfinite(steps.limit)) return {};  // no grain moves
   std::string out =
       fmt::format("time step: {:.6g} s (default {:.6g}, advised at most {:.6g}, limit {:.6g})\n", dt,
                   steps.recommended, steps.advised, steps.limit);
