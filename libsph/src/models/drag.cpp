@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sph/laws/drag/law.hpp"
+#include "sph/models/models.hpp"
 #include "sph/models/physics.hpp"
 #include "sph/scene/grain_mass.hpp"
 
@@ -20,6 +21,8 @@ double surface_slope(KernelShape kernel) {
 }
 
 }  // namespace
+
+bool has_drag(const Scene& scene) { return scene.is_mixture() && scene.drag.law->resistance != nullptr; }
 
 Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const PositionScale& scale,
            const SphConstants& constants)

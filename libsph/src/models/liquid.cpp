@@ -100,7 +100,7 @@ void add_kinematics(Builder& b) {
                           : solid       ? term<VelocityGradient>
                           : weighted(s) ? term<WeightedDivergence>
                                         : term<Divergence>,
-                          s.is_mixture()                     ? term<MixtureDensityDiffusion>
+                          has_drag(s)                        ? term<MixtureDensityDiffusion>
                           : s.central_pull > 0               ? term<PulledDensityDiffusion>
                           : single && !solid && !weighted(s) ? term<UniformDensityDiffusion>
                                                              : term<DensityDiffusion>};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "sph/laws/drag/law.hpp"
+#include "sph/models/models.hpp"
 
 namespace sph {
 
@@ -23,7 +23,7 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
     models.push_back(&*grains);
     pairs.push_back(&*grains);
   }
-  if (scene.is_mixture() && scene.drag.law->resistance != nullptr) {
+  if (has_drag(scene)) {
     drag.emplace(physics->set(), grains->set(), scene, scale, physics->constants());
     sets[physics->set()].fields |= Drag::of_fluid;
     sets[grains->set()].fields |= Drag::of_grains;

@@ -47,8 +47,8 @@ void Physics::add_liquids_and_solids() {
   const Scene& s = *scene_;
   const bool walls = s.has_kind(GroupKind::wall), fluid = s.has_kind(GroupKind::fluid);
   // Grains in the fluid want to know of walls before it has densities, others after the forces.
-  const bool wall_share = walls && fluid && (s.terms.implicit_viscosity || s.free_surface || s.is_mixture());
-  if (wall_share && s.is_mixture()) add_wall_share(builder_);
+  const bool wall_share = walls && fluid && (s.terms.implicit_viscosity || s.free_surface || has_drag(s));
+  if (wall_share && has_drag(s)) add_wall_share(builder_);
   before_densities_ = std::ssize(builder_.plan().sums);
   add_kinematics(builder_);
   if (walls) add_walls(builder_, s.terms.pressure_weights == PressureWeights::density);
@@ -57,7 +57,7 @@ void Physics::add_liquids_and_solids() {
   add_forces(builder_);
   add_accelerations(builder_);
   // Only where fluid flies can it come into walls.
-  if (wall_share && !s.is_mixture()) add_wall_share(builder_);
+  if (wall_share && !has_drag(s)) add_wall_share(builder_);
   if (wall_share && s.free_surface) add_walls_that_hold(builder_);
   if (s.terms.implicit_viscosity) add_implicit_viscosity(builder_, walls);
 }

@@ -123,7 +123,7 @@ void add_walls(Builder& b, bool weighted) {
     update.of_wall = std::make_shared<const WallMirror>(s);
     b.add_fields({Field::wall_mirror});
   }
-  const bool mixture = s.is_mixture();
+  const bool mixture = has_drag(s);
   std::vector<Term> terms{mixture ? term<MixtureWallExtrapolation> : term<WallExtrapolation>};
   if (weighted)
     terms.push_back(mixture ? term<MixtureWallExtrapolationByDensity> : term<WallExtrapolationByDensity>);
@@ -137,7 +137,7 @@ void add_wall_share(Builder& b) { b.add_sums("wall distance", {term<WallShare>})
 void add_walls_that_hold(Builder& b) {
   const Scene& s = b.scene();
   const auto distance = std::make_shared<const WallDistance>(s.kernel, s.dim, s.spacing / s.smoothing_length);
-  if (s.is_mixture())
+  if (has_drag(s))
     b.add_update("walls hold", Hold<true>{&b.constants(), &b.body_forces(), distance});
   else
     b.add_update("walls hold", Hold<false>{&b.constants(), &b.body_forces(), distance});

@@ -9,6 +9,9 @@ namespace sph {
 /// Some group has a second viscosity: forces then have another pressure than the state.
 [[nodiscard]] bool bulk_viscous(const Scene& scene);
 
+/// Grains and fluid of the scene act on each other (drag.hpp).
+[[nodiscard]] bool has_drag(const Scene& scene);
+
 /// Positions advance: x += v dt, rounded to quanta, for particles that move.
 void add_drift(Builder& builder);
 /// Bound on how far that moves any particle [m].
