@@ -12,16 +12,6 @@
 #include "sph/scene/grain_mass.hpp"
 
 namespace sph {
-namespace {
-
-/// How the share of the kernel that is below a surface grows with the depth of its centre, there: the integral
-/// of the kernel over a plane [1/h].
-double surface_slope(KernelShape kernel) {
-  return kernel == KernelShape::quintic ? 239.0 / 420 : kernel == KernelShape::wendland_c2 ? 0.75 : 55.0 / 64;
-}
-
-}  // namespace
-
 bool has_drag(const Scene& scene) { return scene.is_mixture() && scene.drag.law->resistance != nullptr; }
 
 Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const PositionScale& scale,
@@ -30,8 +20,8 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
       SetPair(grains, fluid),
       scene_(&scene),
       constants_(&constants),
-      scale_(scale),
-      push_(scene) {
+      push_(scene),
+      near_(scene, scale, constants) {
   const DragLaw& law = *scene.drag.law;
   // As if it took the heaviest grain, or the fluid in its place, to the speed of sound within h, or dragged a grain
   // in a packed bed with that speed.
@@ -56,7 +46,6 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
   }
   force_quantum_ = std::ldexp(1.0, std::ilogb(largest) + 1 - 50);
   first_step_ = step_of(packed);
-  surface_slope_ = surface_slope(scene.kernel);
 }
 
 void Drag::add_porosity_to(std::vector<Entry>& sums, std::size_t at, bool first) {

@@ -7,7 +7,6 @@
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/fixed_point.hpp"
-#include "sph/core/kernels.hpp"
 #include "sph/models/drag.hpp"
 
 namespace sph {
@@ -17,11 +16,6 @@ constexpr double porosity_quantum = 0x1p-50;
 constexpr double least_porosity = 0.1;
 constexpr double least_open = 0.25;      // of the kernel beside walls: less is in a corner, or behind a face
 constexpr double largest_part = 0x1p50;  // [quanta]: 8192 of them fit a sum
-
-template <class Kernel>
-void kernel_values(double factor, std::span<double> q_to_value) {
-  for (double& q : q_to_value) q = factor * Kernel::template value<3>(q);
-}
 
 }  // namespace
 
@@ -33,59 +27,17 @@ void Drag::for_grains(const Particles& grains, Side side, Function function) con
     for (std::size_t i = grains.owned(); i < grains.rows(); ++i) function(i);
 }
 
-void Drag::find_kernel(const Particles& grains, std::size_t i, const Particles& fluid) {
-  const std::int64_t* at = grains.data<Field::position>() + i * 3;
-  const std::int64_t* x = fluid.data<Field::position>();
-  const std::span<const std::uint32_t> rows = listed(i);
-  const double h = scene_->smoothing_length, unit = scale_.quantum / h;
-  kernel_.resize(rows.size());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const std::int64_t* of = x + std::size_t{rows[k]} * 3;
-    double square = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double d = static_cast<double>(of[a] - at[a]) * unit;
-      square += d * d;
-    }
-    kernel_[k] = std::sqrt(square);
-  }
-  const double h3 = h * h * h;
-  if (scene_->kernel == KernelShape::quintic)
-    kernel_values<Quintic>(Quintic::normalisation<3> / h3, kernel_);
-  else if (scene_->kernel == KernelShape::wendland_c2)
-    kernel_values<WendlandC2>(WendlandC2::normalisation<3> / h3, kernel_);
-  else
-    kernel_values<WendlandC4>(WendlandC4::normalisation<3> / h3, kernel_);
-}
-
-// How much of a grain is below the surface follows from how much of the kernel around it is fluid, walls aside: half
-// of it where the surface is at its centre, and beside that its slope times the depth. find_weights() has been asked.
-Drag::Share Drag::share_of(std::size_t i, double radius, const Particles& fluid) const {
-  constexpr double least = 0.02;  // of the kernel: what is beside a wall and dry
-  const auto* group = fluid.data<Field::group>();
-  const std::span<const std::uint32_t> rows = listed(i);
-  const double wall_volume = scene_->spacing * scene_->spacing * scene_->spacing;
-  double wet = 0, walls = 0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    wet += weights_[k];
-    if (constants_->is_wall(group[rows[k]])) walls += wall_volume * kernel_[k];
-  }
-  const double open = 1 - walls;
-  const double depth = (wet / open - 0.5) / surface_slope_ * scene_->smoothing_length / radius;
-  if (!(wet > least) || !(open > least) || depth <= -1) return {0, 0};
-  return {1 / wet, depth >= 1 ? 1.0 : 0.25 * (2 + depth * (3 - depth * depth))};
-}
-
 // Grains of the halo are those of other ranks: each adds to the fluid of this rank alone.
 void Drag::deposit_porosity(StepState& s, Side side) {
   const Particles &fluid = s.particles, &grains = *s.other;
   if (side != Side::boundary) deposits_.assign(fluid.owned(), 0);
   const double* radius = grains.data<Field::radius>();
   for_grains(grains, side, [&](std::size_t i) {
-    find_kernel(grains, i, fluid);
+    near_.find_kernel(grains, i, fluid);
     const double volume = volume_of(radius[i]) / porosity_quantum;
-    const std::span<const std::uint32_t> rows = listed(i);
+    const std::span<const std::uint32_t> rows = near_.rows(i);
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (rows[k] < fluid.owned()) deposits_[rows[k]] += round_to_quanta(volume * kernel_[k]);
+      if (rows[k] < fluid.owned()) deposits_[rows[k]] += round_to_quanta(volume * near_.kernel()[k]);
   });
   if (side == Side::interior) return;
   double* porosity = s.particles.data<Field::porosity>();
@@ -99,8 +51,8 @@ void Drag::deposit_porosity(StepState& s, Side side) {
     s.findings.add(fluid.data<Field::id>()[i], [&] {
       std::array<double, 3> at;
       for (std::size_t a = 0; a < 3; ++a)
-        at[a] =
-            scale_.metres(constants_->wrap(static_cast<int>(a), fluid.data<Field::position>()[i * 3 + a]));
+        at[a] = constants_->scale.metres(
+            constants_->wrap(static_cast<int>(a), fluid.data<Field::position>()[i * 3 + a]));
       return fmt::format(
           "{}particle {} of \"{}\" {} has {:.3g} of its volume for itself, less than {}: grains lie in each "
           "other, or are too large for kernel.smoothing_length",
@@ -121,62 +73,6 @@ void Drag::fill_between_grains(const StepState& s) const {
   });
 }
 
-// Of rows [first, last) of the fluid; what is wall takes no part.
-void Drag::find_volumes(const Particles& fluid, std::size_t first, std::size_t last) {
-  const double* mass = fluid.data<Field::mass>();
-  const double* density = fluid.data<Field::density>();
-  const auto* group = fluid.data<Field::group>();
-  volumes_.resize(fluid.rows());
-  for (std::size_t j = first; j < last; ++j)
-    volumes_[j] = constants_->is_wall(group[j]) ? 0.0 : mass[j] / density[j];
-}
-
-void Drag::find_weights(const Particles& grains, std::size_t i, const Particles& fluid) {
-  find_kernel(grains, i, fluid);
-  const std::span<const std::uint32_t> rows = listed(i);
-  weights_.resize(rows.size());
-  for (std::size_t k = 0; k < rows.size(); ++k) weights_[k] = volumes_[rows[k]] * kernel_[k];
-}
-
-// Sums in the order of ids; find_weights() has been asked.
-FluidAround Drag::look_around(const Particles& grains, std::size_t i, const Particles& fluid) const {
-  const std::span<const std::uint32_t> rows = listed(i);
-  const double* v = fluid.data<Field::velocity>();
-  const double* force = fluid.data<Field::force>();
-  const double* porosity = fluid.data<Field::porosity>();
-  const double* liquid = fluid.data<Field::liquid_density>();
-  const double* sound = fluid.data<Field::sound_speed>();
-  const auto* group = fluid.data<Field::group>();
-  FluidAround out;
-  double weight = 0, square = 0, e = 0, rho = 0, eta = 0;
-  Double3 u{}, stress{};
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const double w = kernel_[k], vw = weights_[k];
-    if (!(vw > 0)) continue;
-    const std::size_t j = rows[k];
-    weight += vw;
-    square += vw * w;
-    e += vw * porosity[j];
-    rho += vw * liquid[j];
-    eta += vw * scene_->groups[group[j]].viscosity;
-    out.sound = std::max(out.sound, sound != nullptr ? sound[j] : constants_->groups.sound_speed[group[j]]);
-    for (std::size_t a = 0; a < 3; ++a) {
-      u[a] += vw * v[j * 3 + a];
-      stress[a] += w * force[j * 3 + a];
-    }
-  }
-  const double per_weight = 1 / weight;
-  for (std::size_t a = 0; a < 3; ++a) {
-    out.velocity[a] = u[a] * per_weight;
-    out.stress[a] = stress[a] * per_weight;
-  }
-  out.porosity = e * per_weight;
-  out.own = volume_of(grains.data<Field::radius>()[i]) * square * per_weight;
-  out.density = rho * per_weight;
-  out.viscosity = eta * per_weight;
-  return out;
-}
-
 // Times the weight of a fluid particle it is what that particle takes, the same on both sides and on all ranks.
 double Drag::quanta_a_weight(double force, double share) const { return force * share / force_quantum_; }
 
@@ -184,8 +80,8 @@ void Drag::push_grains(StepState& s, Side side) {
   const Particles& fluid = *s.other;
   Particles& grains = s.particles;
   if (side != Side::boundary) limits_ = {};
-  if (side != Side::boundary) find_volumes(fluid, 0, fluid.owned());
-  if (side != Side::interior) find_volumes(fluid, fluid.owned(), fluid.rows());
+  if (side != Side::boundary) near_.find_volumes(fluid, 0, fluid.owned());
+  if (side != Side::interior) near_.find_volumes(fluid, fluid.owned(), fluid.rows());
   const double* mass = grains.data<Field::mass>();
   const double* radius = grains.data<Field::radius>();
   const auto* group = grains.data<Field::group>();
@@ -198,11 +94,11 @@ void Drag::push_grains(StepState& s, Side side) {
   const auto push_one = [&](std::size_t i) {
     const bool fixed = scene_->groups[group[i]].grain.fixed;
     Double3 f{}, d{};
-    find_weights(grains, i, fluid);
-    const Share in = share_of(i, radius[i], fluid);
+    near_.find_weights(grains, i, fluid);
+    const FluidNear::Share in = near_.share_of(i, radius[i], fluid);
     share[i] = in.per_weight;
     if (in.immersed > 0) {
-      FluidAround around = look_around(grains, i, fluid);
+      FluidAround around = near_.look_around(grains, i, fluid);
       around.immersed = in.immersed;
       const Push push = push_(around, {2 * radius[i], mass[i], v + i * 3, fixed}, dt);
       f = push.force;
@@ -217,16 +113,15 @@ void Drag::push_grains(StepState& s, Side side) {
       if (!(std::fabs(f[a]) < largest_part * force_quantum_)) {
         s.findings.add(grains.data<Field::id>()[i], [&] {
           return fmt::format(
-              "{}grain {}: the force of the fluid on it, {:.6g} N, is beyond the range of the sums, {:.6g} "
-              "N; "
-              "reduce time.dt",
+              "{}grain {}: the force of the fluid on it, {:.6g} N, is beyond the range of the sums, "
+              "{:.6g} N; reduce time.dt",
               step_text(s.global.step), grains.data<Field::id>()[i], f[a], largest_part * force_quantum_);
         });
         force[i * 3 + a] = drag[i * 3 + a] = 0;
         continue;
       }
       const double quanta = quanta_a_weight(f[a], share[i]);
-      for (const double weight : weights_) sum[a] += round_to_quanta(quanta * weight);
+      for (const double weight : near_.weights()) sum[a] += round_to_quanta(quanta * weight);
     }
     if (fixed) return;
     double v2 = 0;
@@ -252,8 +147,8 @@ void Drag::push_fluid(StepState& s, Side side) {
   const double* share = grains.data<Field::fluid_share>();
   for_grains(grains, side, [&](std::size_t i) {
     if (share[i] == 0) return;
-    find_weights(grains, i, fluid);
-    const std::span<const std::uint32_t> rows = listed(i);
+    near_.find_weights(grains, i, fluid);
+    const std::span<const std::uint32_t> rows = near_.rows(i);
     std::array<double, 6> quanta{};
     for (std::size_t a = 0; a < 3; ++a) {
       quanta[a] = quanta_a_weight(force[i * 3 + a], share[i]);
@@ -262,7 +157,7 @@ void Drag::push_fluid(StepState& s, Side side) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (rows[k] >= fluid.owned()) continue;
       std::int64_t* sum = deposits_.data() + std::size_t{rows[k]} * 6;
-      for (std::size_t a = 0; a < 6; ++a) sum[a] -= round_to_quanta(quanta[a] * weights_[k]);
+      for (std::size_t a = 0; a < 6; ++a) sum[a] -= round_to_quanta(quanta[a] * near_.weights()[k]);
     }
   });
   if (side == Side::interior) return;

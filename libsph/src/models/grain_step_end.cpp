@@ -40,7 +40,8 @@ std::string Grains::text_of(const ContactFault& fault) const {
 
 void Grains::guard(const decomp::Comm& comm, const StepState& s, const Reduction& r) const {
   const bool strong = r[strong_] > 0, deep = !strong && r[deep_] > 0;
-  const bool fast = r[Reduction::speed] * s.global.dt > longest_move_;
+  // Where a rank has found a fault it says nothing of its speeds: the fault is told then, on any ranks.
+  const bool fast = !(r[Reduction::bad] > 0) && r[Reduction::speed] * s.global.dt > longest_move_;
   if (!strong && !deep && !fast) return;
   Findings found;
   if (const ContactFault& f = sweep_.strong; strong && f.any())

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "sph/models/drag_force.hpp"
+#include "sph/models/fluid_near.hpp"
 #include "sph/models/model.hpp"
 #include "sph/models/sph_constants.hpp"
 #include "sph/pairs/set_pair.hpp"
@@ -57,30 +58,21 @@ class Drag final : public Model, public SetPair {
   // As a pair of sets: of each grain, those of the halo included, the fluid around it.
   [[nodiscard]] std::size_t set() const { return Model::set(); }
   [[nodiscard]] FieldSet constants() const override { return {Field::id, Field::position, Field::radius}; }
-  void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
-               std::span<const std::uint32_t> order) override;
-  void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
+  void rebuild(const Particles& grains, const ListSetting& setting, const decomp::Payload&,
+               std::span<const std::uint32_t>) override {
+    near_.rebuild(grains, setting);
+  }
+  void count(const RowRanges&, std::span<std::uint32_t> entries) const override {
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      entries[i] += static_cast<std::uint32_t>(near_.rows(i).size());
+  }
 
  private:
-  struct Share {
-    double per_weight;  ///< 1 / S
-    double immersed;    ///< b
-  };
-  [[nodiscard]] Share share_of(std::size_t grain, double radius, const Particles& fluid) const;
-  /// Kernel of a grain and the fluid particles in its list.
-  void find_kernel(const Particles& grains, std::size_t i, const Particles& fluid);
-  [[nodiscard]] std::span<const std::uint32_t> listed(std::size_t grain) const {
-    return std::span(entries_).subspan(first_[grain], first_[grain + 1] - first_[grain]);
-  }
   template <class Function>
   void for_grains(const Particles& grains, Side side, Function function) const;
 
   void deposit_porosity(StepState& s, Side side);
   void fill_between_grains(const StepState& s) const;
-  void find_volumes(const Particles& fluid, std::size_t first, std::size_t last);
-  /// ... and volumes times it.
-  void find_weights(const Particles& grains, std::size_t i, const Particles& fluid);
-  [[nodiscard]] FluidAround look_around(const Particles& grains, std::size_t i, const Particles& fluid) const;
   void push_grains(StepState& s, Side side);
   void push_fluid(StepState& s, Side side);
   [[nodiscard]] double step_of(const PushLimits& limits) const;
@@ -88,19 +80,13 @@ class Drag final : public Model, public SetPair {
 
   const Scene* scene_;
   const SphConstants* constants_;
-  PositionScale scale_;
   DragForce push_;
+  FluidNear near_;
   double force_quantum_;
   double first_step_;
-  double
-      surface_slope_;  ///< of the share of the kernel that is fluid, where its surface is at the centre [1/h]
   Reduction::Maximum rate_{}, sound_{};
-  PushLimits limits_;                     ///< of this step
-  std::vector<std::uint64_t> first_;      ///< of each grain's entries
-  std::vector<std::uint32_t> entries_;    ///< rows of the fluid, ascending by id
-  std::vector<double> kernel_, weights_;  ///< of one grain's entries
-  std::vector<double> volumes_;           ///< of the fluid's rows
-  std::vector<std::int64_t> deposits_;    ///< of each fluid particle
+  PushLimits limits_;                   ///< of this step
+  std::vector<std::int64_t> deposits_;  ///< of each fluid particle
 };
 
 }  // namespace sph
