@@ -44,8 +44,8 @@ void compare(Simulation& s) {
     const double start = cpu_seconds();
     ContactSweep swept;
     const ContactContext context = grains.context(particles, s.global().dt);
-    sweep(context, grains.lists().interior(), s.sets().front().ranges, swept);
-    sweep(context, grains.lists().boundary(), s.sets().front().ranges, swept);
+    sweep(context, grains.pairs().lists().interior(), s.sets().front().ranges, swept);
+    sweep(context, grains.pairs().lists().boundary(), s.sets().front().ranges, swept);
     return cpu_seconds() - start;
   };
   const Sweeps<Normal> sweeps;

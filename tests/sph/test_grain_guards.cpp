@@ -163,8 +163,8 @@ TEST(GrainGuards, WallSumIsGuarded) {
   scene.start.file = file.path();
   Simulation s(world(), scene);
   s.step();
-  const double newton = s.grains()->wall_force_newton(s.global().walls[0].force[2]);
-  const double gained = s.grains()->wall_force_newton(1) > 0 ? test::grain(s, 0).v[2] + 2.05 : 0;
+  const double newton = s.grains()->walls().newton(s.global().walls[0].force[2]);
+  const double gained = s.grains()->walls().newton(1) > 0 ? test::grain(s, 0).v[2] + 2.05 : 0;
   const double mass = 2500 * 4.0 / 3.0 * std::acos(-1.0) * 0.0005 * 0.0005 * 0.0005;
   EXPECT_NEAR(newton, -2592 * gained * mass / 5e-6, 1e-9 * std::fabs(newton));
 }

@@ -142,9 +142,9 @@ TEST(GrainImpacts, ChungOoi) {
     // The contact began once, ended once, and in between it went through rebuilds.
     const bool rough = m.friction > 0;
     if (rough) {
-      EXPECT_EQ(alone.grains()->counters().created, 1) << m.name;
-      EXPECT_EQ(alone.grains()->counters().ended, 1) << m.name;
-      EXPECT_GE(alone.grains()->counters().carried, 100) << m.name;
+      EXPECT_EQ(alone.grains()->pairs().counters().created, 1) << m.name;
+      EXPECT_EQ(alone.grains()->pairs().counters().ended, 1) << m.name;
+      EXPECT_GE(alone.grains()->pairs().counters().carried, 100) << m.name;
     }
     const GrainNow ball = grain(alone, 0);
     const double along = c.n == 0 ? c.grains[0].v[0] + m.normal : 0;  // the drift
@@ -161,7 +161,7 @@ TEST(GrainImpacts, ChungOoi) {
     std::int64_t straddles = 0;
     for (std::int64_t k = 0; k < c.steps; ++k) {
       shared.step();
-      straddles += shared.grains()->lists().boundary().empty() ? 0 : 1;
+      straddles += shared.grains()->pairs().lists().boundary().empty() ? 0 : 1;
     }
     EXPECT_EQ(shared.fingerprint(), alone.fingerprint()) << m.name;
     if (all.size() == 1) continue;

@@ -84,7 +84,7 @@ TEST_F(GrainOutput, DifferencesOfContactsAndWalls) {
   /// Adds to the bits of history[component] of grain 3's contact with `partner`.
   const auto changed = [&](std::uint64_t partner, std::size_t component) {
     decomp::Payload out = s.contacts();
-    const std::size_t width = s.grains()->lists().entry_bytes();
+    const std::size_t width = s.grains()->pairs().lists().entry_bytes();
     for (std::size_t row = 0; row < out.rows(); ++row)
       for (std::uint64_t at = out.offset[row]; at < out.offset[row + 1]; at += width) {
         std::uint64_t key;

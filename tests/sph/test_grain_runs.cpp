@@ -90,7 +90,7 @@ TEST(GrainRuns, LostHistoryIsMissed) {
   const Particles& p = simulation.particles();
   const Distribution& d = simulation.distribution();
   const decomp::Payload entries = simulation.contacts();
-  const ContactLists& old = simulation.grains()->lists();
+  const ContactLists& old = simulation.grains()->pairs().lists();
   ASSERT_GT(entries.bytes.size(), 100 * old.entry_bytes());
   std::vector<PlaneNow> planes;
   for (const Wall& wall : simulation.scene().walls) {
@@ -134,11 +134,11 @@ TEST(GrainRuns, SmoothGrainsNeitherSpinNorRemember) {
   EXPECT_FALSE(simulation.has_history());
   EXPECT_TRUE(simulation.contacts().bytes.empty());
   for (const ContactGroups* groups :
-       {&simulation.grains()->lists().pairs(), &simulation.grains()->lists().walls()})
+       {&simulation.grains()->pairs().lists().pairs(), &simulation.grains()->pairs().lists().walls()})
     EXPECT_EQ(groups->history.size(), 0U);
   EXPECT_EQ(bytes_of(grain_fields(rough), 3) - bytes_of(grain_fields(smooth), 3), 3 * sizeof(double));
-  EXPECT_GT(world().sum(simulation.grains()->touching_pairs()), 0);
-  EXPECT_EQ(world().sum(simulation.grains()->counters().created), 0);  // nothing to count by
+  EXPECT_GT(world().sum(simulation.grains()->pairs().touching()), 0);
+  EXPECT_EQ(world().sum(simulation.grains()->pairs().counters().created), 0);  // nothing to count by
 }
 
 TEST(GrainRuns, ServoReachesItsForce) {
@@ -160,7 +160,7 @@ largest_speed = 0.2
   const std::size_t w = simulation.global().walls.size() - 1;
   for (int k = 0; k < some; ++k) {
     simulation.step();
-    const double force = simulation.grains()->wall_force_newton(simulation.global().walls[w].force[2]);
+    const double force = simulation.grains()->walls().newton(simulation.global().walls[w].force[2]);
     mean += force / some;
     least = std::min(least, force);
   }
@@ -232,7 +232,7 @@ TEST(GrainRuns, QuasiStaticBoxStaysCold) {
       last = kinetic_energy(simulation);
       EXPECT_LT(last, 2 * settled) << rolling << ' ' << k;
     }
-    const bool rolls = simulation.grains()->lists().history() > 3;
+    const bool rolls = simulation.grains()->pairs().lists().history() > 3;
     EXPECT_LT(last, (rolls ? 1e-7 : 1e-8) * potential) << rolling;
   }
 }

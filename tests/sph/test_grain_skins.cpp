@@ -84,8 +84,8 @@ const Expected& expected() {
     Simulation s(self, scene_with(""));
     Expected out;
     for (int k = 0; k < steps; ++k) s.step(), out.prints.push_back(s.fingerprint());
-    out.created = s.grains()->counters().created;
-    out.ended = s.grains()->counters().ended;
+    out.created = s.grains()->pairs().counters().created;
+    out.ended = s.grains()->pairs().counters().ended;
     return out;
   }();
   return all;
@@ -100,10 +100,10 @@ TEST(GrainSkins, AnySkinGivesTheSameBits) {
         s.step();
         // Output may rebuild the lists between steps.
         if (look) s.refresh_contacts();
-        parted += static_cast<std::int64_t>(s.grains()->lists().parted().size());
+        parted += static_cast<std::int64_t>(s.grains()->pairs().lists().parted().size());
         ASSERT_EQ(s.fingerprint(), expected().prints[k]) << skin << ' ' << look << ' ' << k;
       }
-      const auto& counters = s.grains()->counters();
+      const auto& counters = s.grains()->pairs().counters();
       if (world().size() == 1) {
         EXPECT_EQ(counters.created, expected().created) << skin;
         EXPECT_EQ(counters.ended, expected().ended) << skin;

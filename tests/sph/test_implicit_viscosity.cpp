@@ -80,7 +80,7 @@ std::vector<Particle> after_a_step(const std::vector<std::string>& overrides) {
     out[i].mass = p.data<sph::Field::mass>()[i];
     out[i].volume = out[i].mass / p.data<sph::Field::density>()[i];
     out[i].viscosity = s.scene().groups[group].viscosity;
-    out[i].wall = s.physics()->is_wall(group);
+    out[i].wall = s.physics()->constants().is_wall(group);
   }
   return out;
 }

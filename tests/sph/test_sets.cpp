@@ -159,7 +159,7 @@ TEST(Sets, GrainsBesideFluidAreThoseAlone) {
     ASSERT_EQ(in_order(values<Field::position>(alone.particles())),
               in_order(values<Field::position>(beside.particles(1))));
   }
-  EXPECT_GT(alone.grains()->counters().created, 60);
+  EXPECT_GT(alone.grains()->pairs().counters().created, 60);
 }
 
 TEST(Sets, AnyRanksCutsAndSkinsGiveTheSameBits) {

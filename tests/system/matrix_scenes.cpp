@@ -138,10 +138,10 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   const double* strain = particles.data<sph::Field::strain_energy>();
   Liveliness out{simulation.rebuilds()};
   if (const sph::Grains* grains = simulation.grains()) {
-    out.contacts = grains->touching_pairs();
-    out.contacts_begun = grains->counters().created;
-    out.contacts_ended = grains->counters().ended;
-    out.histories_kept = grains->counters().carried;
+    out.contacts = grains->pairs().touching();
+    out.contacts_begun = grains->pairs().counters().created;
+    out.contacts_ended = grains->pairs().counters().ended;
+    out.histories_kept = grains->pairs().counters().carried;
     for (const sph::WallState& wall : simulation.global().walls) out.walls_moved |= wall.offset[2] != 0;
     if (simulation.scene().is_mixture()) out.dragged = dragged_grains(particles);
     return out;

@@ -48,25 +48,25 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
   first_step_ = step_of(packed);
 }
 
-void Drag::add_porosity_to(std::vector<Entry>& sums, std::size_t at, bool first) {
-  std::vector<Entry> stages;
+// It is that of what walls leave of the kernel, whose share is known before.
+void Drag::add_porosity_to(Plan& fluid) {
   Stage porosity{
       "porosity", decomp::Region::contacts, {}, {Field::porosity}, [this](StepState& s, Side side) {
         deposit_porosity(s, side);
       }};
   porosity.set = other();
   porosity.other = {set(), {Field::position}};
-  append(stages, porosity);
-  if (first) {
-    Stage fill{"fluid between grains",
-               decomp::Region::update,
-               {},
-               {Field::mass, Field::density},
-               [this](StepState& s, Side) { fill_between_grains(s); }};
-    fill.set = other();
-    append(stages, fill);
-  }
-  sums.insert(sums.begin() + static_cast<std::ptrdiff_t>(at), stages.begin(), stages.end());
+  Stage fill{"fluid between grains",
+             decomp::Region::update,
+             {},
+             {Field::mass, Field::density},
+             [this](StepState& s, Side) { fill_between_grains(s); }};
+  fill.set = other();
+  const auto wall_share = first_that_writes(fluid.sums, Field::wall_share);
+  if (wall_share != fluid.sums.end()) fluid.settle.push_back(*wall_share);
+  append(fluid.settle, porosity);
+  append(fluid.settle, fill);
+  fluid.sums.insert(first_that_writes(fluid.sums, Field::density), Entry{{std::move(porosity)}, {}, {}});
 }
 
 Plan Drag::force_plan() {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "sph/laws/contact/law.hpp"
-#include "sph/models/grains.hpp"
+#include "sph/models/grain_limits.hpp"
 #include "sph/scene/grain_mass.hpp"
 
 namespace sph {

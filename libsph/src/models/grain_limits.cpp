@@ -1,8 +1,10 @@
-// How far grains and walls may go in a step, and what is wrong where contacts are lost or too deep at once.
+// How far grains and walls may go in a step.
 //
 // Two grains that move by m each see each other in time if the chord that they may jump, 2 m, belongs to an
 // overlap below the largest one allowed, lambda r: m^2 = (2 r)^2 - (2 r - lambda r)^2 for two of the smallest
 // radius r, and m <= r, or they could change places. Larger ones have longer chords.
+#include "sph/models/grain_limits.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,7 @@
 #include <limits>
 
 #include "sph/core/error.hpp"
-#include "sph/models/grains.hpp"
+#include "sph/core/findings.hpp"
 #include "start/start_sounds.hpp"
 
 namespace sph {
@@ -93,30 +95,6 @@ void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Part
       });
   }
   if (const std::string text = found.agree(comm); !text.empty()) throw InputError(scene.file + ": " + text);
-}
-
-void Grains::find_lost(const Particles& p, const GlobalState& global, double skin, Findings& lost) const {
-  const double* v = p.data<Field::velocity>();
-  for (const ContactLists::Parted& parted : lists_.parted()) {
-    const bool with_wall = (parted.key & wall_key) != 0;
-    if (parted.listed || (with_wall && !wall_now(parted.key & ~wall_key, global).present)) continue;
-    const std::size_t i = parted.row;
-    const double own =
-        std::sqrt(v[i * 3] * v[i * 3] + v[i * 3 + 1] * v[i * 3 + 1] + v[i * 3 + 2] * v[i * 3 + 2]);
-    // A wall's speed may have changed since; it is never above the limit.
-    const double way =
-        own * global.dt + (with_wall ? longest_move_ : global.max_speed * global.dt) + 4 * scale_.quantum;
-    if (1.0001 * way > skin) continue;
-    const std::uint64_t id = p.data<Field::id>()[i];
-    lost.add(id, [&] {
-      return fmt::format(
-          "the contact of grain {} {} with {} was lost when the lists were rebuilt; reduce "
-          "time.dt or raise decomposition.skin",
-          id, text_of_place(p.data<Field::position>() + i * 3),
-          with_wall ? fmt::format("wall \"{}\"", scene_->walls[parted.key & ~wall_key].name)
-                    : fmt::format("grain {}", parted.key));
-    });
-  }
 }
 
 }  // namespace sph

@@ -1,21 +1,38 @@
-// Contacts when rows move: histories travel with the grains and go back to their pairs. None may be lost or
-// doubled on its way: count and keys are those of the entries that set out.
-#include <array>
-#include <string>
+#include "sph/models/grain_pairs.hpp"
 
-#include "sph/models/grains.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "models/grain_texts.hpp"
+#include "sph/laws/contact/law.hpp"
+#include "sph/models/grain_limits.hpp"
 
 namespace sph {
 
-decomp::Payload Grains::send(const Particles& particles, decomp::Payload arrived) {
+GrainPairs::GrainPairs(std::size_t set, const Scene& scene, const PositionScale& scale,
+                       const PlaneWalls& walls)
+    : SetPair(set),
+      scene_(&scene),
+      scale_(scale),
+      walls_(&walls),
+      lists_(contact_fusion(scene).parities),
+      sums_a_row_(contact_fusion(scene).spins ? 8 : 4) {
+  for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
+}
+
+decomp::Payload GrainPairs::send(const Particles& particles, decomp::Payload arrived) {
   sums_ = {};  // while contacts travel, memory is at its peak
   if (arrived.rows() == 0) arrived = lists_.pack(particles);
   sent_ = ContactLists::census(particles, arrived, lists_.history());
   return arrived;
 }
 
-void Grains::rebuild(const Particles& particles, const ListSetting& s, const decomp::Payload& carried,
-                     std::span<const std::uint32_t> order) {
+// Count and keys of the entries found are those that set out.
+void GrainPairs::rebuild(const Particles& particles, const ListSetting& s, const decomp::Payload& carried,
+                         std::span<const std::uint32_t> order) {
   const auto timing = s.timers.time(decomp::Region::lists);
   const ContactCensus found = find_pairs(particles, s, carried, order);
   Findings lost;
@@ -25,30 +42,91 @@ void Grains::rebuild(const Particles& particles, const ListSetting& s, const dec
   s.comm.sum(std::span<std::uint64_t>(all));
   if (all[5] != 0) lost.stop(s.comm, step_text(s.global.step));
   if (all[0] != all[2] || all[1] != all[3] || all[4] != 0)
-    throw GuardError("step " + std::to_string(s.global.step) + ": of " + std::to_string(all[0]) +
-                     " entries of contacts " + std::to_string(all[2]) +
-                     " were found again after the lists were rebuilt; reduce time.dt");
+    throw GuardError(fmt::format(
+        "step {}: of {} entries of contacts {} were found again after the lists were rebuilt; reduce time.dt",
+        s.global.step, all[0], all[2]));
 }
 
-ContactCensus Grains::find_pairs(const Particles& particles, const ListSetting& s,
-                                 const decomp::Payload& carried, std::span<const std::uint32_t> order) {
+ContactCensus GrainPairs::find_pairs(const Particles& particles, const ListSetting& s,
+                                     const decomp::Payload& carried, std::span<const std::uint32_t> order) {
   // A wall that a later stage brings near must be listed in time: walls are looked for where they are now.
-  const std::vector<PlaneNow> planes = this->planes(s.global);
+  const std::vector<PlaneNow> planes = walls_->now(s.global);
   lists_.build(particles, s.grid, s.own_cells, s.radius, s.skin, scale_.quantum, s.ranges, fixed_, planes);
   const ContactCensus found = lists_.unpack(particles, carried, order, scale_.quantum, planes);
   counters_.carried += lists_.carried();
-  sums_.assign(particles.rows() * (fusion_.spins ? 8 : 4), 0);
+  sums_.assign(particles.rows() * sums_a_row_, 0);
   const std::int64_t* x = particles.data<Field::position>();
-  reference_.assign(x, x + particles.owned() * 3);
-  wall_reference_.clear();
-  for (const WallState& w : s.global.walls) wall_reference_.push_back(w.offset);
+  listed_.grains.assign(x, x + particles.owned() * 3);
+  listed_.walls.clear();
+  for (const WallState& w : s.global.walls) listed_.walls.push_back(w.offset);
   return found;
 }
 
-void Grains::count(const RowRanges&, std::span<std::uint32_t> entries) const {
+void GrainPairs::count(const RowRanges&, std::span<std::uint32_t> entries) const {
   for (const auto blocks : {lists_.interior(), lists_.boundary()})
     for (const ContactBlock& b : blocks)
       share_block(entries, b.first, b.last, (b.pairs_end - b.pairs) * ContactGroups::lanes);
+}
+
+std::int64_t GrainPairs::touching() const {
+  std::int64_t n = 0;
+  for (std::uint8_t bits : lists_.pairs().touching) n += std::popcount(bits);
+  return n;
+}
+
+double GrainPairs::longest_way(const Particles& particles, const GlobalState& global) const {
+  const std::int64_t* x = particles.data<Field::position>();
+  double way2 = 0;
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    double w2 = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double w = static_cast<double>(x[i * 3 + a] - listed_.grains[i * 3 + a]);
+      w2 += w * w;
+    }
+    way2 = std::max(way2, w2);
+  }
+  for (std::size_t w = 0; w < global.walls.size(); ++w) {
+    double w2 = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d = static_cast<double>(global.walls[w].offset[a] - listed_.walls[w][a]);
+      w2 += d * d;
+    }
+    way2 = std::max(way2, w2);
+  }
+  return 1.0001 * std::sqrt(way2) * scale_.quantum;
+}
+
+void GrainPairs::forget_parted(const Particles& particles) {
+  counters_.ended += lists_.forget_parted(particles.data<Field::id>());
+}
+
+void GrainPairs::add(const ContactSweep& swept) {
+  counters_.created += swept.created;
+  counters_.ended += swept.ended;
+}
+
+void GrainPairs::find_lost(const Particles& p, const GlobalState& global, double skin, Findings& lost) const {
+  const double* v = p.data<Field::velocity>();
+  for (const ContactLists::Parted& parted : lists_.parted()) {
+    const bool with_wall = (parted.key & wall_key) != 0;
+    if (parted.listed || (with_wall && !walls_->present(parted.key & ~wall_key, global))) continue;
+    const std::size_t i = parted.row;
+    const double own =
+        std::sqrt(v[i * 3] * v[i * 3] + v[i * 3 + 1] * v[i * 3 + 1] + v[i * 3 + 2] * v[i * 3 + 2]);
+    // A wall's speed may have changed since; it is never above the limit.
+    const double way = own * global.dt +
+                       (with_wall ? longest_grain_move(*scene_) : global.max_speed * global.dt) +
+                       4 * scale_.quantum;
+    if (1.0001 * way > skin) continue;
+    const std::uint64_t id = p.data<Field::id>()[i];
+    lost.add(id, [&] {
+      return fmt::format(
+          "the contact of grain {} {} with {} was lost when the lists were rebuilt; reduce "
+          "time.dt or raise decomposition.skin",
+          id, text_of_place(*scene_, scale_, p.data<Field::position>() + i * 3),
+          text_of_partner(*scene_, parted.key));
+    });
+  }
 }
 
 }  // namespace sph

@@ -15,13 +15,14 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
     sph_pairs.emplace(sets.size(), *physics);
     sets.push_back({physics->fields(), stays});
     models.push_back(&*physics);
+    if (Shifting* shifting = physics->shifting()) models.push_back(shifting);
     pairs.push_back(&*sph_pairs);
   }
   if (scene.has_grains()) {
     grains.emplace(sets.size(), scene, scale);
     sets.push_back({grain_fields(scene), stays});
     models.push_back(&*grains);
-    pairs.push_back(&*grains);
+    pairs.push_back(&grains->pairs());
   }
   if (has_drag(scene)) {
     drag.emplace(physics->set(), grains->set(), scene, scale, physics->constants());
@@ -32,11 +33,7 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
   }
   if (physics) {
     Plan of_fluid = physics->plan();
-    if (drag) {
-      of_fluid.settle.assign(of_fluid.sums.begin(), of_fluid.sums.begin() + physics->before_densities());
-      drag->add_porosity_to(of_fluid.settle, of_fluid.settle.size(), true);
-      drag->add_porosity_to(of_fluid.sums, static_cast<std::size_t>(physics->before_densities()), false);
-    }
+    if (drag) drag->add_porosity_to(of_fluid);
     append(plan, std::move(of_fluid), physics->set());
   }
   if (grains) append(plan, grains->plan(), grains->set());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "pairs/for_rows.hpp"
 #include "sph/laws/eos/law.hpp"
@@ -18,7 +17,8 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
       constants_(scene, scale),
       materials_(constants_),
       body_forces_(constants_),
-      builder_(constants_, materials_, body_forces_) {
+      builder_(constants_, materials_, body_forces_),
+      steps_(constants_) {
   builder_.add_fields({Field::id, Field::position, Field::velocity, Field::density, Field::mass, Field::group,
                        Field::pressure, Field::force});
   if (has_eos(scene, EosKind::bubbly))
@@ -29,7 +29,7 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
   if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
   if (gas_) reach_.emplace(scene);
-  if (scene.terms.shifting) shifting_.emplace(constants_, body_forces_);
+  if (scene.terms.shifting) shifting_.emplace(set, constants_, body_forces_);
 
   add_drift(builder_);
   if (scene.formulation == Formulation::ida)
@@ -49,7 +49,6 @@ void Physics::add_liquids_and_solids() {
   // Grains in the fluid want to know of walls before it has densities, others after the forces.
   const bool wall_share = walls && fluid && (s.terms.implicit_viscosity || s.free_surface || has_drag(s));
   if (wall_share && has_drag(s)) add_wall_share(builder_);
-  before_densities_ = std::ssize(builder_.plan().sums);
   add_kinematics(builder_);
   if (walls) add_walls(builder_, s.terms.pressure_weights == PressureWeights::density);
   const InterfaceTension& tension = s.terms.surface_tension;
@@ -76,41 +75,6 @@ void Physics::add_end_of_step() {
   if (s.output.average_time > 0) add_averages(builder_);
 }
 
-const std::vector<double>& Physics::find_reaches(const Particles& p) {
-  return reach_ ? reach_->find(p) : no_reaches_;
-}
-
-double Physics::time_step(const StepMaxima& maxima) const {
-  if (scene_->time.dt) return *scene_->time.dt;
-  const double h = scene_->smoothing_length;
-  double fastest = maxima.sound, viscous = maxima.viscosity, bulk = 0;
-  for (std::size_t g = 0; g < scene_->groups.size(); ++g) {
-    // Of a gas that of now counts.
-    if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_.groups.sound_speed[g]);
-    if (scene_->total_lagrangian() && is_wall(static_cast<std::uint32_t>(g))) continue;
-    viscous = std::max(viscous, constants_.groups.viscosity[g] / scene_->groups[g].density);
-    bulk = std::max(bulk, scene_->groups[g].bulk_viscosity / scene_->groups[g].density);
-  }
-  const bool bonds = scene_->total_lagrangian();
-  if (bonds || scene_->terms.viscosity == ViscosityForm::symmetric)
-    viscous *= 3;  // nu (lap v + 2 grad div v)
-  if (scene_->terms.implicit_viscosity) viscous = 0;
-  viscous += bulk;
-  if (!gas_) fastest += maxima.speed;  // of a gas it is in `sound`
-  double dt = scene_->time.cfl * h / fastest;
-  // Dashpots beside springs: the rates add.
-  if (bonds && viscous > 0) dt = 1 / (1 / dt + viscous / (0.125 * h * h));
-  if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
-  // Capillary waves as long as the layer is thick (Brackbill et al. 1992, eq. 61).
-  if (const InterfaceTension& t = scene_->terms.surface_tension; t.coefficient > 0) {
-    double density = 0;
-    for (int k : t.between) density += 0.5 * scene_->groups[static_cast<std::size_t>(k)].density;
-    dt = std::min(dt, 0.25 * std::sqrt(density * h * h * h / (2 * std::numbers::pi * t.coefficient)));
-  }
-  if (maxima.acceleration > 0) dt = std::min(dt, 0.25 * std::sqrt(h / maxima.acceleration));
-  return dt;
-}
-
 // Wall particles do not move, but their pairs are taken with the velocity of their material.
 double Physics::longest_look_back(const GlobalState& global) const {
   double wall2 = 0;
@@ -127,14 +91,6 @@ double Physics::speed_limit() const {
   constexpr double light = 299'792'458, mach = 10;
   if (gas_ || !scene_->has_kind(GroupKind::fluid)) return light;
   return mach * *std::max_element(constants_.groups.sound_speed.begin(), constants_.groups.sound_speed.end());
-}
-
-double Physics::resting_step(const std::vector<double>& sounds) const {
-  return time_step(StepMaxima{0, 0, 0, std::ranges::max(sounds), 0});
-}
-
-double Physics::courant_number(double dt, const std::vector<double>& sounds) const {
-  return std::ranges::max(sounds) * dt / scene_->smoothing_length;
 }
 
 }  // namespace sph

@@ -19,12 +19,11 @@ double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalStat
   comm.max(largest);
   if (stiffens_) {
     const std::vector<double> sounds = fastest_sounds(comm, *scene_, particles);
-    check_time_step(*scene_, *this, sounds);
+    check_time_step(*scene_, steps_, sounds);
     largest[1] = std::ranges::max(sounds);
   }
   global.max_speed = largest[0];
-  if (shifting_) find_common_motion(comm, particles, global);
-  return time_step({largest[0], 0, 0, largest[1], largest[2]});
+  return steps_.longest({largest[0], 0, 0, largest[1], largest[2]});
 }
 
 StepMaxima Physics::maxima_at_start(Particles& p) const {
@@ -40,21 +39,6 @@ StepMaxima Physics::maxima_at_start(Particles& p) const {
   if (gas_) look_at_gas(constants_, GasView(p), 0, p.owned(), maxima);
   maxima.speed = std::sqrt(speed2);
   return maxima;
-}
-
-void Physics::find_common_motion(const decomp::Comm& comm, Particles& particles, GlobalState& global) const {
-  const Shifting::Motion moving(particles);
-  global.fluid_volume.start = global.fluid_volume.now = comm.sum(shifting_->fluid_volume(moving));
-  // The mean first, then the largest difference from it, then all.
-  global.motion.largest = global.max_speed;
-  for (int k = 0; k < 3; ++k) {
-    MotionSums motion = shifting_->motion_sums(moving, global);
-    comm.sum(std::span<std::int64_t>(motion.sums));
-    std::array<double, 1> most{motion.largest};
-    comm.max(most);
-    motion.largest = most[0];
-    global.motion = shifting_->common_motion(motion, global);
-  }
 }
 
 }  // namespace sph

@@ -1,6 +1,7 @@
 #include "sph/models/shifting.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/random.hpp"
@@ -33,24 +34,67 @@ double unit_of(double speed) {
   return std::ldexp(1.0, exponent);
 }
 
+struct Shift {
+  static constexpr FieldSet reads = Shifting::reads, writes = Shifting::writes;
+  const Shifting* shifting;
+  void operator()(const View<reads, writes>& p, const Step& step) const { shifting->shift(p, step); }
+};
+
 struct CommonMotionSums {
   static constexpr FieldSet reads{Field::velocity, Field::group, Field::mass, Field::density};
   static constexpr FieldSet writes{};
-  Shifting shifting;
-
-  void operator()(const Shifting::Motion& p, const Step& step) const {
-    step.maxima.volume = shifting.fluid_volume(p);
-    step.maxima.motion = shifting.motion_sums(p, step.global);
-  }
+  const Shifting* shifting;
+  void operator()(const Shifting::Motion& p, const Step& step) const { shifting->sum_up(p, step); }
 };
 
 }  // namespace
 
 void Shifting::add_to(Builder& b) const {
-  b.add_kick("shifting", *this, [own = *this](const GlobalState& global) { return own.longest(global); });
+  b.add_kick("shifting", Shift{this}, [this](const GlobalState& global) { return longest(global); });
 }
 
-void Shifting::add_motion_to(Builder& b) const { b.add_kick("common motion", CommonMotionSums{*this}); }
+void Shifting::add_motion_to(Builder& b) const { b.add_kick("common motion", CommonMotionSums{this}); }
+
+void Shifting::reserve(Reduction& r) {
+  in_.unlike = r.add_maximum();
+  in_.motion = r.add_sums(MotionSums{}.sums.size());
+  in_.volume = r.add_sums(1);
+}
+
+double Shifting::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
+  const Motion moving(particles);
+  global.fluid_volume.start = global.fluid_volume.now = comm.sum(fluid_volume(moving));
+  // The mean first, then the largest difference from it, then all.
+  global.motion.largest = global.max_speed;
+  for (int k = 0; k < 3; ++k) {
+    MotionSums motion = motion_sums(moving, global);
+    comm.sum(std::span<std::int64_t>(motion.sums));
+    std::array<double, 1> most{motion.largest};
+    comm.max(most);
+    motion.largest = most[0];
+    global.motion = common_motion(motion, global);
+  }
+  return Model::start(comm, particles, global);
+}
+
+void Shifting::sum_up(const Motion& p, const Step& step) const {
+  step.maxima.volume = fluid_volume(p);
+  step.maxima.motion = motion_sums(p, step.global);
+}
+
+bool Shifting::report(const StepState& s, Reduction& r) {
+  r[in_.unlike] = s.maxima.motion.largest;
+  std::ranges::copy(s.maxima.motion.sums, r[in_.motion].begin());
+  r[in_.volume][0] = s.maxima.volume;
+  return true;
+}
+
+void Shifting::act(const Reduction& r, GlobalState& global) {
+  MotionSums motion{{}, r[in_.unlike]};
+  std::ranges::copy(r[in_.motion], motion.sums.begin());
+  global.motion = common_motion(motion, global);
+  if (!constants_->scene->open) global.fluid_volume.now = r[in_.volume][0];
+}
 
 std::int64_t Shifting::fluid_volume(const Motion& p) const {
   if (constants_->scene->open) return 0;
@@ -137,7 +181,7 @@ double Shifting::speed_of(const View<reads, writes>& p, std::size_t i, const Glo
 // On a lattice, however stretched, S is 0 by symmetry: particles run along the stagnation lines of a flow in
 // rows that no shift tears apart, until rounding does, too late and violently. A drift of its own for each
 // particle, 2e-4 of U, does it in time.
-void Shifting::operator()(const View<reads, writes>& p, const Step& step) const {
+void Shifting::shift(const View<reads, writes>& p, const Step& step) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   std::int64_t* x = p.get<Field::position>();
   const double* spread = p.get<Field::spread>();

@@ -13,17 +13,20 @@ SphPairs::SphPairs(std::size_t set, Physics& physics)
 
 // Stages take pairs where they were half a step ago, and shifting moves particles after the sums.
 double SphPairs::least_skin(const GlobalState& global) const {
-  return 2 * std::max(physics_->longest_look_back(global), physics_->longest_shift(global));
+  const Shifting* shifting = physics_->shifting();
+  return 2 *
+         std::max(physics_->longest_look_back(global), shifting != nullptr ? shifting->longest(global) : 0.0);
 }
 
 void SphPairs::rebuild(const Particles& p, const ListSetting& s, const decomp::Payload&,
                        std::span<const std::uint32_t>) {
-  const std::vector<double>& reaches = physics_->find_reaches(p);
-  if (reaches.empty()) {
+  GasReach* own = physics_->reach();
+  if (own == nullptr) {
     lists_.build(p, s.grid, s.own_cells, s.radius, s.ranges, s.timers);
     if (p.has(Field::wall_share)) lists_.mark_walls(p, is_wall_);
     return;
   }
+  const std::vector<double>& reaches = own->find(p);
   std::vector<double> quanta(reaches.size());
   for (std::size_t i = 0; i < quanta.size(); ++i)
     quanta[i] = (reaches[i] + s.skin) / physics_->constants().scale.quantum + 1;

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "models/damping_limit.hpp"
-#include "sph/models/grains.hpp"
-#include "sph/models/physics.hpp"
+#include "sph/models/grain_limits.hpp"
+#include "sph/models/sph_time_step.hpp"
 #include "start/start_sounds.hpp"
 
 namespace sph {
@@ -40,11 +40,12 @@ void check_time_step(const Scene& scene) {
   if (!scene.has_matter()) return;
   // What stiffens under pressure is looked at once it is there, by a start and by `check`.
   if (std::ranges::any_of(scene.groups, stiffens)) return;
-  check_time_step(scene, Physics(0, scene, position_scale(scene)), sounds_at_rest(scene));
+  const SphConstants constants(scene, position_scale(scene));
+  check_time_step(scene, SphTimeStep(constants), sounds_at_rest(scene));
 }
 
-void check_time_step(const Scene& scene, const Physics& physics, const std::vector<double>& sounds) {
-  const double dt = physics.resting_step(sounds), courant = physics.courant_number(dt, sounds);
+void check_time_step(const Scene& scene, const SphTimeStep& steps, const std::vector<double>& sounds) {
+  const double dt = steps.resting(sounds), courant = steps.courant_number(dt, sounds);
   const char* key = scene.time.dt ? "time.dt" : "time.cfl";
   if (courant > courant_limit(scene))
     throw InputError(

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sph/models/physics.hpp"
+#include "sph/models/sph_time_step.hpp"
 #include "sph/scene/scene.hpp"
 
 namespace sph {
@@ -13,6 +13,6 @@ namespace sph {
 /// makes matter stiffer.
 void check_time_step(const Scene& scene);
 /// The same of fluids and solids, c of each group being that of the start (start/start_sounds.hpp).
-void check_time_step(const Scene& scene, const Physics& physics, const std::vector<double>& sounds);
+void check_time_step(const Scene& scene, const SphTimeStep& steps, const std::vector<double>& sounds);
 
 }  // namespace sph

@@ -34,10 +34,10 @@ class Enumeration {
         mass_(p_.data<Field::mass>()),
         id_(p_.data<Field::id>()),
         group_(p_.data<Field::group>()),
-        planes_(grains_.planes(s.global())),
+        planes_(grains_.walls().now(s.global())),
         quantum_(s.scale().quantum),
         law_(contact_law(s.scene())),
-        history_(static_cast<std::size_t>(grains_.lists().history())),
+        history_(static_cast<std::size_t>(grains_.pairs().lists().history())),
         springs_(history_ - law_.history.size()) {}
 
   [[nodiscard]] std::optional<Found> pair(std::uint32_t i, std::uint32_t j) const {
@@ -104,7 +104,7 @@ class Enumeration {
 
   /// Force and energy of the contact at `lane` of group `g`, by the law that moves it.
   void respond(Found& f, const ContactGroups& list, std::size_t g, std::size_t lane) const {
-    const std::span<const double, 8> table = grains_.pair_constants(f.groups[0], f.groups[1]);
+    const std::span<const double, 8> table = grains_.table()(f.groups[0], f.groups[1]);
     const auto stored = [&](std::size_t c) { return list.history[(g * history_ + c) * lanes + lane]; };
     std::array<double, most_history> memory{};
     for (std::size_t m = 0; m < law_.history.size(); ++m)
@@ -154,7 +154,7 @@ class Enumeration {
 
 void for_each_contact(const Simulation& s, const std::function<void(const ContactRecord&)>& visit) {
   const Enumeration all(s);
-  const ContactLists& lists = s.grains()->lists();
+  const ContactLists& lists = s.grains()->pairs().lists();
   for (const ContactGroups* list : {&lists.pairs(), &lists.walls()})
     for (std::size_t k = 0; k < list->i.size(); ++k) {
       std::optional<Found> found =

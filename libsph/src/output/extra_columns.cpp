@@ -25,7 +25,7 @@ std::vector<ExtraColumn> grain_columns(const Simulation& s) {
   std::vector<ExtraColumn> columns = grain_columns();
   const Particles& grains = s.particles(s.grains()->set());
   const std::size_t owned = grains.owned();
-  const double quantum = s.grains()->torque_quantum();
+  const double quantum = s.grains()->table().torque_quantum();
   std::vector<std::int64_t> sums(stress_components * owned, 0);
   columns[1].values.assign(owned, 0.0);
   // Force and branch change sign together from one grain to the other: their product does not.

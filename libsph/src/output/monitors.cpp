@@ -79,13 +79,13 @@ bool looks_at_contacts(const Scene& scene, const Monitor& monitor) {
 /// Place, velocity and force: the same on all ranks without a message.
 std::array<double, 9> values_of_wall(const Simulation& s, int wall) {
   const auto w = static_cast<std::size_t>(wall);
-  const PlaneNow plane = s.grains()->planes(s.global())[w];
+  const PlaneNow plane = s.grains()->walls().now(s.global())[w];
   const WallState& state = s.global().walls[w];
   std::array<double, 9> out{};
   for (std::size_t a = 0; a < 3; ++a) {
     out[a] = s.scale().metres(plane.point[a]);
     out[3 + a] = state.velocity[a];
-    out[6 + a] = s.grains()->wall_force_newton(state.force[a]);
+    out[6 + a] = s.grains()->walls().newton(state.force[a]);
   }
   return out;
 }

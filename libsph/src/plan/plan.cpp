@@ -13,6 +13,12 @@ std::vector<const Entry*> entries_of(const Plan& plan) {
   return out;
 }
 
+std::vector<Entry>::const_iterator first_that_writes(const std::vector<Entry>& entries, Field field) {
+  return std::ranges::find_if(entries, [&](const Entry& e) {
+    return std::ranges::any_of(e.stages, [&](const Stage& s) { return s.writes.has(field); });
+  });
+}
+
 double longest_move(const Plan& plan, std::size_t set, const GlobalState& global) {
   return longest_move(plan.drift, set, global) + longest_move(plan.sums, set, global) +
          longest_move(plan.kick, set, global);

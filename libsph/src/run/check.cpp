@@ -17,7 +17,7 @@
 #include "run/speed_warnings.hpp"
 #include "sph/laws/drag/law.hpp"
 #include "sph/laws/eos/law.hpp"
-#include "sph/models/grains.hpp"
+#include "sph/models/grain_limits.hpp"
 #include "sph/start/placement.hpp"
 #include "sph/step/simulation.hpp"
 #include "start/start_count.hpp"
@@ -197,9 +197,9 @@ std::string tension_text(const Scene& scene) {
       most);
 }
 
-std::string courant_text(const Scene& scene, const Physics& physics, const std::vector<double>& sounds,
+std::string courant_text(const Scene& scene, const SphTimeStep& steps, const std::vector<double>& sounds,
                          double dt) {
-  const double courant = physics.courant_number(dt, sounds);
+  const double courant = steps.courant_number(dt, sounds);
   std::string out =
       fmt::format("time step: {:.6g} s at the start, c dt/h = {:.3g} (recommended {}, limit {})\n", dt,
                   courant, courant_recommended, courant_limit(scene));
@@ -280,8 +280,8 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
     double dt = parts.longest_step();
     if (parts.physics) {
       if (start.sounds.empty()) start.sounds = fastest_sounds(scene, start.count.heights);
-      check_time_step(scene, *parts.physics, start.sounds);
-      dt = std::min(dt, parts.physics->resting_step(start.sounds));
+      check_time_step(scene, parts.physics->steps(), start.sounds);
+      dt = std::min(dt, parts.physics->steps().resting(start.sounds));
     }
     if (comm.rank() == 0)
       fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
@@ -289,7 +289,7 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
                  memory_text(scene, parts, need, machine), gas_text(scene), tension_text(scene),
                  options.plan ? plan_text(scene, parts) : "",
                  parts.grains ? contact_step_text(scene, dt) : "",
-                 parts.physics ? courant_text(scene, *parts.physics, start.sounds, dt) : "",
+                 parts.physics ? courant_text(scene, parts.physics->steps(), start.sounds, dt) : "",
                  drag_text(scene, parts), speed_warnings(scene, start.count.heights, start.speed),
                  steps_text(scene, dt), ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);

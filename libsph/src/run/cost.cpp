@@ -91,8 +91,8 @@ Performance performance_of(Simulation& s) {
 
   std::int64_t listed = 0, near = 0;
   if (s.grains() != nullptr) {
-    listed += static_cast<std::int64_t>(s.grains()->lists().listed());
-    near += s.grains()->touching_pairs();
+    listed += static_cast<std::int64_t>(s.grains()->pairs().lists().listed());
+    near += s.grains()->pairs().touching();
   }
   if (s.physics() != nullptr) {
     listed += static_cast<std::int64_t>(s.lists().pairs());

@@ -74,7 +74,7 @@ void Screen::banner() const {
       simulation_.physics() == nullptr
           ? ""
           : fmt::format(", c dt/h = {:.3g}",
-                        simulation_.physics()->courant_number(
+                        simulation_.physics()->steps().courant_number(
                             g.dt, fastest_sounds(simulation_.comm(), scene, simulation_.particles()))));
   print(simulation_.comm(), text);
 }

@@ -36,14 +36,14 @@ std::int64_t State::particle_count() const {
 decomp::Payload State::contacts() const {
   if (grains() == nullptr) return {};
   const std::size_t set = parts_.grains->set();
-  return unite(grains()->lists().pack(particles(set)), sets_, set);
+  return unite(grains()->pairs().lists().pack(particles(set)), sets_, set);
 }
 
 std::string State::fingerprint() const {
   if (!has_history()) return sph::fingerprint(comm_, particles(), global_, scale_, wrap_);
   const decomp::Payload entries = contacts();
   return sph::fingerprint(comm_, particles(), global_, scale_, wrap_,
-                          {&entries, grains()->lists().entry_bytes()});
+                          {&entries, grains()->pairs().lists().entry_bytes()});
 }
 
 }  // namespace sph

@@ -36,9 +36,9 @@ class Drag final : public Model, public SetPair {
   Drag(const Drag&) = delete;  // its stages hold on to it
   Drag& operator=(const Drag&) = delete;
 
-  /// The fluid's densities and pressures want the porosity, which wants the share of walls: puts its stage in front of
-  /// entry `at`; `first`: the fluid has been placed as if it had all of the volume.
-  void add_porosity_to(std::vector<Entry>& sums, std::size_t at, bool first);
+  /// The fluid's densities and pressures want the porosity; so does its start, where it has been placed as if it had
+  /// all of the volume.
+  void add_porosity_to(Plan& fluid);
   /// After all other forces.
   [[nodiscard]] Plan force_plan();
 

@@ -14,6 +14,8 @@ namespace sph {
 
 class Model {
  public:
+  static constexpr double any_step = std::numeric_limits<double>::infinity();
+
   explicit Model(std::size_t set) : set_(set) {}
   virtual ~Model() = default;
 
@@ -25,7 +27,7 @@ class Model {
   // At the start, in this order. Collective; throw InputError.
   /// Of particles that are not yet on their ranks: what the global record begins with. Returns how long the
   /// first step may be [s].
-  [[nodiscard]] virtual double start(const decomp::Comm&, Particles&, GlobalState&) = 0;
+  [[nodiscard]] virtual double start(const decomp::Comm&, Particles&, GlobalState&) { return any_step; }
   /// What follows from the state of a particle alone: here, and when a run is resumed.
   virtual void derive(Particles&) const {}
   /// With lists and halo.
@@ -39,7 +41,7 @@ class Model {
   /// What the reduction changes in the state, with the clock as it was in the step.
   virtual void act(const Reduction&, GlobalState&) {}
   /// How long the step to come may be [s].
-  [[nodiscard]] virtual double longest_step(const Reduction&) const = 0;
+  [[nodiscard]] virtual double longest_step(const Reduction&) const { return any_step; }
   /// Throws GuardError where that cannot be stable.
   virtual void guard_step(const Reduction&, const GlobalState&) const {}
 

@@ -6,37 +6,53 @@
 #pragma once
 
 #include "sph/models/builder.hpp"
+#include "sph/models/model.hpp"
 
 namespace sph {
 
-class Shifting {
+class Shifting final : public Model {
  public:
   static constexpr FieldSet reads = BodyForces::reads | FieldSet{Field::id, Field::group, Field::sound_speed};
   static constexpr FieldSet writes{Field::position};
   /// What the sums of all particles need.
   using Motion = View<FieldSet{Field::velocity, Field::group, Field::mass, Field::density}, FieldSet{}>;
 
-  Shifting(const SphConstants& constants, const BodyForces& body_forces)
-      : constants_(&constants), body_forces_(&body_forces) {}
+  Shifting(std::size_t set, const SphConstants& constants, const BodyForces& body_forces)
+      : Model(set), constants_(&constants), body_forces_(&body_forces) {}
+  Shifting(const Shifting&) = delete;  // its stages hold on to it
+  Shifting& operator=(const Shifting&) = delete;
+
   void add_to(Builder& builder) const;
   /// What all particles do together, after whatever changes one of them.
   void add_motion_to(Builder& builder) const;
 
+  void reserve(Reduction& reduction) override;
+  [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
+  [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
+  void act(const Reduction& reduction, GlobalState& global) override;
+
+  /// Bound on how far it moves any particle, from what is known at the start of the step [m].
+  [[nodiscard]] double longest(const GlobalState& global) const;
+  void shift(const View<reads, writes>& particles, const Step& step) const;
+  /// Sums of this rank for those of all.
+  void sum_up(const Motion& particles, const Step& step) const;
+
+ private:
   /// Of this rank's particles that move; see FluidVolume.
   [[nodiscard]] std::int64_t fluid_volume(const Motion& particles) const;
   /// Of this rank's particles that move, about the mean known before; and what the sums over all ranks say.
   [[nodiscard]] MotionSums motion_sums(const Motion& particles, const GlobalState& global) const;
   [[nodiscard]] CommonMotion common_motion(const MotionSums& found, const GlobalState& global) const;
-  /// Bound on how far it moves any particle, from what is known at the start of the step [m].
-  [[nodiscard]] double longest(const GlobalState& global) const;
-  void operator()(const View<reads, writes>& particles, const Step& step) const;
-
- private:
   [[nodiscard]] double speed_of(const View<reads, writes>&, std::size_t row, const GlobalState&,
                                 double rest) const;
 
   const SphConstants* constants_;
   const BodyForces* body_forces_;
+  struct Places {
+    Reduction::Maximum unlike;
+    Reduction::Sums motion, volume;
+  };
+  Places in_;  ///< the reduction
 };
 
 }  // namespace sph

@@ -39,6 +39,10 @@ inline void append(std::vector<Entry>& entries, Stage stage) {
   entries.push_back({{std::move(stage)}, {}, {}});
 }
 
+/// The end where there is none.
+[[nodiscard]] std::vector<Entry>::const_iterator first_that_writes(const std::vector<Entry>& entries,
+                                                                   Field field);
+
 /// All entries of a step in their order.
 [[nodiscard]] std::vector<const Entry*> entries_of(const Plan& plan);
 /// Bound on the path of any particle of a set in the next step, or in some entries of it [m].

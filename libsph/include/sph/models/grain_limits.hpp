@@ -1,0 +1,28 @@
+// How long the time steps of grains may be, and how far grains and walls may go in one.
+#pragma once
+
+#include <string>
+
+#include "decomp/comm.hpp"
+#include "sph/core/particles.hpp"
+#include "sph/scene/scene.hpp"
+
+namespace sph {
+
+/// Time steps of a scene of grains [s].
+struct GrainTimeSteps {
+  double recommended = 0;  ///< the default
+  double advised = 0;      ///< above it `check` warns: 0.2 Rayleigh times, or 0.17 sqrt(m/k)
+  double limit = 0;        ///< above it a single contact is unstable: refused
+};
+[[nodiscard]] GrainTimeSteps grain_time_steps(const Scene& scene);
+[[nodiscard]] double grain_step(const Scene& scene);  ///< time.dt, or the default [s]
+
+/// No grain and no wall may go further in a step [m]; what is said of one that would.
+[[nodiscard]] double longest_grain_move(const Scene& scene);
+[[nodiscard]] std::string grain_move_text(const Scene& scene, double way);
+/// Throw InputError.
+void check_wall_speeds(const Scene& scene);
+void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles);
+
+}  // namespace sph

@@ -1,0 +1,70 @@
+// The pairs of grains: half lists, whose contacts carry their history. Histories travel with the grains when rows move,
+// and go back to their pairs; none may be lost or doubled on its way.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sph/core/findings.hpp"
+#include "sph/models/plane_walls.hpp"
+#include "sph/pairs/contact_context.hpp"
+#include "sph/pairs/set_pair.hpp"
+
+namespace sph {
+
+class GrainPairs final : public SetPair {
+ public:
+  /// `walls` stay where they are.
+  GrainPairs(std::size_t set, const Scene& scene, const PositionScale& scale, const PlaneWalls& walls);
+
+  [[nodiscard]] FieldSet constants() const override {
+    return {Field::id, Field::position, Field::radius, Field::mass, Field::group};
+  }
+  [[nodiscard]] bool carries() const override { return true; }
+  [[nodiscard]] decomp::Payload send(const Particles& particles, decomp::Payload arrived) override;
+  void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
+               std::span<const std::uint32_t> order) override;
+  void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
+
+  [[nodiscard]] ContactLists& lists() { return lists_; }
+  [[nodiscard]] const ContactLists& lists() const { return lists_; }
+  [[nodiscard]] std::int64_t touching() const;  ///< listed on this rank, walls not counted
+  /// Of forces and torques on each row.
+  [[nodiscard]] ContactSums& sums() { return sums_; }
+  /// The longest way of this rank's grains, or of a wall, since the lists were made [m].
+  [[nodiscard]] double longest_way(const Particles& particles, const GlobalState& global) const;
+
+  /// Contacts each rank has seen begin, end and come back after rows had moved.
+  struct Counters {
+    std::int64_t created = 0, ended = 0, carried = 0;
+  };
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+  void forget_parted(const Particles& particles);
+  void add(const ContactSweep& swept);
+
+ private:
+  /// Contacts that the lists do not hold though their pairs cannot have parted so far.
+  void find_lost(const Particles& particles, const GlobalState& global, double skin, Findings& lost) const;
+  [[nodiscard]] ContactCensus find_pairs(const Particles& particles, const ListSetting& setting,
+                                         const decomp::Payload& carried,
+                                         std::span<const std::uint32_t> order);
+
+  const Scene* scene_;
+  PositionScale scale_;
+  const PlaneWalls* walls_;
+  ContactLists lists_;
+  std::vector<bool> fixed_;
+  ContactSums sums_;
+  std::size_t sums_a_row_;
+  ContactCensus sent_;  ///< of what travels
+  struct Places {
+    std::vector<std::int64_t> grains;
+    std::vector<std::array<std::int64_t, 3>> walls;
+  };
+  Places listed_;  ///< when the lists were made [quanta]
+  Counters counters_;
+};
+
+}  // namespace sph

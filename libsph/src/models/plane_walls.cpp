@@ -1,0 +1,115 @@
+#include "sph/models/plane_walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sph/core/error.hpp"
+#include "sph/core/findings.hpp"
+#include "sph/core/fixed_point.hpp"
+
+namespace sph {
+
+void PlaneWalls::start(GlobalState& global) const {
+  global.walls.resize(count());
+  for (std::size_t w = 0; w < count(); ++w) global.walls[w].velocity = scene_->walls[w].velocity;
+}
+
+PlaneWalls::Now PlaneWalls::now_of(std::size_t wall, const GlobalState& global) const {
+  const Wall& w = scene_->walls[wall];
+  Now now{true, w.velocity, w.force};
+  for (const WallStage& s : scene_->stages) {
+    if (s.begin > global.time) break;
+    for (const WallChange& c : s.walls) {
+      if (c.wall != static_cast<int>(wall)) continue;
+      now.present = now.present && !c.remove;
+      if (c.velocity) now.velocity = *c.velocity, now.force.reset();
+      if (c.force) now.force = c.force;
+    }
+  }
+  return now;
+}
+
+bool PlaneWalls::present(std::size_t wall, const GlobalState& global) const {
+  return now_of(wall, global).present;
+}
+
+void PlaneWalls::set_stage(GlobalState& global) const {
+  for (std::size_t w = 0; w < count(); ++w) {
+    const Now now = now_of(w, global);
+    if (!now.force) global.walls[w].velocity = now.velocity;
+  }
+}
+
+std::vector<PlaneNow> PlaneWalls::now(const GlobalState& global) const {
+  std::vector<PlaneNow> out;
+  for (std::size_t w = 0; w < count(); ++w) {
+    const Wall& wall = scene_->walls[w];
+    PlaneNow plane{{},
+                   wall.normal,
+                   global.walls[w].velocity,
+                   static_cast<std::uint32_t>(wall.group),
+                   present(w, global)};
+    for (std::size_t a = 0; a < 3; ++a)
+      plane.point[a] = scale_.quanta(wall.point[a]) + global.walls[w].offset[a];
+    out.push_back(plane);
+  }
+  return out;
+}
+
+// A tangential velocity drags the grains; the plane itself moves along its normal only.
+void PlaneWalls::move(GlobalState& global) const {
+  for (std::size_t w = 0; w < count(); ++w) {
+    WallState& state = global.walls[w];
+    const Double3& normal = scene_->walls[w].normal;
+    double along = 0;
+    for (std::size_t a = 0; a < 3; ++a) along += state.velocity[a] * normal[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      state.offset[a] += round_to_quanta(along * normal[a] * global.dt / scale_.quantum);
+  }
+}
+
+void PlaneWalls::push(GlobalState& global, std::span<const std::int64_t> forces) const {
+  for (std::size_t w = 0; w < count(); ++w) {
+    WallState& state = global.walls[w];
+    const Wall& wall = scene_->walls[w];
+    double pressed = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      state.force[a] = forces[3 * w + a];
+      pressed -= newton(state.force[a]) * wall.normal[a];
+    }
+    const Now now = now_of(w, global);
+    if (!now.force || !now.present) continue;
+    const double wanted = wall.servo_gain * (*now.force - pressed);
+    const double speed = std::clamp(wanted, -wall.largest_speed, wall.largest_speed);
+    for (std::size_t a = 0; a < 3; ++a) state.velocity[a] = speed * wall.normal[a];
+  }
+}
+
+double PlaneWalls::longest_way(const GlobalState& global) const {
+  double speed2 = 0;
+  for (const WallState& w : global.walls)
+    speed2 = std::max(speed2, w.velocity[0] * w.velocity[0] + w.velocity[1] * w.velocity[1] +
+                                  w.velocity[2] * w.velocity[2]);
+  return 1.0001 * std::sqrt(speed2) * global.dt;
+}
+
+std::vector<std::int64_t> PlaneWalls::forces(std::span<const std::int64_t> halves,
+                                             const GlobalState& global) const {
+  const std::size_t n = halves.size() / 2;
+  std::vector<std::int64_t> forces(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::int64_t high = halves[n + k] + (halves[k] >> 32);
+    if (high >= std::int64_t{1} << 30 || high < -(std::int64_t{1} << 30))
+      throw GuardError(fmt::format(
+          "{}the force on wall \"{}\", {:.6g} N along {}, is beyond the range of the sums, {:.6g} N; reduce "
+          "time.dt, or what presses on it",
+          step_text(global.step), scene_->walls[k / 3].name,
+          std::ldexp(static_cast<double>(high), 32) * force_quantum_, "xyz"[k % 3], 0x1p62 * force_quantum_));
+    forces[k] = high * (std::int64_t{1} << 32) + (halves[k] & 0xffffffff);
+  }
+  return forces;
+}
+
+}  // namespace sph

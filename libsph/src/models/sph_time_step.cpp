@@ -1,0 +1,74 @@
+#include "sph/models/sph_time_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sph/core/error.hpp"
+#include "sph/laws/eos/law.hpp"
+
+namespace sph {
+
+SphTimeStep::SphTimeStep(const SphConstants& constants)
+    : constants_(&constants), gas_(has_eos(*constants.scene, EosKind::ideal_gas)) {}
+
+double SphTimeStep::longest(const StepMaxima& maxima) const {
+  const Scene& scene = *constants_->scene;
+  if (scene.time.dt) return *scene.time.dt;
+  const double h = scene.smoothing_length;
+  double fastest = maxima.sound, viscous = maxima.viscosity, bulk = 0;
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    // Of a gas that of now counts.
+    if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_->groups.sound_speed[g]);
+    if (scene.total_lagrangian() && constants_->is_wall(static_cast<std::uint32_t>(g))) continue;
+    viscous = std::max(viscous, constants_->groups.viscosity[g] / scene.groups[g].density);
+    bulk = std::max(bulk, scene.groups[g].bulk_viscosity / scene.groups[g].density);
+  }
+  const bool bonds = scene.total_lagrangian();
+  if (bonds || scene.terms.viscosity == ViscosityForm::symmetric) viscous *= 3;  // nu (lap v + 2 grad div v)
+  if (scene.terms.implicit_viscosity) viscous = 0;
+  viscous += bulk;
+  if (!gas_) fastest += maxima.speed;  // of a gas it is in `sound`
+  double dt = scene.time.cfl * h / fastest;
+  // Dashpots beside springs: the rates add.
+  if (bonds && viscous > 0) dt = 1 / (1 / dt + viscous / (0.125 * h * h));
+  if (viscous > 0) dt = std::min(dt, 0.125 * h * h / viscous);
+  // Capillary waves as long as the layer is thick (Brackbill et al. 1992, eq. 61).
+  if (const InterfaceTension& t = scene.terms.surface_tension; t.coefficient > 0) {
+    double density = 0;
+    for (int k : t.between) density += 0.5 * scene.groups[static_cast<std::size_t>(k)].density;
+    dt = std::min(dt, 0.25 * std::sqrt(density * h * h * h / (2 * std::numbers::pi * t.coefficient)));
+  }
+  if (maxima.acceleration > 0) dt = std::min(dt, 0.25 * std::sqrt(h / maxima.acceleration));
+  return dt;
+}
+
+double SphTimeStep::resting(const std::vector<double>& sounds) const {
+  return longest(StepMaxima{0, 0, 0, std::ranges::max(sounds), 0});
+}
+
+double SphTimeStep::courant_number(double dt, const std::vector<double>& sounds) const {
+  return std::ranges::max(sounds) * dt / constants_->scene->smoothing_length;
+}
+
+void SphTimeStep::guard(double sound, const GlobalState& global) const {
+  const Scene& scene = *constants_->scene;
+  if (!scene.time.dt) return;
+  const double limit = courant_limit(scene), courant = sound * *scene.time.dt / scene.smoothing_length;
+  if (!(courant > limit)) return;
+  if (gas_)
+    throw GuardError(
+        fmt::format("step {}: (c + u) dt/h is beyond the limit of {:f}, or the kernels of a gas that expands "
+                    "grow too fast "
+                    "for it; reduce time.dt",
+                    global.step, limit));
+  throw GuardError(
+      fmt::format("step {}: c dt/h = {:.3g} is beyond the integrator's limit {}: pressure has made the "
+                  "matter stiffer than "
+                  "it was at the start; set time.dt to {:.3g} s or less",
+                  global.step, courant, limit, 0.9 * limit / courant * *scene.time.dt));
+}
+
+}  // namespace sph
