@@ -7,6 +7,7 @@
 #include "grain_fixture.hpp"
 #include "sph/laws/contact/hertz.hpp"
 #include "sph/laws/contact/linear.hpp"
+#include "sph/models/grain_limits.hpp"
 
 namespace sph {
 namespace {

@@ -2,30 +2,17 @@
 // lists are made anew, and a message must not tell when that was.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <array>
 #include <cstdint>
 #include <string>
 
-#include "sph/core/findings.hpp"
-#include "sph/pairs/contact_lists.hpp"
 #include "sph/scene/positions.hpp"
 #include "sph/scene/scene.hpp"
 
 namespace sph {
 
-inline std::string text_of_place(const Scene& scene, const PositionScale& scale, const std::int64_t* quanta) {
-  const Wrap wrap = wrap_of(scene, scale);
-  std::array<double, 3> at;
-  for (std::size_t a = 0; a < 3; ++a) at[a] = scale.metres(wrap(static_cast<int>(a), quanta[a]));
-  return place_text(at);
-}
-
-/// A wall or a grain.
-inline std::string text_of_partner(const Scene& scene, std::uint64_t key) {
-  return (key & wall_key) != 0 ? fmt::format("wall \"{}\"", scene.walls[key & ~wall_key].name)
-                               : fmt::format("grain {}", key);
-}
+[[nodiscard]] std::string text_of_place(const Scene& scene, const PositionScale& scale,
+                                        const std::int64_t* quanta);
+/// A wall or a grain, by the key of a contact (wall_key).
+[[nodiscard]] std::string text_of_partner(const Scene& scene, std::uint64_t key);
 
 }  // namespace sph

@@ -5,26 +5,31 @@
 #include <limits>
 #include <span>
 
-#include "output/energies.hpp"
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
+#include "sph/models/energies.hpp"
 #include "sph/output/contact_records.hpp"
 
 namespace sph {
 namespace {
 
-std::vector<std::string> energy_names(const Particles& p) {
-  if (p.has(Field::radius)) return {"kinetic", "rotational", "potential", "elastic"};
-  if (p.has(Field::specific_energy)) return {"kinetic", "potential", "internal", "elastic"};
-  return {"kinetic", "potential", "elastic"};
+/// Those that some model counts.
+std::vector<Energy> energies_of(const State& s) {
+  std::vector<Energy> out;
+  for (const Model* m : s.models())
+    for (Energy e : m->energies())
+      if (std::ranges::find(out, e) == out.end()) out.push_back(e);
+  std::ranges::sort(out);
+  return out;
 }
 
-std::size_t sums_of(const Monitor& monitor, const Particles& p) {
+std::size_t sums_of(const Monitor& monitor, const State& s) {
+  const Particles& p = s.particles();
   switch (monitor.kind) {
     case MonitorKind::group:
       return 2 + ParticleValues::count(p);  // number, mass, moments
     case MonitorKind::energy:
-      return energy_names(p).size();
+      return energies_of(s).size();
     case MonitorKind::momentum:
       return static_cast<std::size_t>(p.dim());
     case MonitorKind::contacts:
@@ -49,22 +54,19 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
     return;
   }
   const Group& group = scene.groups[of.group(row)];
-  // Strained by the solid that it holds, or by bodies that touch it.
-  if (scene.total_lagrangian() && is_held(group) && monitor.kind == MonitorKind::energy)
-    sums.back().add(elastic_energy(scene, of, row));
   if (is_held(group)) return;
   if (monitor.kind == MonitorKind::contacts) {
     if (group.kind == GroupKind::grain) sums[2].add(1);
-  } else if (monitor.kind == MonitorKind::energy) {
-    std::size_t k = 0;
-    sums[k++].add(kinetic_energy(of, row));
-    if (scene.has_grains()) sums[k++].add(rotational_energy(of, row));
-    sums[k++].add(potential_energy(scene, of, row));
-    if (of.particles().has(Field::specific_energy)) sums[k++].add(internal_energy(of, row));
-    if (scene.has_matter()) sums[k].add(elastic_energy(scene, of, row));
-  } else {
+  } else if (monitor.kind == MonitorKind::momentum) {
     for (std::size_t a = 0; a < sums.size(); ++a) sums[a].add(m * of.velocity(row, a));
   }
+}
+
+void add_energies(const State& s, std::span<decomp::ExactSum> sums) {
+  EnergySums all;
+  for (const Model* m : s.models()) m->add_energies(s.particles(m->set()), all);
+  std::size_t k = 0;
+  for (Energy e : energies_of(s)) sums[k++].add(all[e]);
 }
 
 void add_contact(const Monitor& monitor, const ContactRecord& contact, std::span<decomp::ExactSum> sums) {
@@ -138,7 +140,10 @@ void Monitors::make_names(const Simulation& s) {
   for (const Monitor& m : s.scene().output.monitors) {
     std::vector<std::string> quantities = ParticleValues::names(s.particles());
     if (m.kind == MonitorKind::group) quantities.insert(quantities.begin(), "n");
-    if (m.kind == MonitorKind::energy) quantities = energy_names(s.particles());
+    if (m.kind == MonitorKind::energy) {
+      quantities.clear();
+      for (Energy e : energies_of(s)) quantities.emplace_back(energy_names[static_cast<std::size_t>(e)]);
+    }
     if (m.kind == MonitorKind::wall) quantities = {"x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz"};
     if (m.kind == MonitorKind::contacts) quantities = {"n", "walls", "z"};
     if (m.kind == MonitorKind::momentum) {
@@ -157,12 +162,14 @@ std::vector<double> Monitors::values(Simulation& s) const {
 
   const ParticleValues of(s);
   std::vector<std::size_t> first{0};
-  for (const Monitor& m : monitors) first.push_back(first.back() + sums_of(m, s.particles()));
+  for (const Monitor& m : monitors) first.push_back(first.back() + sums_of(m, s));
   std::vector<decomp::ExactSum> sums(first.back());
   const auto part = [&](std::size_t k) { return std::span(sums).subspan(first[k], first[k + 1] - first[k]); };
   for (std::size_t row = 0; row < s.particles().owned(); ++row)
     for (std::size_t k = 0; k < monitors.size(); ++k)
       if (first[k + 1] > first[k]) add_row(s.scene(), monitors[k], of, row, part(k));
+  for (std::size_t k = 0; k < monitors.size(); ++k)
+    if (monitors[k].kind == MonitorKind::energy) add_energies(s, part(k));
   if (contacts)
     for_each_contact(s, [&](const ContactRecord& contact) {
       for (std::size_t k = 0; k < monitors.size() && contact.counted; ++k)
@@ -203,10 +210,12 @@ std::vector<double> Monitors::values(Simulation& s) const {
 }
 
 double kinetic_energy(const Simulation& s) {
-  const ParticleValues of(s);
   decomp::ExactSum sum;
-  for (std::size_t row = 0; row < s.particles().owned(); ++row)
-    if (!is_held(s.scene().groups[of.group(row)])) sum.add(kinetic_energy(of, row));
+  for (const ParticleSet& set : s.sets()) {
+    const Particles& p = set.particles;
+    for (std::size_t row = 0; row < p.owned(); ++row)
+      if (!is_held(s.scene().groups[p.data<Field::group>()[row]])) sum.add(kinetic_energy(p, row));
+  }
   decomp::ExactSum::all_reduce(s.comm(), std::span(&sum, 1));
   return sum.value();
 }

@@ -35,6 +35,8 @@ class Grains final : public Model {
                                                   const GlobalState& global) const override {
     return pairs_.longest_way(particles, global);
   }
+  [[nodiscard]] std::vector<Energy> energies() const override;
+  void add_energies(const Particles& particles, EnergySums& sums) const override;
 
   /// Its stages; it must stay where it is.
   [[nodiscard]] Plan plan();

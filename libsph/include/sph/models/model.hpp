@@ -4,9 +4,11 @@
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "decomp/comm.hpp"
 #include "sph/core/particles.hpp"
+#include "sph/models/energies.hpp"
 #include "sph/plan/plan.hpp"
 #include "sph/plan/reduction.hpp"
 
@@ -59,6 +61,11 @@ class Model {
   }
   /// Faster than that nothing moves that the scene could mean [m/s].
   [[nodiscard]] virtual double speed_limit() const { return std::numeric_limits<double>::infinity(); }
+
+  /// What it counts of a scene's energies, ascending.
+  [[nodiscard]] virtual std::vector<Energy> energies() const { return {}; }
+  /// Of this rank's particles.
+  virtual void add_energies(const Particles&, EnergySums&) const {}
 
  private:
   std::size_t set_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sph/models/gas.hpp"
 #include "sph/models/model.hpp"
@@ -29,6 +30,8 @@ class Physics final : public Model {
   [[nodiscard]] double longest_look_back(const GlobalState& global) const override;
   [[nodiscard]] double growth(const Reduction& reduction) const override { return reduction[in_.growth]; }
   [[nodiscard]] double speed_limit() const override;
+  [[nodiscard]] std::vector<Energy> energies() const override;
+  void add_energies(const Particles& particles, EnergySums& sums) const override;
 
   [[nodiscard]] FieldSet fields() const { return builder_.fields(); }
   [[nodiscard]] const Plan& plan() const { return builder_.plan(); }

@@ -40,7 +40,9 @@ class State {
   [[nodiscard]] const Physics* physics() const { return parts_.physics ? &*parts_.physics : nullptr; }
   [[nodiscard]] const NeighbourLists& lists() const { return parts_.sph_pairs->lists(); }
   [[nodiscard]] const Grains* grains() const { return parts_.grains ? &*parts_.grains : nullptr; }
-  [[nodiscard]] bool has_history() const { return grains() != nullptr && grains()->pairs().lists().history() > 0; }
+  [[nodiscard]] bool has_history() const {
+    return grains() != nullptr && grains()->pairs().lists().history() > 0;
+  }
   /// Histories of this rank's contacts, one entry per contact of a row of particles(): what is checkpointed.
   [[nodiscard]] decomp::Payload contacts() const;
 

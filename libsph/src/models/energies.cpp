@@ -1,0 +1,28 @@
+#include "sph/models/energies.hpp"
+
+namespace sph {
+
+bool is_held(const Group& group) { return group.kind == GroupKind::wall || group.grain.fixed; }
+
+double kinetic_energy(const Particles& p, std::size_t row) {
+  const auto d = static_cast<std::size_t>(p.dim());
+  const double* v = p.data<Field::velocity>() + row * d;
+  double v2 = 0;
+  for (std::size_t a = 0; a < d; ++a) v2 += v[a] * v[a];
+  return 0.5 * p.data<Field::mass>()[row] * v2;
+}
+
+double potential_energy(const Scene& scene, const PositionScale& scale, const Wrap& wrap, const Particles& p,
+                        std::size_t row) {
+  const auto d = static_cast<std::size_t>(p.dim());
+  double work = 0;
+  for (std::size_t a = 0; a < d; ++a) {
+    const double x = scale.metres(wrap(static_cast<int>(a), p.data<Field::position>()[row * d + a]));
+    const double away = x - scene.pull_centre[a];
+    work += scene.gravity[a] * x;
+    work -= 0.5 * scene.central_pull * (away * away);
+  }
+  return -p.data<Field::mass>()[row] * work;
+}
+
+}  // namespace sph

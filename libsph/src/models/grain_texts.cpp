@@ -1,0 +1,24 @@
+#include "models/grain_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "sph/core/findings.hpp"
+#include "sph/pairs/contact_lists.hpp"
+
+namespace sph {
+
+std::string text_of_place(const Scene& scene, const PositionScale& scale, const std::int64_t* quanta) {
+  const Wrap wrap = wrap_of(scene, scale);
+  std::array<double, 3> at;
+  for (std::size_t a = 0; a < 3; ++a) at[a] = scale.metres(wrap(static_cast<int>(a), quanta[a]));
+  return place_text(at);
+}
+
+std::string text_of_partner(const Scene& scene, std::uint64_t key) {
+  return (key & wall_key) != 0 ? fmt::format("wall \"{}\"", scene.walls[key & ~wall_key].name)
+                               : fmt::format("grain {}", key);
+}
+
+}  // namespace sph

@@ -1,0 +1,45 @@
+// Energies of fluids and solids (output/monitors.hpp has the formulas).
+#include <algorithm>
+
+#include "sph/laws/eos/law.hpp"
+#include "sph/models/physics.hpp"
+
+namespace sph {
+namespace {
+
+/// Of compression, and of the deviator of stress in solids.
+double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
+  if (const double* strain = p.data<Field::strain_energy>()) return strain[row];
+  const auto d = static_cast<std::size_t>(p.dim());
+  const Group& g = scene.groups[p.data<Field::group>()[row]];
+  const double m = p.data<Field::mass>()[row], rho = p.data<Field::density>()[row];
+  const double* liquid = p.data<Field::liquid_density>();
+  double energy = m * (g.bulk_modulus / g.density) * g.eos->energy(g, liquid != nullptr ? liquid[row] : rho);
+  if (g.kind != GroupKind::solid || scene.formulation != Formulation::conservative) return energy;
+  const std::size_t n = d * (d + 1) / 2;
+  const double* s = p.data<Field::stress>() + row * n;
+  double product = d == 2 ? (s[0] + s[1]) * (s[0] + s[1]) : 0.0;  // of the zz component in plane strain
+  for (std::size_t k = 0; k < n; ++k) product += (k < d ? 1.0 : 2.0) * (s[k] * s[k]);
+  return energy + m / rho * product / (4 * g.shear_modulus);
+}
+
+}  // namespace
+
+std::vector<Energy> Physics::energies() const {
+  if (gas_) return {Energy::kinetic, Energy::potential, Energy::internal, Energy::elastic};
+  return {Energy::kinetic, Energy::potential, Energy::elastic};
+}
+
+void Physics::add_energies(const Particles& p, EnergySums& sums) const {
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const bool held = is_held(scene_->groups[p.data<Field::group>()[i]]);
+    // Walls are strained by the solid that they hold, or by bodies that touch them.
+    if (!held || scene_->total_lagrangian()) sums[Energy::elastic].add(elastic_energy(*scene_, p, i));
+    if (held) continue;
+    sums[Energy::kinetic].add(kinetic_energy(p, i));
+    sums[Energy::potential].add(potential_energy(*scene_, constants_.scale, constants_.wrap, p, i));
+    if (gas_) sums[Energy::internal].add(p.data<Field::mass>()[i] * p.data<Field::specific_energy>()[i]);
+  }
+}
+
+}  // namespace sph
