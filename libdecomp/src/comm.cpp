@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
 
+#include "ordered_key.hpp"
 #include "transfer.hpp"
 
 namespace decomp {
@@ -22,35 +22,12 @@ void all_reduce(std::span<T> values, MPI_Datatype type, MPI_Op op, MPI_Comm comm
   });
 }
 
-// Doubles are compared as integers of the same order. MPI_MAX on doubles would depend on the order of the
-// ranks for NaN and for -0 against +0; here -0 < +0, and a NaN anywhere is the result.
-std::int64_t ordered_key(double x) {
-  const auto bits = std::bit_cast<std::int64_t>(x);
-  return bits ^ ((bits >> 63) & std::numeric_limits<std::int64_t>::max());
-}
-
-double from_ordered_key(std::int64_t key) {
-  const auto x = std::bit_cast<double>(key ^ ((key >> 63) & std::numeric_limits<std::int64_t>::max()));
-  return std::isnan(x) ? std::numeric_limits<double>::quiet_NaN() : x;
-}
-
 void extremum(std::span<double> values, std::int64_t key_of_nan, MPI_Op op, MPI_Comm comm) {
   std::vector<std::int64_t> keys(values.size());
   std::transform(values.begin(), values.end(), keys.begin(),
                  [&](double x) { return std::isnan(x) ? key_of_nan : ordered_key(x); });
   all_reduce(std::span(keys), MPI_INT64_T, op, comm);
   std::transform(keys.begin(), keys.end(), values.begin(), from_ordered_key);
-}
-
-/// Words are { their number, the number of maxima, keys of maxima..., integers to add... }.
-void combine(void* in, void* in_out, int* records, MPI_Datatype*) {
-  const auto* from = static_cast<const std::int64_t*>(in);
-  auto* to = static_cast<std::int64_t*>(in_out);
-  for (int r = 0; r < *records; ++r, from += from[0], to += to[0]) {
-    const std::int64_t sums_begin = 2 + from[1];
-    for (std::int64_t k = 2; k < sums_begin; ++k) to[k] = std::max(to[k], from[k]);
-    for (std::int64_t k = sums_begin; k < from[0]; ++k) to[k] += from[k];
-  }
 }
 
 }  // namespace
@@ -79,23 +56,6 @@ Comm::~Comm() {
 
 void Comm::max(std::span<double> values) const {
   extremum(values, std::numeric_limits<std::int64_t>::max(), MPI_MAX, comm_);
-}
-void Comm::max_and_sum(std::span<double> maxima, std::span<std::int64_t> sums) const {
-  std::vector<std::int64_t> words{static_cast<std::int64_t>(2 + maxima.size() + sums.size()),
-                                  static_cast<std::int64_t>(maxima.size())};
-  for (double x : maxima)
-    words.push_back(std::isnan(x) ? std::numeric_limits<std::int64_t>::max() : ordered_key(x));
-  words.insert(words.end(), sums.begin(), sums.end());
-  MPI_Datatype record = MPI_DATATYPE_NULL;
-  MPI_Op op = MPI_OP_NULL;
-  check_mpi(MPI_Type_contiguous(static_cast<int>(words.size()), MPI_INT64_T, &record), "MPI_Type_contiguous");
-  check_mpi(MPI_Type_commit(&record), "MPI_Type_commit");
-  check_mpi(MPI_Op_create(combine, 1, &op), "MPI_Op_create");
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, words.data(), 1, record, op, comm_), "MPI_Allreduce");
-  check_mpi(MPI_Op_free(&op), "MPI_Op_free");
-  check_mpi(MPI_Type_free(&record), "MPI_Type_free");
-  for (std::size_t k = 0; k < maxima.size(); ++k) maxima[k] = from_ordered_key(words[2 + k]);
-  std::copy(words.begin() + 2 + static_cast<std::ptrdiff_t>(maxima.size()), words.end(), sums.begin());
 }
 void Comm::min(std::span<double> values) const {
   extremum(values, std::numeric_limits<std::int64_t>::min(), MPI_MIN, comm_);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "decomp/comm.hpp"
+#include "decomp/combined_reduction.hpp"
 
 namespace {
 
@@ -65,8 +65,11 @@ TEST(Comm, extrema_of_doubles_do_not_depend_on_the_order_of_ranks) {
                              here ? minus_nan : inf};
     std::vector<double> least{here ? -3.5 : 2.5, here ? tiny : inf, here ? -0.0 : 0.0,
                               here ? -minus_nan : -inf};
+    std::vector<double> together = most;
+    std::vector<std::int64_t> total{1, special};
     comm.max(most);
     comm.min(least);
+    max_and_sum(comm, together, total);
     EXPECT_EQ(most[0], 3.5);
     EXPECT_EQ(most[1], -tiny);
     EXPECT_EQ(std::bit_cast<std::uint64_t>(most[2]), std::bit_cast<std::uint64_t>(0.0));
@@ -76,6 +79,8 @@ TEST(Comm, extrema_of_doubles_do_not_depend_on_the_order_of_ranks) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(least[2]), std::bit_cast<std::uint64_t>(-0.0));
     EXPECT_TRUE(std::isnan(least[3]));
     EXPECT_EQ(std::bit_cast<std::uint64_t>(most[3]), std::bit_cast<std::uint64_t>(least[3]));
+    EXPECT_EQ(std::memcmp(together.data(), most.data(), most.size() * sizeof(double)), 0);
+    EXPECT_EQ(total, (std::vector<std::int64_t>{comm.size(), special * comm.size()}));
   }
 }
 

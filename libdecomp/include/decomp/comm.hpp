@@ -32,8 +32,6 @@ class Comm {
   void sum(std::span<std::int64_t> values) const;
   void sum(std::span<std::uint64_t> values) const;  ///< modulo 2^64
   void bit_xor(std::span<std::uint64_t> values) const;
-  /// Both in one message: maxima in place, sums in place.
-  void max_and_sum(std::span<double> maxima, std::span<std::int64_t> sums) const;
   [[nodiscard]] std::int64_t max(std::int64_t value) const;
   [[nodiscard]] std::int64_t sum(std::int64_t value) const;
   [[nodiscard]] std::int64_t exclusive_sum(std::int64_t value) const;  ///< sum over lower ranks; 0 on rank 0

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "decomp/combined_reduction.hpp"
 #include "decomp/timer.hpp"
 
 namespace decomp {
@@ -75,7 +76,7 @@ std::optional<Cuts> Balancer::next(const Comm& comm, const Cuts& now, double cos
   // The rank that came last did not wait for others: what the others waited is imbalance, not work.
   std::array<double, 2> largest{-last_seconds_, -migrating_};
   std::array<std::int64_t, 2> rows{sent_, rows_};
-  comm.max_and_sum(largest, rows);
+  max_and_sum(comm, largest, rows);
   const double deciding = -largest[0], migrating = -largest[1];
   const std::vector<double> costs = comm.all_gather(std::exchange(cost_, 0.0));
   const double mean = std::accumulate(costs.begin(), costs.end(), 0.0) / comm.size();

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "decomp/comm.hpp"
+#include "decomp/combined_reduction.hpp"
 
 namespace sph {
 
@@ -54,7 +54,7 @@ class Reduction {
     if (sums_.empty())
       comm.max(maxima_);
     else
-      comm.max_and_sum(maxima_, sums_);
+      decomp::max_and_sum(comm, maxima_, sums_);
   }
 
  private:
