@@ -18,7 +18,7 @@ namespace {
 
 class Run {
  public:
-  Run(RunStart start, const RunOptions& options, RunControl::Clock::time_point begin, Failure& failure)
+  Run(RunStart start, const RunOptions& options, WallClock::time_point begin, Failure& failure)
       : simulation_(*start.simulation),
         files_(start.memory ? RunFiles(simulation_, start.dir, start.old_scene, *start.memory,
                                        simulation_.global().step + (finished() ? 0 : 1))
@@ -111,10 +111,10 @@ class Run {
 
   void checkpoint() {
     const auto timing = simulation_.timers().time(decomp::Region::output);
-    const auto begin = RunControl::Clock::now();
+    const auto begin = WallClock::now();
     files_.write_checkpoint(simulation_);
     checkpoint_ = simulation_.global().step;
-    control_.checkpoint_took(std::chrono::duration<double>(RunControl::Clock::now() - begin).count());
+    control_.checkpoint_took(seconds_since(begin));
   }
 
   int done() {
@@ -152,7 +152,7 @@ class Run {
 }  // namespace
 
 int run_case(const RunOptions& options, const decomp::Comm& comm, Failure& failure) {
-  const auto begin = RunControl::Clock::now();
+  const auto begin = WallClock::now();
   RunStart start = options.resume.empty() ? start_new(options, comm) : start_again(options, comm);
   const Simulation& simulation = *start.simulation;
   if (start.memory && is_finished(simulation.scene(), simulation.global()) &&

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 
 #include "sph/run/run.hpp"
 
@@ -34,6 +35,8 @@ extern "C" void on_signal(int number) {
   if (seconds - told_to_end >= insistence) _exit(128 + SIGTERM);
 }
 
+constexpr double seconds_between_looks = 0.25;  // a metadata call may be slow on a shared disk
+
 }  // namespace
 
 void install_signal_handlers() {
@@ -51,38 +54,42 @@ void restore_signal_handlers() {
   if (told_to_end != 0) std::raise(SIGTERM);
 }
 
-RunControl::RunControl(int rank, Clock::time_point begin, const OutputControl& output,
+void TimeLimit::step_begins() {
+  if (last_step_) longest_step_ = std::max(longest_step_, seconds_since(*last_step_));
+  last_step_ = WallClock::now();
+}
+
+bool TimeLimit::reached() const {
+  const double needed = 2 * longest_step_ + 2 * checkpoint_seconds_;
+  return max_seconds_ && seconds_since(begin_) + needed >= *max_seconds_;
+}
+
+RunControl::RunControl(int rank, WallClock::time_point begin, const OutputControl& output,
                        std::filesystem::path stop_file, std::optional<double> max_seconds)
     : rank_(rank),
-      checkpoint_interval_(output.checkpoint_interval),
-      status_interval_(output.status_interval),
+      status_(output.status_interval),
+      checkpoint_(output.checkpoint_interval > 0 ? output.checkpoint_interval
+                                                 : std::numeric_limits<double>::infinity()),
+      limit_(begin, max_seconds),
       stop_file_(std::move(stop_file)),
-      max_seconds_(max_seconds),
-      begin_(begin) {}
+      look_(seconds_between_looks) {}
 
 bool RunControl::stop_file_found() {
-  constexpr double seconds_between_looks = 0.25;  // a metadata call may be slow on a shared disk
-  if (seconds_since(last_look_) < seconds_between_looks) return false;
-  last_look_ = Clock::now();
+  if (!look_.due()) return false;
+  look_.reset();
   std::error_code none;
   return std::filesystem::is_regular_file(stop_file_, none);
 }
 
 Wish RunControl::wish(bool failed) {
   if (failed) return Wish::give_up;
-  if (last_wish_) longest_step_ = std::max(longest_step_, seconds_since(*last_wish_));
-  last_wish_ = Clock::now();
-  if (rank_ == 0) {
-    const double needed = 2 * longest_step_ + 2 * checkpoint_seconds_;
-    stopping_ =
-        stopping_ || (max_seconds_ && seconds_since(begin_) + needed >= *max_seconds_) || stop_file_found();
-  }
+  limit_.step_begins();
+  if (rank_ == 0) stopping_ = stopping_ || limit_.reached() || stop_file_found();
   if (stopping_ || stop_signal != 0) return Wish::stop;
   if (checkpoint_signal != 0) return Wish::checkpoint;
   if (rank_ != 0) return Wish::none;
-  if (checkpoint_interval_ > 0 && seconds_since(last_checkpoint_) >= checkpoint_interval_)
-    return Wish::checkpoint;
-  if (seconds_since(last_status_) >= status_interval_) return Wish::status;
+  if (checkpoint_.due()) return Wish::checkpoint;
+  if (status_.due()) return Wish::status;
   return Wish::none;
 }
 
@@ -92,7 +99,7 @@ void RunControl::granted(Wish wish) {
     case Wish::give_up:
       return;
     case Wish::status:
-      last_status_ = Clock::now();
+      status_.reset();
       return;
     case Wish::stop: {
       // Else it would stop the resumed run.
@@ -103,7 +110,7 @@ void RunControl::granted(Wish wish) {
     }
     case Wish::checkpoint:
       checkpoint_signal = 0;
-      last_checkpoint_ = Clock::now();
+      checkpoint_.reset();
   }
 }
 

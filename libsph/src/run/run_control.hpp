@@ -14,35 +14,61 @@ namespace sph {
 
 enum class Wish : std::int64_t { none, status, checkpoint, stop, give_up };
 
+using WallClock = std::chrono::steady_clock;
+
+[[nodiscard]] inline double seconds_since(WallClock::time_point t) {
+  return std::chrono::duration<double>(WallClock::now() - t).count();
+}
+
+/// Due so many seconds after it was reset, or made.
+class Alarm {
+ public:
+  explicit Alarm(double seconds) : seconds_(seconds) {}
+  [[nodiscard]] bool due() const { return seconds_since(last_) >= seconds_; }
+  void reset() { last_ = WallClock::now(); }
+
+ private:
+  double seconds_;
+  WallClock::time_point last_ = WallClock::now();
+};
+
+/// --max-time, which must leave time for the step under way and a checkpoint after it.
+class TimeLimit {
+ public:
+  TimeLimit(WallClock::time_point begin, std::optional<double> max_seconds)
+      : begin_(begin), max_seconds_(max_seconds) {}
+  void step_begins();
+  void checkpoint_took(double seconds) { checkpoint_seconds_ = seconds; }
+  [[nodiscard]] bool reached() const;
+
+ private:
+  WallClock::time_point begin_;
+  std::optional<double> max_seconds_;
+  std::optional<WallClock::time_point> last_step_;
+  double longest_step_ = 0, checkpoint_seconds_ = 0;
+};
+
 class RunControl {
  public:
-  using Clock = std::chrono::steady_clock;
   /// `begin` is when the program started, as far as --max-time is concerned.
-  RunControl(int rank, Clock::time_point begin, const OutputControl& output, std::filesystem::path stop_file,
-             std::optional<double> max_seconds);
+  RunControl(int rank, WallClock::time_point begin, const OutputControl& output,
+             std::filesystem::path stop_file, std::optional<double> max_seconds);
 
   /// `failed`: this rank cannot write, and the ranks must meet to give up.
   [[nodiscard]] Wish wish(bool failed);
   void granted(Wish wish);
   /// How long the last checkpoint took, so that --max-time leaves time for another.
-  void checkpoint_took(double seconds) { checkpoint_seconds_ = seconds; }
+  void checkpoint_took(double seconds) { limit_.checkpoint_took(seconds); }
 
  private:
-  [[nodiscard]] static double seconds_since(Clock::time_point t) {
-    return std::chrono::duration<double>(Clock::now() - t).count();
-  }
   [[nodiscard]] bool stop_file_found();
 
   int rank_;
-  double checkpoint_interval_, status_interval_;
+  Alarm status_, checkpoint_;
+  TimeLimit limit_;
   std::filesystem::path stop_file_;
-  std::optional<double> max_seconds_;
-  double checkpoint_seconds_ = 0;
-  double longest_step_ = 0;
+  Alarm look_;  ///< for the stop file
   bool stopping_ = false;
-  Clock::time_point begin_, last_status_ = Clock::now(), last_checkpoint_ = last_status_,
-                            last_look_ = last_status_;
-  std::optional<Clock::time_point> last_wish_;
 };
 
 }  // namespace sph
