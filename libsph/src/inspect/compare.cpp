@@ -103,8 +103,8 @@ void compare_contacts(const StateFile& a, const StateFile& b, const Ids& ids_a, 
 
 /// A field that only one of two files has counts unless the other is a snapshot, which need not have it.
 std::string missing_field(const StateSummary& a, const StateSummary& b) {
-  for (Field f : a.fields)
-    if (std::find(b.fields.begin(), b.fields.end(), f) == b.fields.end() &&
+  for (Field f : a.contents.fields)
+    if (std::find(b.contents.fields.begin(), b.contents.fields.end(), f) == b.contents.fields.end() &&
         (a.kind == b.kind || info(f).snapshot))
       return fmt::format("field {}: only in {}", info(f).name, a.path.string());
   return {};
@@ -158,8 +158,8 @@ std::string first_difference(const std::filesystem::path& path_a, const std::fil
   const Ids ids_b = sorted_ids(*b);
   if (std::string text = missing_particle(*a, *b, ids_a, ids_b); !text.empty()) return text;
   Lowest lowest{ids_a.id.size(), {}};
-  for (Field f : x.fields)
-    if (std::find(y.fields.begin(), y.fields.end(), f) != y.fields.end())
+  for (Field f : x.contents.fields)
+    if (std::find(y.contents.fields.begin(), y.contents.fields.end(), f) != y.contents.fields.end())
       compare_field(*a, *b, ids_a, ids_b, f, lowest);
   compare_contacts(*a, *b, ids_a, ids_b, lowest);
   if (lowest.index < ids_a.id.size()) return lowest.text;
@@ -170,9 +170,9 @@ std::string describe(const std::filesystem::path& path) {
   const std::unique_ptr<StateFile> file = open_state(path);
   const StateSummary& s = file->summary();
   std::string fields;
-  for (Field f : s.fields) fields += fmt::format("{}{}", fields.empty() ? "" : ", ", info(f).name);
+  for (Field f : s.contents.fields) fields += fmt::format("{}{}", fields.empty() ? "" : ", ", info(f).name);
   std::string others;
-  for (const std::string& name : s.other_fields) others += ", " + name;
+  for (const std::string& name : s.contents.other_fields) others += ", " + name;
 
   std::string out;
   const auto to = std::back_inserter(out);
@@ -180,11 +180,12 @@ std::string describe(const std::filesystem::path& path) {
   fmt::format_to(to, "step {}  t {} s  dt {} s\n", s.global.step, s.global.time, s.global.dt);
   fmt::format_to(to, "{} particles in {} dimensions, positions in quanta of {:a} m\n", s.rows, s.dim,
                  s.scale.quantum);
-  fmt::format_to(to, "state: {}{}\n", fields, s.history ? ", contact history" : "");
-  if (s.contacts) fmt::format_to(to, "contacts {}\n", *s.contacts);
+  fmt::format_to(to, "state: {}{}\n", fields, s.contents.history ? ", contact history" : "");
+  if (s.contents.contacts) fmt::format_to(to, "contacts {}\n", *s.contents.contacts);
   if (!others.empty()) fmt::format_to(to, "derived: {}\n", others.substr(2));
   fmt::format_to(to, "fingerprint {}\n", s.fingerprint);
-  fmt::format_to(to, "peperite {} ({}), {}, {}\n", s.version, s.git, s.compiler, s.flags);
+  fmt::format_to(to, "peperite {} ({}), {}, {}\n", s.program.version, s.program.git, s.program.compiler,
+                 s.program.flags);
   fmt::format_to(to, "scene:\n{}", s.scene_toml);
   if (!out.ends_with('\n')) out += '\n';
   return out;

@@ -14,6 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+BuildInfo build_of(std::string version, std::string git, std::string compiler, std::string flags) {
+  BuildInfo b;
+  b.version = std::move(version);
+  b.git = std::move(git);
+  b.compiler = std::move(compiler);
+  b.flags = std::move(flags);
+  return b;
+}
+
 class CheckpointFile : public StateFile {
  public:
   CheckpointFile(const fs::path& dir, const Manifest& m)
@@ -23,15 +32,10 @@ class CheckpointFile : public StateFile {
                    m.rows(),
                    m.record.global,
                    m.record.scale,
-                   m.fields,
-                   {},
-                   m.history,
+                   {.fields = m.fields, .other_fields = {}, .history = m.history},
                    m.provenance.fingerprint,
                    m.record.scene_toml,
-                   m.version,
-                   m.git,
-                   m.compiler,
-                   m.flags}),
+                   build_of(m.version, m.git, m.compiler, m.flags)}),
         manifest_(m) {}
 
   [[nodiscard]] std::vector<std::byte> column(Field field) const override {
@@ -95,18 +99,15 @@ class SnapshotFile : public StateFile {
       if (!file.has(set_of(i.field))) continue;
       // The stress of a grain is derived from its contacts.
       if (i.state && !(i.field == Field::stress && file.has(set_of(Field::radius))))
-        s.fields.push_back(i.field);
+        s.contents.fields.push_back(i.field);
       else
-        s.other_fields.emplace_back(i.name);
+        s.contents.other_fields.emplace_back(i.name);
     }
-    if (file.has("particles/coordination")) s.other_fields.emplace_back("coordination");
-    if (file.has("contacts/id")) s.contacts = file.rows("contacts/id");
+    if (file.has("particles/coordination")) s.contents.other_fields.emplace_back("coordination");
+    if (file.has("contacts/id")) s.contents.contacts = file.rows("contacts/id");
     s.fingerprint = file.text("fingerprint");
     s.scene_toml = file.text("scene");
-    s.version = file.text("version");
-    s.git = file.text("git");
-    s.compiler = file.text("compiler");
-    s.flags = file.text("flags");
+    s.program = build_of(file.text("version"), file.text("git"), file.text("compiler"), file.text("flags"));
     return s;
   }
 
@@ -121,7 +122,7 @@ void try_snapshot(const fs::path& path) {
     const Hdf5Reader file(path);
     const StateSummary& s = snapshot.summary();
     std::vector<std::byte> row;
-    for (Field field : s.fields) {
+    for (Field field : s.contents.fields) {
       const std::string set = set_of(field);
       row.resize(width(field, s.dim));
       if (s.rows == file.rows(set) && s.rows > 0 &&

@@ -10,8 +10,17 @@
 
 #include "decomp/table.hpp"
 #include "sph/core/particles.hpp"
+#include "sph/files/provenance.hpp"
 
 namespace sph {
+
+/// What of the particles a file holds.
+struct StateContents {
+  std::vector<Field> fields;  ///< state, in the order of the field table
+  std::vector<std::string> other_fields;
+  bool history = false;                                  ///< contact histories
+  std::optional<std::uint64_t> contacts = std::nullopt;  ///< rows of a snapshot's contacts, if it has them
+};
 
 struct StateSummary {
   std::string kind;  ///< "snapshot" or "checkpoint"
@@ -20,11 +29,9 @@ struct StateSummary {
   std::uint64_t rows = 0;
   GlobalState global;
   PositionScale scale;
-  std::vector<Field> fields;  ///< state, in the order of the field table
-  std::vector<std::string> other_fields;
-  bool history = false;  ///< are contact histories stored
-  std::string fingerprint, scene_toml, version, git, compiler, flags;
-  std::optional<std::uint64_t> contacts = std::nullopt;  ///< rows of a snapshot's contacts, if it has them
+  StateContents contents;
+  std::string fingerprint, scene_toml;
+  BuildInfo program;  ///< that wrote it: version, git, compiler and flags
 };
 
 class StateFile {
@@ -34,7 +41,7 @@ class StateFile {
   StateFile(const StateFile&) = delete;
   StateFile& operator=(const StateFile&) = delete;
   [[nodiscard]] const StateSummary& summary() const { return summary_; }
-  /// All rows of a field that summary().fields names.
+  /// All rows of a field that summary().contents.fields names.
   [[nodiscard]] virtual std::vector<std::byte> column(Field field) const = 0;
   [[nodiscard]] virtual std::optional<decomp::Payload> history() const { return std::nullopt; }
 
