@@ -34,7 +34,7 @@ using Repeats = std::array<Repeat, 3>;
 
 /// A snapshot knows the length of its domain: another period would leave gaps or overlaps at every seam.
 void check_lengths(const Scene& scene, const StartRows& rows) {
-  if (rows.quanta.empty()) return;
+  if (rows.position.quanta.empty()) return;
   constexpr double rounding = 1e-9;
   const std::string& file = scene.start.tile.file;
   const Scene settled = parse_scene(Hdf5Reader(file).text("scene"), file, {});

@@ -29,8 +29,8 @@ void check_finite(const StartRows& rows, std::size_t k, const char* column, cons
 
 /// Lists and cells are made for the radii that the scene names.
 void check_radius(const StartRows& rows, std::size_t k, const Group& group) {
-  if (rows.radius.empty()) return;
-  const double r = rows.radius[k];
+  if (rows.grains.radius.empty()) return;
+  const double r = rows.grains.radius[k];
   if (!(r > 0)) fail_row(rows, k, fmt::format("radius is {}; it must be positive", r));
   const GrainMaterial& g = group.grain;
   if (!(g.largest_radius > 0))
@@ -61,33 +61,34 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
   const auto d = static_cast<std::size_t>(scene.dim);
   if (rows.id[k] > largest_id)
     fail_row(rows, k, fmt::format("id is {}; it must be at most 2^63 - 1 = {}", rows.id[k], largest_id));
-  check_finite(rows, k, "x", rows.x, d);
+  check_finite(rows, k, "x", rows.position.x, d);
   check_finite(rows, k, "v", rows.v, d);
-  check_finite(rows, k, "rho", rows.rho, 1);
-  check_finite(rows, k, "m", rows.gas, 1);
-  check_finite(rows, k, "u", rows.energy, 1);
-  check_finite(rows, k, "mass", rows.mass, 1);
-  check_finite(rows, k, "stress", rows.stress, d * (d + 1) / 2);
-  check_finite(rows, k, "radius", rows.radius, 1);
-  check_finite(rows, k, "spin", rows.spin, d);
+  check_finite(rows, k, "rho", rows.matter.rho, 1);
+  check_finite(rows, k, "m", rows.matter.gas, 1);
+  check_finite(rows, k, "u", rows.matter.energy, 1);
+  check_finite(rows, k, "mass", rows.matter.mass, 1);
+  check_finite(rows, k, "stress", rows.matter.stress, d * (d + 1) / 2);
+  check_finite(rows, k, "radius", rows.grains.radius, 1);
+  check_finite(rows, k, "spin", rows.grains.spin, d);
   if (rows.group[k] >= scene.groups.size())
     fail_row(rows, k,
              fmt::format("group {} is not in the scene, which has {}", rows.group[k], scene.groups.size()));
-  if (!rows.rho.empty() && !(rows.rho[k] > 0))
-    fail_row(rows, k, fmt::format("rho is {}; it must be positive", rows.rho[k]));
-  if (!rows.mass.empty() && !(rows.mass[k] > 0))
-    fail_row(rows, k, fmt::format("mass is {}; it must be positive", rows.mass[k]));
-  if (!rows.gas.empty() && !(rows.gas[k] >= 0 && rows.gas[k] < 1))
-    fail_row(rows, k, fmt::format("m is {}; it must be at least 0 and below 1", rows.gas[k]));
-  if (!rows.energy.empty() && scene.groups[rows.group[k]].eos->kind == EosKind::ideal_gas &&
-      !(rows.energy[k] > 0))
-    fail_row(rows, k, fmt::format("u is {}; it must be positive", rows.energy[k]));
+  if (!rows.matter.rho.empty() && !(rows.matter.rho[k] > 0))
+    fail_row(rows, k, fmt::format("rho is {}; it must be positive", rows.matter.rho[k]));
+  if (!rows.matter.mass.empty() && !(rows.matter.mass[k] > 0))
+    fail_row(rows, k, fmt::format("mass is {}; it must be positive", rows.matter.mass[k]));
+  if (!rows.matter.gas.empty() && !(rows.matter.gas[k] >= 0 && rows.matter.gas[k] < 1))
+    fail_row(rows, k, fmt::format("m is {}; it must be at least 0 and below 1", rows.matter.gas[k]));
+  if (!rows.matter.energy.empty() && scene.groups[rows.group[k]].eos->kind == EosKind::ideal_gas &&
+      !(rows.matter.energy[k] > 0))
+    fail_row(rows, k, fmt::format("u is {}; it must be positive", rows.matter.energy[k]));
   check_radius(rows, k, scene.groups[rows.group[k]]);
   // Far outside, the coordinate in quanta would overflow.
   constexpr double periods = 2;
   for (std::size_t a = 0; a < d; ++a) {
-    const double x =
-        rows.quanta.empty() ? rows.x[k * d + a] : static_cast<double>(rows.quanta[k * d + a]) * rows.quantum;
+    const double x = rows.position.quanta.empty()
+                         ? rows.position.x[k * d + a]
+                         : static_cast<double>(rows.position.quanta[k * d + a]) * rows.position.quantum;
     const double margin = periods * (scene.upper[a] - scene.lower[a]);
     if (!(x >= scene.lower[a] - margin && x <= scene.upper[a] + margin))
       fail_row(rows, k, fmt::format("particle {} lies outside the domain", rows.id[k]));
@@ -98,12 +99,12 @@ decomp::Int3 quanta_of(const StartRows& rows, std::size_t k, const PositionScale
   const auto d = static_cast<std::size_t>(dim);
   decomp::Int3 out{};
   for (std::size_t a = 0; a < d; ++a) {
-    if (rows.quanta.empty())
-      out[a] = scale.quanta(rows.x[k * d + a]);
-    else if (rows.quantum == scale.quantum)
-      out[a] = rows.quanta[k * d + a];
+    if (rows.position.quanta.empty())
+      out[a] = scale.quanta(rows.position.x[k * d + a]);
+    else if (rows.position.quantum == scale.quantum)
+      out[a] = rows.position.quanta[k * d + a];
     else
-      out[a] = scale.quanta(static_cast<double>(rows.quanta[k * d + a]) * rows.quantum);
+      out[a] = scale.quanta(static_cast<double>(rows.position.quanta[k * d + a]) * rows.position.quantum);
   }
   return out;
 }
@@ -114,27 +115,28 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
   const auto d = static_cast<std::size_t>(scene.dim), n = d * (d + 1) / 2;
   NewParticle p{id, {}, {}, rows.group[k], 0, 0};
   for (std::size_t a = 0; a < d; ++a) p.position[a] = scale.metres(quanta[a]);
-  if (!rows.radius.empty()) p.radius = rows.radius[k];
+  if (!rows.grains.radius.empty()) p.radius = rows.grains.radius[k];
   fields.set(p);
   const bool fixed = scene.groups[p.group].grain.fixed;
   for (std::size_t a = 0; a < d && !fixed; ++a) {
     p.velocity[a] = rows.v[k * d + a];
-    if (!rows.spin.empty()) p.spin[a] = rows.spin[k * d + a];
+    if (!rows.grains.spin.empty()) p.spin[a] = rows.grains.spin[k * d + a];
   }
-  if (!rows.rho.empty()) {
+  if (!rows.matter.rho.empty()) {
     double volume = 1;
     for (std::size_t a = 0; a < d; ++a) volume *= scene.spacing;
-    p.energy *= p.density / rows.rho[k];  // at the same pressure
-    p.density = rows.rho[k];
+    p.energy *= p.density / rows.matter.rho[k];  // at the same pressure
+    p.density = rows.matter.rho[k];
     p.mass = p.density * volume;  // as on a lattice, to the bit
   }
-  if (!rows.energy.empty() && p.energy > 0) p.energy = rows.energy[k];
-  if (!rows.mass.empty()) p.mass = rows.mass[k];
+  if (!rows.matter.energy.empty() && p.energy > 0) p.energy = rows.matter.energy[k];
+  if (!rows.matter.mass.empty()) p.mass = rows.matter.mass[k];
   append(scene, p, quanta, particles);
   const std::size_t i = particles.owned() - 1;
-  if (auto* m = particles.data<Field::gas_content>(); m != nullptr && !rows.gas.empty()) m[i] = rows.gas[k];
-  if (auto* s = particles.data<Field::stress>(); s != nullptr && !rows.stress.empty())
-    std::copy_n(rows.stress.data() + k * n, n, s + i * n);
+  if (auto* m = particles.data<Field::gas_content>(); m != nullptr && !rows.matter.gas.empty())
+    m[i] = rows.matter.gas[k];
+  if (auto* s = particles.data<Field::stress>(); s != nullptr && !rows.matter.stress.empty())
+    std::copy_n(rows.matter.stress.data() + k * n, n, s + i * n);
 }
 
 }  // namespace sph

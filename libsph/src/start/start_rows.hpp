@@ -21,17 +21,31 @@
 
 namespace sph {
 
+/// Dim values a row, in metres or in quanta.
+struct StartPositions {
+  std::vector<double> x;             ///< [m]
+  std::vector<std::int64_t> quanta;  ///< instead of x, in units of `quantum` [m]
+  double quantum = 0;
+};
+
+struct StartMatter {
+  std::vector<double> rho, gas, energy, mass, stress;
+};
+
+struct StartGrains {
+  std::vector<double> radius, spin;  ///< [m], [rad/s]
+};
+
 /// A column that the file does not have is empty.
 struct StartRows {
   const char* unit = "row";          ///< "row" (from 0) or "line" (from 1), for messages
   std::vector<std::int64_t> number;  ///< of each row in the file
   std::vector<std::uint64_t> id;
-  std::vector<double> x, v;          ///< dim values a row [m], [m/s]
-  std::vector<std::int64_t> quanta;  ///< positions instead of x, in units of `quantum` [m]
-  double quantum = 0;
   std::vector<std::uint32_t> group;
-  std::vector<double> rho, gas, energy, mass, stress;
-  std::vector<double> radius, spin;  ///< of grains [m], [rad/s]
+  StartPositions position;
+  std::vector<double> v;  ///< dim values a row [m/s]
+  StartMatter matter;     ///< of fluids and solids
+  StartGrains grains;
 };
 
 /// What is wrong in one row: of all ranks' problems the one in the lowest row is reported.

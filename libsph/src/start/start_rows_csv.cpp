@@ -142,16 +142,16 @@ void read_row(const Scene& scene, const Columns& c, std::string_view text, std::
   rows.number.push_back(line);
   rows.id.push_back(number<std::uint64_t>(cell(c.id), line, "id", "a whole number from 0"));
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
-    rows.x.push_back(real(c.x[a], axis_names[a]));
+    rows.position.x.push_back(real(c.x[a], axis_names[a]));
     rows.v.push_back(real(c.v[a], std::string("v") + axis_names[a]));
-    if (c.spin[a] >= 0) rows.spin.push_back(real(c.spin[a], std::string("w") + axis_names[a]));
+    if (c.spin[a] >= 0) rows.grains.spin.push_back(real(c.spin[a], std::string("w") + axis_names[a]));
   }
   rows.group.push_back(group_of(scene, cell(c.group), line));
-  if (c.rho >= 0) rows.rho.push_back(real(c.rho, "rho"));
-  if (c.gas >= 0) rows.gas.push_back(real(c.gas, "m"));
-  if (c.energy >= 0) rows.energy.push_back(real(c.energy, "u"));
-  if (c.radius >= 0) rows.radius.push_back(real(c.radius, "radius"));
-  if (c.mass >= 0) rows.mass.push_back(real(c.mass, "mass"));
+  if (c.rho >= 0) rows.matter.rho.push_back(real(c.rho, "rho"));
+  if (c.gas >= 0) rows.matter.gas.push_back(real(c.gas, "m"));
+  if (c.energy >= 0) rows.matter.energy.push_back(real(c.energy, "u"));
+  if (c.radius >= 0) rows.grains.radius.push_back(real(c.radius, "radius"));
+  if (c.mass >= 0) rows.matter.mass.push_back(real(c.mass, "mass"));
 }
 
 std::int64_t line_breaks(std::ifstream& in, std::uint64_t bytes) {

@@ -125,27 +125,29 @@ StartRows read_hdf5_rows(const Scene& scene, const std::string& file, int rank, 
   for (std::uint64_t k = 0; k < source.rows(); ++k)
     out.number.push_back(static_cast<std::int64_t>(source.first() + k));
   out.id = source.whole<std::uint64_t>({"id", "particles/id"}, 1, true, 0, largest_id);
-  out.quanta = source.whole<std::int64_t>({"particles/position_quanta"}, dim, false, -farthest, farthest);
+  out.position.quanta =
+      source.whole<std::int64_t>({"particles/position_quanta"}, dim, false, -farthest, farthest);
   if (source.find({"particles/position_quanta"}).empty())
-    out.x = source.real({"x", "position", "particles/position"}, dim, true);
+    out.position.x = source.real({"x", "position", "particles/position"}, dim, true);
   else
-    out.quantum = source.file().real("quantum");
-  if (!out.quanta.empty() && !(out.quantum > 0 && std::isfinite(out.quantum)))
-    throw RowProblem(0, fmt::format("attribute \"quantum\" is {}; it must be positive", out.quantum));
+    out.position.quantum = source.file().real("quantum");
+  if (!out.position.quanta.empty() && !(out.position.quantum > 0 && std::isfinite(out.position.quantum)))
+    throw RowProblem(0,
+                     fmt::format("attribute \"quantum\" is {}; it must be positive", out.position.quantum));
   out.v = source.real({"v", "velocity", "particles/velocity"}, dim, true);
   out.group = source.whole<std::uint32_t>({"group", "particles/group"}, 1, true, 0, scene.groups.size() - 1);
   if (scene.of_grains()) {
-    out.radius = source.real({"radius", "particles/radius"}, 1, true);
-    out.spin = source.real({"spin", "particles/spin"}, dim, false);
+    out.grains.radius = source.real({"radius", "particles/radius"}, 1, true);
+    out.grains.spin = source.real({"spin", "particles/spin"}, dim, false);
     return out;
   }
-  out.rho = source.real({"rho", "density", "particles/density"}, 1, false);
-  out.gas = source.real({"m", "gas_content", "particles/gas_content"}, 1, false);
-  out.energy = source.real({"u", "specific_energy", "particles/specific_energy"}, 1, false);
-  out.mass = source.real({"mass", "particles/mass"}, 1, false);
-  out.stress = source.real({"stress", "particles/stress"}, dim * (dim + 1) / 2, false);
-  if (!out.stress.empty())
-    to_state_order(source.file(), source.find({"stress", "particles/stress"}), dim, out.stress.data(),
+  out.matter.rho = source.real({"rho", "density", "particles/density"}, 1, false);
+  out.matter.gas = source.real({"m", "gas_content", "particles/gas_content"}, 1, false);
+  out.matter.energy = source.real({"u", "specific_energy", "particles/specific_energy"}, 1, false);
+  out.matter.mass = source.real({"mass", "particles/mass"}, 1, false);
+  out.matter.stress = source.real({"stress", "particles/stress"}, dim * (dim + 1) / 2, false);
+  if (!out.matter.stress.empty())
+    to_state_order(source.file(), source.find({"stress", "particles/stress"}), dim, out.matter.stress.data(),
                    source.rows());
   return out;
 }
