@@ -22,18 +22,29 @@ struct Found {
   double turn;            ///< -1 where the list has the pair the other way round, else 1
 };
 
+/// Columns of the grains.
+struct GrainRows {
+  explicit GrainRows(const Particles& p)
+      : owned(p.owned()),
+        x(p.data<Field::position>()),
+        v(p.data<Field::velocity>()),
+        radius(p.data<Field::radius>()),
+        mass(p.data<Field::mass>()),
+        id(p.data<Field::id>()),
+        group(p.data<Field::group>()) {}
+  std::size_t owned;
+  const std::int64_t* x;
+  const double *v, *radius, *mass;
+  const std::uint64_t* id;
+  const std::uint32_t* group;
+};
+
 class Enumeration {
  public:
   explicit Enumeration(const Simulation& s)
       : s_(s),
         grains_(*s.grains()),
-        p_(s.particles(s.grains()->set())),
-        x_(p_.data<Field::position>()),
-        v_(p_.data<Field::velocity>()),
-        radius_(p_.data<Field::radius>()),
-        mass_(p_.data<Field::mass>()),
-        id_(p_.data<Field::id>()),
-        group_(p_.data<Field::group>()),
+        rows_(s.particles(s.grains()->set())),
         planes_(grains_.walls().now(s.global())),
         quantum_(s.scale().quantum),
         law_(contact_law(s.scene())),
@@ -42,33 +53,33 @@ class Enumeration {
 
   [[nodiscard]] std::optional<Found> pair(std::uint32_t i, std::uint32_t j) const {
     if (i == j) return std::nullopt;  // an unused lane
-    const std::uint32_t a = id_[i] < id_[j] ? i : j, b = a == i ? j : i;
+    const std::uint32_t a = rows_.id[i] < rows_.id[j] ? i : j, b = a == i ? j : i;
     Double3 way{};
     for (std::size_t k = 0; k < 3; ++k)
-      way[k] = static_cast<double>(x_[b * 3 + k] - x_[a * 3 + k]) * quantum_;
+      way[k] = static_cast<double>(rows_.x[b * 3 + k] - rows_.x[a * 3 + k]) * quantum_;
     const double distance = std::sqrt(dot(way, way));
-    const double overlap = radius_[a] + radius_[b] - distance;
+    const double overlap = rows_.radius[a] + rows_.radius[b] - distance;
     if (!(overlap > 0) || distance == 0) return std::nullopt;
     Found f{};
-    f.record.id = id_[a];
-    f.record.partner = id_[b];
+    f.record.id = rows_.id[a];
+    f.record.partner = rows_.id[b];
     f.record.row = a;
     f.record.partner_row = b;
-    f.record.counted = a < p_.owned();
+    f.record.counted = a < rows_.owned;
     f.record.fixed = is_fixed(a) || is_fixed(b);
     f.record.overlap = overlap;
-    f.record.arm = radius_[a] - 0.5 * overlap;
-    f.record.partner_arm = radius_[b] - 0.5 * overlap;
+    f.record.arm = rows_.radius[a] - 0.5 * overlap;
+    f.record.partner_arm = rows_.radius[b] - 0.5 * overlap;
     Double3 relative{};
     for (std::size_t k = 0; k < 3; ++k) {
       f.record.normal[k] = way[k] / distance;
-      relative[k] = v_[b * 3 + k] - v_[a * 3 + k];
+      relative[k] = rows_.v[b * 3 + k] - rows_.v[a * 3 + k];
     }
     f.separation = dot(relative, f.record.normal);
-    f.radius = radius_[a] * radius_[b] / (radius_[a] + radius_[b]);
-    f.mass = mass_[a] * mass_[b] / (mass_[a] + mass_[b]);
-    f.groups[0] = group_[a];
-    f.groups[1] = group_[b];
+    f.radius = rows_.radius[a] * rows_.radius[b] / (rows_.radius[a] + rows_.radius[b]);
+    f.mass = rows_.mass[a] * rows_.mass[b] / (rows_.mass[a] + rows_.mass[b]);
+    f.groups[0] = rows_.group[a];
+    f.groups[1] = rows_.group[b];
     f.turn = a == i ? 1 : -1;
     return f;
   }
@@ -80,23 +91,23 @@ class Enumeration {
     Double3 relative{};
     Found f{};
     for (std::size_t k = 0; k < 3; ++k) {
-      away += static_cast<double>(x_[i * 3 + k] - plane.point[k]) * plane.normal[k];
+      away += static_cast<double>(rows_.x[i * 3 + k] - plane.point[k]) * plane.normal[k];
       f.record.normal[k] = -plane.normal[k];
-      relative[k] = plane.velocity[k] - v_[i * 3 + k];
+      relative[k] = plane.velocity[k] - rows_.v[i * 3 + k];
     }
-    f.record.overlap = radius_[i] - away * quantum_;
+    f.record.overlap = rows_.radius[i] - away * quantum_;
     if (!(f.record.overlap > 0)) return std::nullopt;
-    f.record.id = id_[i];
+    f.record.id = rows_.id[i];
     f.record.partner = wall_key | w;
     f.record.row = i;
     f.record.partner_row = w;
     f.record.counted = true;
     f.record.fixed = is_fixed(i);
-    f.record.arm = radius_[i] - f.record.overlap;
+    f.record.arm = rows_.radius[i] - f.record.overlap;
     f.separation = dot(relative, f.record.normal);
-    f.radius = radius_[i];
-    f.mass = mass_[i];
-    f.groups[0] = group_[i];
+    f.radius = rows_.radius[i];
+    f.mass = rows_.mass[i];
+    f.groups[0] = rows_.group[i];
     f.groups[1] = plane.group;
     f.turn = 1;
     return f;
@@ -135,15 +146,13 @@ class Enumeration {
   }
 
  private:
-  [[nodiscard]] bool is_fixed(std::uint32_t row) const { return s_.scene().groups[group_[row]].grain.fixed; }
+  [[nodiscard]] bool is_fixed(std::uint32_t row) const {
+    return s_.scene().groups[rows_.group[row]].grain.fixed;
+  }
 
   const Simulation& s_;
   const Grains& grains_;
-  const Particles& p_;
-  const std::int64_t* x_;
-  const double *v_, *radius_, *mass_;
-  const std::uint64_t* id_;
-  const std::uint32_t* group_;
+  GrainRows rows_;
   std::vector<PlaneNow> planes_;
   double quantum_;
   const ContactLaw& law_;
