@@ -19,6 +19,25 @@
 
 namespace sph {
 
+/// Of a pair whose terms read Value::width: f as Pair has it, of the kernels of i, of j, and of i beside a
+/// wall, which is then not less than h wide.
+template <class V>
+struct PairWidths {
+  V inverse;  ///< of the width of i
+  V inverse_at_wall;
+  V f_i, f_j, f_at_wall;
+};
+
+/// Of a pair whose terms read Value::reference.
+template <class V, int D>
+struct PairBond {
+  V reference[D];     ///< X = (X_j - X_i) / h
+  V displacement[D];  ///< u = e - X, exact before it is rounded once
+  V intact;  ///< 1 for two particles of one body within each other's support in the reference state, unless
+             ///< lost
+  V weight;  ///< -w'(|X|) / |X| of a bond, else 0; grad_i W = weight X
+};
+
 template <class T, int D, ValueSet S>
 struct Pair {
   using Scalar = T;
@@ -32,17 +51,8 @@ struct Pair {
   V r;     ///< |e|
   V f;     ///< w'(r) / r, unnormalised; grad_i W = -f e (times the pass's factor); where kernels are of
            ///< different widths the mean of both
-  // Of terms that read Value::width:
-  V inverse_width;  ///< of i
-  V f_i, f_j,
-      f_of_wall;  ///< f of the kernels of i and of j, and of i beside a wall: then not less than h wide
-  V inverse_width_at_wall;
-  // Of terms that read Value::reference:
-  V reference[D];     ///< X = (X_j - X_i) / h
-  V displacement[D];  ///< u = e - X, exact before it is rounded once
-  V bond;    ///< 1 for two particles of one body within each other's support in the reference state, unless
-             ///< lost
-  V weight;  ///< -w'(|X|) / |X| of a bond, else 0; grad_i W = weight X
+  PairWidths<V> width;
+  PairBond<V, D> bond;
   template <Value v>
   [[nodiscard]] V i(int k = 0) const {
     static_assert(S.has(v), "the term did not declare this value in `reads`");
@@ -181,12 +191,12 @@ struct PairPass {
       const V factor = D == 2 ? square * inverse_width : square * square;
       return Kernel::template slope<D>(pair.r * inverse_width) * (factor * inverse_r);
     };
-    pair.inverse_width = one / own[width];
-    pair.inverse_width_at_wall = min(pair.inverse_width, one);
-    pair.f_i = slope(pair.inverse_width);
-    pair.f_j = slope(one / other[width]);
-    pair.f_of_wall = slope(pair.inverse_width_at_wall);
-    pair.f = V(static_cast<T>(0.5)) * (pair.f_i + pair.f_j);
+    pair.width.inverse = one / own[width];
+    pair.width.inverse_at_wall = min(pair.width.inverse, one);
+    pair.width.f_i = slope(pair.width.inverse);
+    pair.width.f_j = slope(one / other[width]);
+    pair.width.f_at_wall = slope(pair.width.inverse_at_wall);
+    pair.f = V(static_cast<T>(0.5)) * (pair.width.f_i + pair.width.f_j);
   }
 
   static void look_at_bond(const V* own, const V* other, V unit, V range, Pair<T, D, values>& pair) {
@@ -194,10 +204,10 @@ struct PairPass {
     V square = V::zero();
     for (int a = 0; a < D; ++a) {
       const V xi = own[reference + a], xj = other[reference + a];
-      pair.reference[a] = coordinate_difference(xi, xj) * unit;
-      pair.displacement[a] =
+      pair.bond.reference[a] = coordinate_difference(xi, xj) * unit;
+      pair.bond.displacement[a] =
           coordinate_difference(stored_difference(xi, own[a]), stored_difference(xj, other[a])) * unit;
-      square += pair.reference[a] * pair.reference[a];
+      square += pair.bond.reference[a] * pair.bond.reference[a];
     }
     // Differences in rows of single precision are modulo 2^32 units, four to eight times 2^29: particles from
     // far apart that meet now must not pass for neighbours then.
@@ -207,9 +217,9 @@ struct PairPass {
     // are must not decide when a run ends.
     const V found = where_less(pair.r, range, V(static_cast<T>(1)));
     const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found * near);
-    pair.bond = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
-    pair.weight = where_equal(own[body], other[body],
-                              -(near * Kernel::template slope<D>(distance) / max(distance, tiny)));
+    pair.bond.intact = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
+    pair.bond.weight = where_equal(own[body], other[body],
+                                   -(near * Kernel::template slope<D>(distance) / max(distance, tiny)));
   }
 
   /// 1 where the reference positions are less than three cells of 2^29 units apart along each axis, else 0.

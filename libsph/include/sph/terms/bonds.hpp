@@ -22,18 +22,18 @@ struct Deformation {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;
-    const V w = p.template j<Value::reference_volume>() * p.weight;
+    const V w = p.template j<Value::reference_volume>() * p.bond.weight;
     V square = V::zero();
-    for (int a = 0; a < P::dim; ++a) square += p.displacement[a] * p.displacement[a];
-    sums.template add<Field::deformation>(0, p.bond);
+    for (int a = 0; a < P::dim; ++a) square += p.bond.displacement[a] * p.bond.displacement[a];
+    sums.template add<Field::deformation>(0, p.bond.intact);
     sums.template add<Field::deformation>(1, w * square);
     for (int a = 0; a < P::dim; ++a) {
-      const V wx = w * p.reference[a], wu = w * p.displacement[a];
+      const V wx = w * p.bond.reference[a], wu = w * p.bond.displacement[a];
       for (int b = a; b < P::dim; ++b)
-        sums.template add<Field::deformation>(2 + symmetric_index(a, b, P::dim), wx * p.reference[b]);
+        sums.template add<Field::deformation>(2 + symmetric_index(a, b, P::dim), wx * p.bond.reference[b]);
       for (int b = 0; b < P::dim; ++b)
         sums.template add<Field::deformation>(2 + P::dim * (P::dim + 1) / 2 + a * P::dim + b,
-                                              wu * p.reference[b]);
+                                              wu * p.bond.reference[b]);
     }
   }
 };
@@ -46,13 +46,15 @@ struct BondForce {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V s = p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.weight;
+    const V s =
+        p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.bond.weight;
     const V stiffness = V(2 * c.hourglass) * p.template i<Value::modulus>();  // one body, one modulus
     for (int a = 0; a < P::dim; ++a) {
-      V t = stiffness * p.displacement[a];
+      V t = stiffness * p.bond.displacement[a];
       for (int b = 0; b < P::dim; ++b) {
         const int ab = a * P::dim + b;
-        t += (p.template i<Value::bond_stress>(ab) + p.template j<Value::bond_stress>(ab)) * p.reference[b];
+        t += (p.template i<Value::bond_stress>(ab) + p.template j<Value::bond_stress>(ab)) *
+             p.bond.reference[b];
       }
       sums.template add<Field::force>(a, s * t);
     }
@@ -74,7 +76,8 @@ struct BondViscosity {
       closing += (p.template j<Value::velocity>(a) - p.template i<Value::velocity>(a)) * p.e[a];
     const V eta = V(static_cast<typename P::Scalar>(P::dim + 2)) *
                   (p.template i<Value::viscosity>() + p.template j<Value::viscosity>());
-    const V s = p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.weight;
+    const V s =
+        p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.bond.weight;
     const V t = s * eta * (closing / max(p.r2, V(static_cast<typename P::Scalar>(1e-30))));
     for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, t * p.e[a]);
   }

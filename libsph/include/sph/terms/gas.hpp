@@ -24,10 +24,10 @@ struct NumberDensity {
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;
     const V mover = p.template j<Value::mover>();
-    const V of_gas = where_equal(mover, V(1), Kernel::template value<P::dim>(p.r * p.inverse_width));
+    const V of_gas = where_equal(mover, V(1), Kernel::template value<P::dim>(p.r * p.width.inverse));
     // Lists are padded with the particle itself.
     sums.template add<Field::number_density>(0, of_gas - where_equal(p.r2, V::zero(), of_gas));
-    const V w = Kernel::template value<P::dim>(p.r * p.inverse_width_at_wall);
+    const V w = Kernel::template value<P::dim>(p.r * p.width.inverse_at_wall);
     sums.template add<Field::number_density>(
         1, where_equal(mover, V::zero(), w * p.template j<Value::volume>()));
   }
@@ -44,7 +44,7 @@ struct GasMoments {
     using V = typename P::V;
     constexpr int symmetric = P::dim * (P::dim + 1) / 2;
     const V mover = p.template j<Value::mover>();
-    const V q = p.r * p.inverse_width, q_wall = p.r * p.inverse_width_at_wall;
+    const V q = p.r * p.width.inverse, q_wall = p.r * p.width.inverse_at_wall;
     const V stretch = q * Kernel::template slope<P::dim>(q);
     const V of_walls = q_wall * Kernel::template slope<P::dim>(q_wall) * p.template j<Value::volume>();
     sums.template add<Field::gas_moments>(0, where_equal(mover, V(1), stretch));
@@ -70,10 +70,10 @@ struct GasPressure {
     const V v_i = p.template i<Value::volume>(), v_j = p.template j<Value::volume>();
     const V p_i = p.template i<Value::pressure>(), p_j = p.template j<Value::pressure>();
     const V mover = p.template j<Value::mover>();
-    const V of_i = v_i * v_i * p_i * p.template i<Value::kernel_correction>() * p.f_i;
-    const V of_j = v_j * v_j * p_j * p.template j<Value::kernel_correction>() * p.f_j;
+    const V of_i = v_i * v_i * p_i * p.template i<Value::kernel_correction>() * p.width.f_i;
+    const V of_j = v_j * v_j * p_j * p.template j<Value::kernel_correction>() * p.width.f_j;
     const V s = where_equal(mover, V(1), of_i + of_j) +
-                where_equal(mover, V::zero(), v_i * v_j * (p_i + p_j) * p.f_of_wall);
+                where_equal(mover, V::zero(), v_i * v_j * (p_i + p_j) * p.width.f_at_wall);
     for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, s * p.e[a]);
   }
 };
