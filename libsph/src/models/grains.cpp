@@ -117,21 +117,17 @@ void Grains::begin_step(const Particles& particles, const GlobalState& global) {
 }
 
 ContactContext Grains::context(Particles& particles, double dt) {
-  return {&particles,
-          &pairs_.lists(),
-          table_.data(),
-          table_.groups(),
-          planes_,
-          wall_force_.data(),
-          pairs_.sums().data(),
-          scale_.quantum,
-          table_.force_quantum(),
-          table_.torque_quantum(),
-          dt,
-          scene_->contact.pull ? -std::numeric_limits<double>::infinity() : 0.0,
-          {scene_->gravity[0], scene_->gravity[1], scene_->gravity[2]},
-          scene_->contact.largest_overlap,
-          alone_};
+  return {
+      &particles,
+      &pairs_.lists(),
+      {table_.data(), table_.groups(), scene_->contact.pull ? -std::numeric_limits<double>::infinity() : 0.0},
+      {planes_, wall_force_.data()},
+      pairs_.sums().data(),
+      {scale_.quantum, table_.force_quantum(), table_.torque_quantum()},
+      dt,
+      {scene_->gravity[0], scene_->gravity[1], scene_->gravity[2]},
+      scene_->contact.largest_overlap,
+      alone_};
 }
 
 void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges,

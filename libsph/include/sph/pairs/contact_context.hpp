@@ -14,18 +14,31 @@ namespace sph {
 /// Force and torque sums of every row, halo copies included: 4 integers a row, or 8 where grains spin.
 using ContactSums = decomp::LargeVector<std::uint64_t>;
 
+/// What grains are made of.
+struct ContactMaterials {
+  const double* constants;  ///< [groups * groups][8], see ContactConstants; aligned
+  std::uint32_t groups;
+  double least_force;  ///< see ContactConstants
+};
+
+struct ContactWalls {
+  std::span<const PlaneNow> planes;
+  std::int64_t* force;  ///< [2][planes][3] quanta of force, low halves and high halves, added to
+};
+
+struct ContactQuanta {
+  double length, force, torque;
+};
+
 /// Everything a compiled contact pass needs besides its laws.
 struct ContactContext {
   Particles* particles;
   ContactLists* lists;
-  const double* constants;  ///< [groups * groups][8], see ContactConstants; aligned
-  std::uint32_t groups;
-  std::span<const PlaneNow> planes;
-  std::int64_t* wall_force;  ///< [2][planes][3] quanta of force, low halves and high halves, added to
+  ContactMaterials materials;
+  ContactWalls walls;
   std::uint64_t* sums;
-  double length_quantum, force_quantum, torque_quantum;
+  ContactQuanta quantum;
   double dt;
-  double least_force;  ///< see ContactConstants
   double gravity[3];
   double largest_overlap;  ///< in radii of the smaller grain
   bool drifts;             ///< grains drift once they are kicked, while they are in the cache

@@ -90,10 +90,10 @@ struct ContactPass {
                                                                  const std::uint32_t* pair) {
     V k[8];
     if constexpr (one_material)
-      for (int n = 0; n < 8; ++n) k[n] = V(c.constants[n]);
+      for (int n = 0; n < 8; ++n) k[n] = V(c.materials.constants[n]);
     else
-      load_rows<8>(c.constants, pair, k);
-    return ContactConstants<V>::of_row(k, V(c.least_force));
+      load_rows<8>(c.materials.constants, pair, k);
+    return ContactConstants<V>::of_row(k, V(c.materials.least_force));
   }
 
   /// The laws, with the history of group `g` before and after. Lanes that do not touch answer zero and lose
@@ -175,12 +175,18 @@ struct ContactPass {
     }
   }
 
+  /// Two rows in each lane, and their radii.
+  struct Partners {
+    const std::uint32_t *i, *j;
+    V ri, rj;
+  };
+
   static void add_pairs(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
     ContactGroups& list = c.lists->pairs();
     const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* j = list.j.data() + g * lanes;
     prefetch(rows, list, g + 8);
-    const V unit(c.length_quantum);
+    const V unit(c.quantum.length);
     V xi[4], xj[4];
     load_vectors(reinterpret_cast<const double*>(rows.x), i, xi);
     load_vectors(reinterpret_cast<const double*>(rows.x), j, xj);
@@ -190,40 +196,51 @@ struct ContactPass {
       d[a] = coordinate_difference(xi[a], xj[a]) * unit;
       distance2 += d[a] * d[a];
     }
-    const V ri = load_scalars(rows.radius, i), rj = load_scalars(rows.radius, j);
+    const Partners two{i, j, load_scalars(rows.radius, i), load_scalars(rows.radius, j)};
     const V distance = sqrt(distance2), inverse = V(1.0) / distance;
     // Unused lanes hold a row twice: distance 0 does not touch.
-    contact.overlap = where_less(V::zero(), distance2, ri + rj - distance);
+    contact.overlap = where_less(V::zero(), distance2, two.ri + two.rj - distance);
     if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) return;
-    V vi[4], vj[4], rel[3], surface[3] = {V::zero(), V::zero(), V::zero()};
-    load_vectors(rows.v, i, vi);
-    load_vectors(rows.v, j, vj);
-    if constexpr (spins) {
-      V wi[4], wj[4];
-      load_vectors(rows.w, i, wi);
-      load_vectors(rows.w, j, wj);
-      for (int a = 0; a < 3; ++a) {
-        surface[a] = ri * wi[a] + rj * wj[a];
-        contact.roll[a] = wj[a] - wi[a];
-      }
-    }
-    for (int a = 0; a < 3; ++a) {
-      contact.normal[a] = d[a] * inverse;
-      rel[a] = vj[a] - vi[a];
-    }
-    kinematics(contact, rel, surface);
+    for (int a = 0; a < 3; ++a) contact.normal[a] = d[a] * inverse;
+    look_at_motion(rows, two, contact);
     const V mi = load_scalars(rows.mass, i), mj = load_scalars(rows.mass, j);
     contact.mass = mi * mj / (mi + mj);
-    contact.radius = ri * rj / (ri + rj);
+    contact.radius = two.ri * two.rj / (two.ri + two.rj);
     contact.dt = V(c.dt);
     std::uint32_t pair[lanes];
     if constexpr (!one_material)
-      for (std::size_t l = 0; l < lanes; ++l) pair[l] = rows.group[i[l]] * c.groups + rows.group[j[l]];
+      for (std::size_t l = 0; l < lanes; ++l)
+        pair[l] = rows.group[i[l]] * c.materials.groups + rows.group[j[l]];
     const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
-    const V excess = contact.overlap - V(c.largest_overlap) * min(ri, rj);
+    const V excess = contact.overlap - V(c.largest_overlap) * min(two.ri, two.rj);
     if (positive_lanes(excess) != 0) note_pairs(c, i, j, excess, contact.overlap, sweep.deep);
+    add_answer(c, rows, two, answer, sweep);
+  }
 
-    const V force_scale(1 / c.force_quantum);
+  /// Velocities of two grains, as their contact sees them.
+  [[gnu::always_inline]] static void look_at_motion(const Rows& rows, const Partners& two,
+                                                    Contact<V>& contact) {
+    V vi[4], vj[4], rel[3], surface[3] = {V::zero(), V::zero(), V::zero()};
+    load_vectors(rows.v, two.i, vi);
+    load_vectors(rows.v, two.j, vj);
+    if constexpr (spins) {
+      V wi[4], wj[4];
+      load_vectors(rows.w, two.i, wi);
+      load_vectors(rows.w, two.j, wj);
+      for (int a = 0; a < 3; ++a) {
+        surface[a] = two.ri * wi[a] + two.rj * wj[a];
+        contact.roll[a] = wj[a] - wi[a];
+      }
+    }
+    for (int a = 0; a < 3; ++a) rel[a] = vj[a] - vi[a];
+    kinematics(contact, rel, surface);
+  }
+
+  /// Whole quanta of force and torque to the sums of both grains.
+  [[gnu::always_inline]] static void add_answer(const ContactContext& c, const Rows& rows,
+                                                const Partners& two, const Answer& answer,
+                                                ContactSweep& sweep) {
+    const V force_scale(1 / c.quantum.force);
     decltype(Sums::lanes(V())) on_i[stride] = {}, on_j[stride] = {};
     V worst = V::zero();
     for (int a = 0; a < 3; ++a) {
@@ -233,16 +250,16 @@ struct ContactPass {
       on_i[a] = -on_j[a];
     }
     if constexpr (spins) {
-      const V torque_scale(1 / c.torque_quantum);
+      const V torque_scale(1 / c.quantum.torque);
       for (int a = 0; a < 3; ++a) {
-        on_i[4 + a] = Sums::lanes((-answer.roll[a] - ri * answer.couple[a]) * torque_scale);
-        on_j[4 + a] = Sums::lanes((answer.roll[a] - rj * answer.couple[a]) * torque_scale);
+        on_i[4 + a] = Sums::lanes((-answer.roll[a] - two.ri * answer.couple[a]) * torque_scale);
+        on_j[4 + a] = Sums::lanes((answer.roll[a] - two.rj * answer.couple[a]) * torque_scale);
       }
     }
     const V beyond = worst - V(largest_force);
-    if (positive_lanes(beyond) != 0) note_pairs(c, i, j, beyond, worst, sweep.strong);
-    add_to_rows<stride>(rows.sums, i, on_i);
-    add_to_rows<stride>(rows.sums, j, on_j);
+    if (positive_lanes(beyond) != 0) note_pairs(c, two.i, two.j, beyond, worst, sweep.strong);
+    add_to_rows<stride>(rows.sums, two.i, on_i);
+    add_to_rows<stride>(rows.sums, two.j, on_j);
   }
 
   /// separation, slip and roll from the relative velocity and r_i omega_i + r_j omega_j.
@@ -270,8 +287,8 @@ struct ContactPass {
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::size_t r = i[l];
       const int k = static_cast<int>(l);
-      const bool used = walls[l] < c.planes.size() && c.planes[walls[l]].present;
-      const PlaneNow& plane = c.planes[used ? walls[l] : 0];
+      const bool used = walls[l] < c.walls.planes.size() && c.walls.planes[walls[l]].present;
+      const PlaneNow& plane = c.walls.planes[used ? walls[l] : 0];
       double away = 0;
       for (std::size_t a = 0; a < 3; ++a) {
         away += static_cast<double>(rows.x[r * 3 + a] - plane.point[a]) * plane.normal[a];
@@ -282,10 +299,10 @@ struct ContactPass {
           contact.roll[a].v[k] = -rows.w[r * 3 + a];
         }
       }
-      contact.overlap.v[k] = used ? rows.radius[r] - away * c.length_quantum : 0.0;
+      contact.overlap.v[k] = used ? rows.radius[r] - away * c.quantum.length : 0.0;
       contact.radius.v[k] = rows.radius[r];
       contact.mass.v[k] = rows.mass[r];
-      pair[l] = rows.group[r] * c.groups + plane.group;
+      pair[l] = rows.group[r] * c.materials.groups + plane.group;
     }
     kinematics(contact, rel, surface);
     contact.dt = V(c.dt);
@@ -297,7 +314,7 @@ struct ContactPass {
       if (contact.overlap[k] > deepest)
         note(c, i[l], wall_key | walls[l], contact.overlap[k], deepest, sweep.deep);
       for (int a = 0; a < 3; ++a) {
-        const double f = answer.force[a][k] * (1 / c.force_quantum);
+        const double f = answer.force[a][k] * (1 / c.quantum.force);
         if (std::fabs(f) > largest_force)
           note(c, i[l], wall_key | walls[l], std::fabs(f), largest_force, sweep.strong);
         const Sum sum = Sums::scalar(f);
@@ -305,12 +322,12 @@ struct ContactPass {
         // A wall has any number of contacts: two halves have room for 2^31 of them.
         const std::size_t at = walls[l] * 3 + static_cast<std::size_t>(a);
         const auto on_wall = static_cast<std::int64_t>(sum);
-        c.wall_force[at] += on_wall & 0xffffffff;
-        c.wall_force[3 * c.planes.size() + at] += on_wall >> 32;
+        c.walls.force[at] += on_wall & 0xffffffff;
+        c.walls.force[3 * c.walls.planes.size() + at] += on_wall >> 32;
         if constexpr (spins) {
           const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
           rows.sums[std::size_t{i[l]} * stride + 4 + static_cast<std::size_t>(a)] +=
-              Sums::scalar(torque * (1 / c.torque_quantum));
+              Sums::scalar(torque * (1 / c.quantum.torque));
         }
       }
     }
@@ -340,14 +357,14 @@ struct ContactPass {
   static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
                    ContactSweep& sweep) {
     const double dt = c.dt;
-    [[maybe_unused]] const double quanta = dt / c.length_quantum;
+    [[maybe_unused]] const double quanta = dt / c.quantum.length;
     double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
     for (std::size_t r = first; r < last; ++r) {
       Sum* sums = rows.sums + r * stride;
       const double inverse_mass = 1 / rows.mass[r];
       double v2 = 0, a2 = 0;
       for (std::size_t a = 0; a < 3; ++a) {
-        const double force = Sums::value(sums[a]) * c.force_quantum;
+        const double force = Sums::value(sums[a]) * c.quantum.force;
         const double acceleration = force * inverse_mass + c.gravity[a];
         const double v = rows.v[r * 3 + a] + acceleration * dt;
         rows.v[r * 3 + a] = v;
@@ -356,7 +373,7 @@ struct ContactPass {
         a2 += acceleration * acceleration;
       }
       if constexpr (spins) {
-        const double turn = 2.5 * inverse_mass / (rows.radius[r] * rows.radius[r]) * c.torque_quantum * dt;
+        const double turn = 2.5 * inverse_mass / (rows.radius[r] * rows.radius[r]) * c.quantum.torque * dt;
         for (std::size_t a = 0; a < 3; ++a) rows.w[r * 3 + a] += Sums::value(sums[4 + a]) * turn;
       }
       for (int k = 0; k < stride; ++k) sums[k] = 0;
