@@ -16,33 +16,94 @@
 
 namespace sph {
 
+/// The cells that are binned, x fastest, and the scale of positions in them.
+class BinBox {
+ public:
+  /// Positions are held relative to the corner of the bins in units of `radius` quanta.
+  BinBox(const decomp::CellGrid& grid, const decomp::Box& own, std::int64_t radius)
+      : grid_(grid), layers_(layers(grid, radius)), unit_(1 / static_cast<double>(radius)) {
+    for (int a = 0; a < 3; ++a) {
+      lo_[a] = a < grid.dim() ? own.lo[a] - layers_ : 0;
+      extent_[a] = a < grid.dim() ? own.hi[a] - own.lo[a] + 2 * layers_ : 1;
+      corner_[a] = grid.origin()[a] + lo_[a] * grid.edge()[a];
+    }
+  }
+
+  [[nodiscard]] std::size_t cells() const {
+    return static_cast<std::size_t>(extent_[0] * extent_[1] * extent_[2]);
+  }
+  [[nodiscard]] float scaled(int axis, std::int64_t x) const {
+    return static_cast<float>(static_cast<double>(x - corner_[axis]) * unit_);
+  }
+
+  /// Halo copies of a periodic image lie outside the domain: they go to the layers just outside the box.
+  [[nodiscard]] std::size_t index(const std::int64_t* x) const {
+    std::int64_t at = 0, stride = 1;
+    for (int a = 0; a < grid_.dim(); ++a) {
+      const std::int64_t t = x[a] - grid_.origin()[a], edge = grid_.edge()[a], beyond = t - grid_.length()[a];
+      const std::int64_t last = grid_.cells()[a] - 1;
+      std::int64_t c = t < 0         ? -((edge - 1 - t) / edge)
+                       : beyond >= 0 ? last + 1 + beyond / edge
+                                     : std::min(t / edge, last);
+      if (!grid_.periodic()[static_cast<std::size_t>(a)]) c = std::clamp<std::int64_t>(c, 0, last);
+      at += std::clamp<std::int64_t>(c - lo_[a], 0, extent_[a] - 1) * stride;
+      stride *= extent_[a];
+    }
+    return static_cast<std::size_t>(at);
+  }
+
+  static constexpr int most_layers = 2, most_lines = (2 * most_layers + 1) * (2 * most_layers + 1);
+  /// Calls visit(first, last) for each line along x of cells around one that its partners may be in.
+  template <class Visit>
+  void for_lines_around(std::size_t at, Visit&& visit) const {
+    const auto cell = static_cast<std::int64_t>(at);
+    const std::int64_t z = cell / (extent_[0] * extent_[1]), y = cell / extent_[0] % extent_[1],
+                       x = cell % extent_[0];
+    const auto from = [&](std::int64_t c) { return std::max<std::int64_t>(c - layers_, 0); };
+    const auto to = [&](std::int64_t c, int axis) { return std::min(c + layers_, extent_[axis] - 1); };
+    for (std::int64_t k = from(z); k <= to(z, 2); ++k)
+      for (std::int64_t j = from(y); j <= to(y, 1); ++j) {
+        const std::size_t line = static_cast<std::size_t>((k * extent_[1] + j) * extent_[0]);
+        visit(line + static_cast<std::size_t>(from(x)), line + static_cast<std::size_t>(to(x, 0)));
+      }
+  }
+
+ private:
+  /// How many cells away a partner within `radius` may be.
+  [[nodiscard]] static std::int64_t layers(const decomp::CellGrid& grid, std::int64_t radius) {
+    std::int64_t edge = radius;
+    for (int a = 0; a < grid.dim(); ++a)
+      if (grid.cells()[a] > 1)
+        edge = std::min(edge, grid.edge()[a]);  // a single cell may be a narrower domain
+    const std::int64_t n = (radius + edge - 1) / edge;
+    if (n > most_layers) throw std::logic_error("lists reach further than two cells");
+    return n;
+  }
+
+  const decomp::CellGrid& grid_;
+  std::int64_t layers_;
+  double unit_;
+  decomp::Int3 corner_{};  ///< of the bins [quanta]
+  decomp::Int3 lo_{}, extent_{1, 1, 1};
+};
+
 class CellBins {
  public:
   static constexpr std::size_t padding = 16;  ///< readable, never matching entries after the last
 
-  /// Positions are held relative to the corner of the bins in units of `radius` quanta.
   CellBins(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own,
            std::int64_t radius)
-      : grid_(grid),
-        dim_(particles.dim()),
-        layers_(layers(grid, radius)),
+      : box_(grid, own, radius),
         limit_(static_cast<float>(1 + list_slack(grid, own, radius))),
-        unit_(1 / static_cast<double>(radius)),
-        occupied_(0, 0) {
-    for (int a = 0; a < 3; ++a) {
-      lo_[a] = a < dim_ ? own.lo[a] - layers_ : 0;
-      extent_[a] = a < dim_ ? own.hi[a] - own.lo[a] + 2 * layers_ : 1;
-      corner_[a] = grid.origin()[a] + lo_[a] * grid.edge()[a];
-    }
-    const std::size_t rows = particles.rows(), d = static_cast<std::size_t>(dim_);
-    occupied_ = Occupied(static_cast<std::size_t>(extent_[0] * extent_[1] * extent_[2]), rows);
+        occupied_(box_.cells(), particles.rows()) {
+    const std::size_t rows = particles.rows(), d = static_cast<std::size_t>(particles.dim());
     const std::int64_t* x = particles.data<Field::position>();
-    for (std::size_t i = 0; i < rows; ++i) occupied_.mark(index(x + i * d));
+    for (std::size_t i = 0; i < rows; ++i) occupied_.mark(box_.index(x + i * d));
     start_.assign(occupied_.number() + 1, 0);
     cell_.resize(start_.size() - 1);
     bin_.resize(rows);
     for (std::size_t i = 0; i < rows; ++i) {
-      const std::size_t cell = index(x + i * d);
+      const std::size_t cell = box_.index(x + i * d);
       bin_[i] = occupied_.before(cell);
       cell_[bin_[i]] = cell;
       ++start_[bin_[i] + 1];
@@ -54,7 +115,7 @@ class CellBins {
     for (std::size_t i = 0; i < rows; ++i) {
       const std::uint32_t k = at[bin_[i]]++;
       row_[k] = static_cast<std::uint32_t>(i);
-      for (std::size_t a = 0; a < d; ++a) x_[a][k] = scaled(static_cast<int>(a), x[i * d + a]);
+      for (std::size_t a = 0; a < d; ++a) x_[a][k] = box_.scaled(static_cast<int>(a), x[i * d + a]);
     }
     position_.resize(rows);
     for (std::uint32_t k = 0; k < rows; ++k) position_[row_[k]] = k;
@@ -73,73 +134,29 @@ class CellBins {
   struct Run {
     std::uint32_t first, last;
   };
-  static constexpr int most_layers = 2, most_runs = (2 * most_layers + 1) * (2 * most_layers + 1);
-  using Runs = Run[most_runs];
+  using Runs = Run[BinBox::most_lines];
   /// The runs of candidates of the rows in a bin; they lie in `out`.
   [[nodiscard]] std::span<const Run> runs(std::uint32_t bin, Runs& out) const {
     return runs_around(cell_[bin], out);
   }
   /// ... of a position, of whatever set of particles.
   [[nodiscard]] std::span<const Run> runs_near(const std::int64_t* x, Runs& out) const {
-    return runs_around(index(x), out);
+    return runs_around(box_.index(x), out);
   }
   /// A position as x() has those of the rows.
-  [[nodiscard]] float scaled(int axis, std::int64_t x) const {
-    return static_cast<float>(static_cast<double>(x - corner_[axis]) * unit_);
-  }
+  [[nodiscard]] float scaled(int axis, std::int64_t x) const { return box_.scaled(axis, x); }
 
  private:
-  [[nodiscard]] std::span<const Run> runs_around(std::size_t at, Runs& out) const {
-    const auto cell = static_cast<std::int64_t>(at);
-    const std::int64_t z = cell / (extent_[0] * extent_[1]), y = cell / extent_[0] % extent_[1],
-                       x = cell % extent_[0];
-    const auto from = [&](std::int64_t c) { return std::max<std::int64_t>(c - layers_, 0); };
-    const auto to = [&](std::int64_t c, int axis) { return std::min(c + layers_, extent_[axis] - 1); };
+  [[nodiscard]] std::span<const Run> runs_around(std::size_t cell, Runs& out) const {
     std::size_t n = 0;
-    for (std::int64_t k = from(z); k <= to(z, 2); ++k)
-      for (std::int64_t j = from(y); j <= to(y, 1); ++j) {
-        const std::size_t line = static_cast<std::size_t>((k * extent_[1] + j) * extent_[0]);
-        const std::size_t first = static_cast<std::size_t>(from(x));
-        const std::size_t last = static_cast<std::size_t>(to(x, 0));
-        out[n++] = {start_[occupied_.before(line + first)], start_[occupied_.before(line + last + 1)]};
-      }
+    box_.for_lines_around(cell, [&](std::size_t first, std::size_t last) {
+      out[n++] = {start_[occupied_.before(first)], start_[occupied_.before(last + 1)]};
+    });
     return {out, n};
   }
 
-  /// How many cells away a partner within `radius` may be.
-  [[nodiscard]] static std::int64_t layers(const decomp::CellGrid& grid, std::int64_t radius) {
-    std::int64_t edge = radius;
-    for (int a = 0; a < grid.dim(); ++a)
-      if (grid.cells()[a] > 1)
-        edge = std::min(edge, grid.edge()[a]);  // a single cell may be a narrower domain
-    const std::int64_t n = (radius + edge - 1) / edge;
-    if (n > most_layers) throw std::logic_error("lists reach further than two cells");
-    return n;
-  }
-
-  /// Halo copies of a periodic image lie outside the domain: they go to the layers just outside the box.
-  [[nodiscard]] std::size_t index(const std::int64_t* x) const {
-    std::int64_t at = 0, stride = 1;
-    for (int a = 0; a < dim_; ++a) {
-      const std::int64_t t = x[a] - grid_.origin()[a], edge = grid_.edge()[a], beyond = t - grid_.length()[a];
-      const std::int64_t last = grid_.cells()[a] - 1;
-      std::int64_t c = t < 0         ? -((edge - 1 - t) / edge)
-                       : beyond >= 0 ? last + 1 + beyond / edge
-                                     : std::min(t / edge, last);
-      if (!grid_.periodic()[static_cast<std::size_t>(a)]) c = std::clamp<std::int64_t>(c, 0, last);
-      at += std::clamp<std::int64_t>(c - lo_[a], 0, extent_[a] - 1) * stride;
-      stride *= extent_[a];
-    }
-    return static_cast<std::size_t>(at);
-  }
-
-  const decomp::CellGrid& grid_;
-  int dim_;
-  std::int64_t layers_;
+  BinBox box_;
   float limit_;
-  double unit_;
-  decomp::Int3 corner_{};  ///< of the bins [quanta]
-  decomp::Int3 lo_{}, extent_{1, 1, 1};
   Occupied occupied_;                 ///< cells that hold rows: their bins
   std::vector<std::size_t> cell_;     ///< of a bin
   std::vector<std::uint32_t> bin_;    ///< of a row
