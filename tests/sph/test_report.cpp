@@ -15,17 +15,17 @@ using decomp::Region;
 
 Performance some_performance() {
   Performance p;
-  p.scene = "cylinder";
-  p.fingerprint = "00ff";
-  p.ranks = 8;
-  p.steps = 10000;
-  p.particles = 1020000;
-  p.end = {10000, 2.0, 2e-4, 1, 1, {}, {}, {}};
-  p.wall_seconds = 124.3;
-  p.imbalance = 1.06;
-  p.rebuilds = 231;
-  p.bytes_per_particle = 312;
-  p.state_bytes_per_particle = 96;
+  p.label.scene = "cylinder";
+  p.label.fingerprint = "00ff";
+  p.loop.ranks = 8;
+  p.loop.steps = 10000;
+  p.loop.particles = 1020000;
+  p.loop.end = {10000, 2.0, 2e-4, 1, 1, {}, {}, {}};
+  p.loop.wall_seconds = 124.3;
+  p.loop.imbalance = 1.06;
+  p.events.rebuilds = 231;
+  p.bytes.per_particle = 312;
+  p.bytes.state_per_particle = 96;
   p.regions = {{Region::pairs, 80.1, 84.9, 88.7, 20000},
                {Region::order, 5.0, 6.0, 7.5, 231},
                {Region::contacts, 0, 0, 0, 0},

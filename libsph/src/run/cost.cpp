@@ -8,6 +8,24 @@
 #include "decomp/cut_policy.hpp"
 
 namespace sph {
+
+std::size_t bytes_of(FieldSet fields, int dim) {
+  std::size_t bytes = 0;
+  for (Field f : fields.list()) bytes += width(f, dim);
+  return bytes;
+}
+
+FieldSet halo_fields(const Plan& plan, std::size_t set, FieldSet fields) {
+  FieldSet read{Field::id, Field::position};
+  if (fields.has(Field::radius)) read |= fields;  // a partner's everything
+  for (const Entry* e : entries_of(plan))
+    for (const Stage& s : e->stages) {
+      if (s.set == set) read |= s.refresh;
+      if (s.other && s.other->set == set) read |= s.other->refresh;
+    }
+  return read & fields;
+}
+
 namespace {
 
 /// Directed pairs of fluid and solid particles of this rank that lie within the support.
@@ -55,31 +73,10 @@ CellLayout layout_of(const Simulation& s) {
   return out;
 }
 
-}  // namespace
-
-std::size_t bytes_of(FieldSet fields, int dim) {
-  std::size_t bytes = 0;
-  for (Field f : fields.list()) bytes += width(f, dim);
-  return bytes;
-}
-
-FieldSet halo_fields(const Plan& plan, std::size_t set, FieldSet fields) {
-  FieldSet read{Field::id, Field::position};
-  if (fields.has(Field::radius)) read |= fields;  // a partner's everything
-  for (const Entry* e : entries_of(plan))
-    for (const Stage& s : e->stages) {
-      if (s.set == set) read |= s.refresh;
-      if (s.other && s.other->set == set) read |= s.other->refresh;
-    }
-  return read & fields;
-}
-
-Performance performance_of(Simulation& s) {
-  const decomp::Comm& comm = s.comm();
+/// Bytes that a halo row of each set is sent in a step.
+std::vector<double> sent_per_row(const Simulation& s, const std::vector<FieldSet>& fields) {
   const int dim = s.scene().dim;
-  std::vector<FieldSet> fields;
-  for (const ParticleSet& set : s.sets()) fields.push_back(set.particles.fields());
-  std::vector<double> sent(fields.size(), 0);  // bytes a halo row of each set is sent in a step
+  std::vector<double> sent(fields.size(), 0);
   for (const Scheduled& scheduled : schedule_of(s.plan(), fields)) {
     sent[scheduled.stage->set] += static_cast<double>(bytes_of(scheduled.sends, dim));
     if (const auto& other = scheduled.stage->other)
@@ -88,60 +85,98 @@ Performance performance_of(Simulation& s) {
       sent[scheduled.stage->set] +=
           static_cast<double>(c.repeats / c.solved) * static_cast<double>(bytes_of(scheduled.again, dim));
   }
+  return sent;
+}
 
-  std::int64_t listed = 0, near = 0;
-  if (s.grains() != nullptr) {
-    listed += static_cast<std::int64_t>(s.grains()->pairs().lists().listed());
-    near += s.grains()->pairs().touching();
-  }
-  if (s.physics() != nullptr) {
-    listed += static_cast<std::int64_t>(s.lists().pairs());
-    near += pairs_within_support(s);
-  }
-  Performance p;
-  p.scene = s.scene().name;
-  p.fingerprint = s.fingerprint();
-  p.ranks = comm.size();
-  p.particles = s.particle_count();
-  p.end = s.global();
-  std::vector<std::int64_t> sums{listed, near, s.distribution().migrated()};
+/// Rows of each set over all ranks. Collective.
+struct SetRows {
+  double owned, halo, sent;
+};
+std::vector<SetRows> rows_of(const Simulation& s) {
+  std::vector<std::int64_t> sums;
   for (const ParticleSet& set : s.sets()) {
+    sums.push_back(static_cast<std::int64_t>(set.particles.owned()));
     sums.push_back(static_cast<std::int64_t>(set.halo.rows_received() + set.halo.rows_copied()));
     sums.push_back(static_cast<std::int64_t>(set.halo.rows_sent()));
-    sums.push_back(static_cast<std::int64_t>(set.particles.owned()));
   }
-  comm.sum(std::span<std::int64_t>(sums));
-  double halo = 0, in_halo = 0;
+  s.comm().sum(std::span<std::int64_t>(sums));
+  std::vector<SetRows> out;
+  for (std::size_t k = 0; k < sums.size(); k += 3)
+    out.push_back(
+        {static_cast<double>(sums[k]), static_cast<double>(sums[k + 1]), static_cast<double>(sums[k + 2])});
+  return out;
+}
+
+// Of sets of unlike particles the means over what there is of them. Collective.
+ByteCounts bytes_used(const Simulation& s, const std::vector<SetRows>& rows, double particles) {
+  const int dim = s.scene().dim;
+  std::vector<FieldSet> fields;
+  for (const ParticleSet& set : s.sets()) fields.push_back(set.particles.fields());
+  const std::vector<double> sent = sent_per_row(s, fields);
+  ByteCounts b;
   for (std::size_t set = 0; set < fields.size(); ++set) {
-    const auto copies = static_cast<double>(sums[3 + 3 * set]), rows = static_cast<double>(sums[5 + 3 * set]);
-    halo += copies;
-    p.halo_bytes_per_step += static_cast<double>(sums[4 + 3 * set]) * sent[set];
-    p.state_bytes_per_particle += rows * static_cast<double>(bytes_of(state_of(fields[set]), dim));
-    p.bytes_per_particle += rows * static_cast<double>(bytes_of(fields[set], dim));
-    // Of sets of unlike particles the mean over what there is of them.
-    p.refresh_bytes += rows * sent[set];
-    in_halo += rows * static_cast<double>(bytes_of(halo_fields(s.plan(), set, fields[set]), dim));
+    const double owned = rows[set].owned;
+    b.halo_per_step += rows[set].sent * sent[set];
+    b.state_per_particle += owned * static_cast<double>(bytes_of(state_of(fields[set]), dim));
+    b.per_particle += owned * static_cast<double>(bytes_of(fields[set], dim));
+    b.refresh += owned * sent[set];
+    b.per_halo_particle +=
+        owned * static_cast<double>(bytes_of(halo_fields(s.plan(), set, fields[set]), dim));
   }
-  const auto particles = static_cast<double>(p.particles);
-  p.refresh_bytes /= particles;
-  p.state_bytes_per_particle /= particles;
-  p.bytes_per_particle /= particles;
-  p.bytes_per_halo_particle = in_halo / particles;
-  p.neighbours_per_particle = static_cast<double>(sums[0]) / particles;
-  p.pairs_per_particle = static_cast<double>(sums[1]) / particles;
-  p.halo_per_particle = halo / particles;
-  p.migrated = sums[2];
-  p.rebuilds = s.rebuilds();
-  p.refreshes = s.refreshes();
-  p.iterations = s.counters().iterations;
-  p.balance = s.distribution().balance();
-  p.regions = s.timers().summary(comm);
-  p.layout = layout_of(s);
+  for (double* mean : {&b.refresh, &b.state_per_particle, &b.per_particle, &b.per_halo_particle})
+    *mean /= particles;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::array<double, 1> peak{1024.0 * static_cast<double>(usage.ru_maxrss)};
-  comm.max(peak);
-  p.peak_rank_bytes = peak[0];
+  s.comm().max(peak);
+  b.peak_rank = peak[0];
+  return b;
+}
+
+/// Collective.
+NeighbourCounts neighbours_of(const Simulation& s, const std::vector<SetRows>& rows, double particles) {
+  std::array<std::int64_t, 2> pairs{};  // listed, near
+  if (s.grains() != nullptr) {
+    pairs[0] += static_cast<std::int64_t>(s.grains()->pairs().lists().listed());
+    pairs[1] += s.grains()->pairs().touching();
+  }
+  if (s.physics() != nullptr) {
+    pairs[0] += static_cast<std::int64_t>(s.lists().pairs());
+    pairs[1] += pairs_within_support(s);
+  }
+  s.comm().sum(pairs);
+  double halo = 0;
+  for (const SetRows& of_set : rows) halo += of_set.halo;
+  return {static_cast<double>(pairs[0]) / particles, static_cast<double>(pairs[1]) / particles,
+          halo / particles};
+}
+
+EventCounts events_of(const Simulation& s) {
+  EventCounts e;
+  e.rebuilds = s.rebuilds();
+  e.migrated = s.comm().sum(s.distribution().migrated());
+  e.refreshes = s.refreshes();
+  e.iterations = s.counters().iterations;
+  return e;
+}
+
+}  // namespace
+
+Performance performance_of(Simulation& s) {
+  Performance p;
+  p.label.scene = s.scene().name;
+  p.label.fingerprint = s.fingerprint();
+  p.loop.ranks = s.comm().size();
+  p.loop.particles = s.particle_count();
+  p.loop.end = s.global();
+  const std::vector<SetRows> rows = rows_of(s);
+  const auto particles = static_cast<double>(p.loop.particles);
+  p.neighbours = neighbours_of(s, rows, particles);
+  p.bytes = bytes_used(s, rows, particles);
+  p.events = events_of(s);
+  p.balance = s.distribution().balance();
+  p.regions = s.timers().summary(s.comm());
+  p.layout = layout_of(s);
   return p;
 }
 

@@ -57,30 +57,31 @@ std::string final_table(const Performance& p) {
     if (row.region == decomp::Region::order) order = row.mean;
   }
   const double updates =
-      ratio(static_cast<double>(p.particles) * static_cast<double>(p.steps), p.wall_seconds) / 1e6;
+      ratio(static_cast<double>(p.loop.particles) * static_cast<double>(p.loop.steps), p.loop.wall_seconds) /
+      1e6;
 
   std::string out;
   const auto to = std::back_inserter(out);
   fmt::format_to(to,
                  "Loop {:.1f} s  {} ranks  {} steps  {:.3g} particles  {:.3g} Mupd/s  {:.3g} Mupd/s/rank  "
                  "imbalance {:.2f}\n",
-                 p.wall_seconds, p.ranks, p.steps, static_cast<double>(p.particles), updates,
-                 ratio(updates, p.ranks), p.imbalance);
+                 p.loop.wall_seconds, p.loop.ranks, p.loop.steps, static_cast<double>(p.loop.particles),
+                 updates, ratio(updates, p.loop.ranks), p.loop.imbalance);
   add_sections(out, p.regions, total);
   fmt::format_to(to, "work done only for the bits: {:.3f} s ({:.1f} %)\n", order, 100 * ratio(order, total));
   fmt::format_to(to,
                  "per particle: {:.1f} neighbours listed, {:.1f} within the support, {:.2f} halo copies\n",
-                 p.neighbours_per_particle, p.pairs_per_particle, p.halo_per_particle);
+                 p.neighbours.listed, p.neighbours.within_support, p.neighbours.halo_copies);
   fmt::format_to(to,
                  "bytes per particle: {:.0f} ({:.0f} state), per halo particle {:.0f}; halo messages {:.3g} "
                  "bytes/step\n",
-                 p.bytes_per_particle, p.state_bytes_per_particle, p.bytes_per_halo_particle,
-                 p.halo_bytes_per_step);
-  if (p.iterations > 0)
+                 p.bytes.per_particle, p.bytes.state_per_particle, p.bytes.per_halo_particle,
+                 p.bytes.halo_per_step);
+  if (p.events.iterations > 0)
     fmt::format_to(to, "viscosity: {:.1f} iterations a step\n",
-                   static_cast<double>(p.iterations) / static_cast<double>(p.steps));
-  fmt::format_to(to, "list rebuilds {} ({} late)  migrated {}  halo refreshes {}\n", p.rebuilds,
-                 p.late_rebuilds, p.migrated, p.refreshes);
+                   static_cast<double>(p.events.iterations) / static_cast<double>(p.loop.steps));
+  fmt::format_to(to, "list rebuilds {} ({} late)  migrated {}  halo refreshes {}\n", p.events.rebuilds,
+                 p.events.late_rebuilds, p.events.migrated, p.events.refreshes);
   if (p.balance.calls > 0)
     fmt::format_to(
         to, "balance asked {} times, cuts moved {} times, {:.3f} s of deciding, {:.3f} of migrating; {}\n",

@@ -114,16 +114,16 @@ void Screen::status() {
 
 void Screen::final_report(const std::filesystem::path& dir) {
   Performance p = performance_of(simulation_);
-  p.wall_seconds = seconds(Clock::now() - begin_);
-  p.setup_seconds = setup_seconds_;
-  p.steps = simulation_.global().step - first_.step;
-  p.formulation = simulation_.scene().of_grains()    ? "grains"
-                  : simulation_.scene().is_mixture() ? "grains in a fluid"
-                                                     : name_of(simulation_.scene().formulation);
-  p.precision = name_of(simulation_.scene().precision);
+  p.loop.wall_seconds = seconds(Clock::now() - begin_);
+  p.loop.setup_seconds = setup_seconds_;
+  p.loop.steps = simulation_.global().step - first_.step;
+  p.label.formulation = simulation_.scene().of_grains()    ? "grains"
+                        : simulation_.scene().is_mixture() ? "grains in a fluid"
+                                                           : name_of(simulation_.scene().formulation);
+  p.label.precision = name_of(simulation_.scene().precision);
   const Work work = work_of(simulation_.comm(), simulation_.timers().cost());
-  p.cost_seconds = work.sum;
-  p.imbalance = work.imbalance;
+  p.loop.cost_seconds = work.sum;
+  p.loop.imbalance = work.imbalance;
   all_or_none(simulation_.comm(), "report", [&] {
     if (simulation_.comm().rank() == 0) write_perf_json(dir / "perf.json", p);
   });

@@ -35,24 +35,46 @@ struct CellLayout {
   std::string cuts;               ///< decomp::to_text
 };
 
+struct RunLabel {
+  std::string scene, fingerprint, precision, formulation;
+};
+
+/// The steps of this run and the time that they took.
+struct RunLoop {
+  int ranks = 1;
+  std::int64_t steps = 0, particles = 0;       ///< of this run; in all
+  GlobalState end;                             ///< after the last step
+  double wall_seconds = 0, setup_seconds = 0;  ///< of the steps; before the first, on rank 0
+  double cost_seconds = 0;                     ///< CPU time of computation, of all ranks together
+  double imbalance = 1;                        ///< largest / mean of that time
+};
+
+/// Per particle, means.
+struct NeighbourCounts {
+  double listed = 0;
+  double within_support = 0;
+  double halo_copies = 0;  ///< halo rows / owned rows
+};
+
+struct ByteCounts {
+  double per_particle = 0, state_per_particle = 0, per_halo_particle = 0;
+  double refresh = 0;        ///< of a halo row, a step
+  double halo_per_step = 0;  ///< all messages
+  double peak_rank = 0;      ///< resident memory of the largest rank, all told
+};
+
+struct EventCounts {
+  std::int64_t rebuilds = 0, late_rebuilds = 0, migrated = 0, refreshes = 0, iterations = 0;
+};
+
 /// Numbers of a finished (or stopped) run. Counters are sums over ranks unless said otherwise.
 struct Performance {
-  std::string scene, fingerprint, precision, formulation;
-  int ranks = 1;
-  std::int64_t steps = 0, particles = 0;  ///< steps of this run, particles in all
-  GlobalState end;
-  double wall_seconds = 0, setup_seconds = 0;  ///< of the steps; before the first, on rank 0
-  double neighbours_per_particle = 0;          ///< listed, mean
-  double pairs_per_particle = 0;               ///< within the support, mean
-  double halo_per_particle = 0;                ///< halo rows / owned rows
-  double refresh_bytes = 0;                    ///< a halo row, a step
-  double halo_bytes_per_step = 0, state_bytes_per_particle = 0, bytes_per_particle = 0,
-         bytes_per_halo_particle = 0;
-  std::int64_t rebuilds = 0, late_rebuilds = 0, migrated = 0, refreshes = 0, iterations = 0;
+  RunLabel label;
+  RunLoop loop;
+  NeighbourCounts neighbours;
+  ByteCounts bytes;
+  EventCounts events;
   decomp::BalanceAccount balance;
-  double imbalance = 1;        ///< largest / mean CPU time of computation
-  double cost_seconds = 0;     ///< that time, of all ranks together
-  double peak_rank_bytes = 0;  ///< resident memory of the largest rank, all told
   CellLayout layout;
   std::vector<decomp::Timers::Row> regions;
 };
