@@ -24,6 +24,18 @@ namespace {
 
 constexpr int most_iterations = 2000;
 
+/// By row and component.
+struct KrylovVectors {
+  std::vector<double> change;        ///< of the velocity
+  std::vector<double> residual;      ///< of the equations
+  std::vector<double> search;        ///< direction
+  std::vector<double> image;         ///< the operator on the residual over the diagonal ...
+  std::vector<double> search_image;  ///< ... and on the search direction
+  void clear(std::size_t size) {
+    for (std::vector<double>* v : {&change, &residual, &search, &image, &search_image}) v->assign(size, 0.0);
+  }
+};
+
 class ViscositySolver final : public Solver {
  public:
   static constexpr FieldSet reads =
@@ -51,9 +63,8 @@ class ViscositySolver final : public Solver {
   int iteration_ = 0;
   double product_ = 0, length_ = 0, enough_ = 0;  ///< r.u, alpha and its bound, of the last iteration
   std::array<decomp::ExactSum, 4> sums_;          ///< r.u, w.u; driving and viscous impulses squared
-  // By row and component: change of velocity, residual, search direction, operator on the direction and on
-  // the search direction; diagonal by row.
-  std::vector<double> change_, residual_, search_, image_, search_image_, diagonal_;
+  KrylovVectors vectors_;
+  std::vector<double> diagonal_;  ///< by row
 };
 
 void ViscositySolver::begin(const View<reads, writes>& p, const Step& step) {
@@ -81,9 +92,9 @@ std::span<decomp::ExactSum> ViscositySolver::products(const StepState& s) {
     double product = 0, curvature = 0;
     for (std::size_t a = 0; a < d; ++a) {
       const std::size_t k = i * d + a;
-      image_[k] = mass[i] * direction[k] - dt * viscous[i * (d + 1) + a];
-      product += residual_[k] * direction[k];
-      curvature += image_[k] * direction[k];
+      vectors_.image[k] = mass[i] * direction[k] - dt * viscous[i * (d + 1) + a];
+      product += vectors_.residual[k] * direction[k];
+      curvature += vectors_.image[k] * direction[k];
     }
     sums_[0].add(product);
     sums_[1].add(curvature);
@@ -116,11 +127,11 @@ bool ViscositySolver::improve(StepState& s) {
   double* direction = p.get<Field::direction>();
   for_movers(s.ranges, [&](std::size_t i) {
     for (std::size_t k = i * d; k < (i + 1) * d; ++k) {
-      search_[k] = direction[k] + old * search_[k];
-      search_image_[k] = image_[k] + old * search_image_[k];
-      change_[k] += length_ * search_[k];
-      residual_[k] -= length_ * search_image_[k];
-      direction[k] = residual_[k] / diagonal_[i];
+      vectors_.search[k] = direction[k] + old * vectors_.search[k];
+      vectors_.search_image[k] = vectors_.image[k] + old * vectors_.search_image[k];
+      vectors_.change[k] += length_ * vectors_.search[k];
+      vectors_.residual[k] -= length_ * vectors_.search_image[k];
+      direction[k] = vectors_.residual[k] / diagonal_[i];
     }
   });
   return true;
@@ -129,8 +140,7 @@ bool ViscositySolver::improve(StepState& s) {
 void ViscositySolver::set_out(const View<reads, writes>& p, const Step& step) {
   const double dt = step.global.dt;
   const auto d = static_cast<std::size_t>(p.dim());
-  for (std::vector<double>* v : {&change_, &residual_, &search_, &image_, &search_image_})
-    v->assign(p.owned() * d, 0.0);
+  vectors_.clear(p.owned() * d);
   diagonal_.resize(p.owned());
   double* direction = p.get<Field::direction>();
   const double* viscous = p.get<Field::viscous_sums>();
@@ -144,8 +154,8 @@ void ViscositySolver::set_out(const View<reads, writes>& p, const Step& step) {
     for (std::size_t a = 0; a < d; ++a) {
       const std::size_t k = i * d + a;
       const double drive = dt * (force[k] + mass[i] * body[a]), drag = dt * viscous[i * (d + 1) + a];
-      residual_[k] = drive + drag;
-      direction[k] = residual_[k] / diagonal_[i];
+      vectors_.residual[k] = drive + drag;
+      direction[k] = vectors_.residual[k] / diagonal_[i];
       driving += drive * drive;
       dragging += drag * drag;
     }
@@ -165,7 +175,8 @@ void ViscositySolver::finish(const View<reads, writes>& p, const Step& step) con
   for_movers(step.ranges, [&](std::size_t i) {
     const Double3 body = (*body_forces_)(p, i);
     for (std::size_t a = 0; a < d; ++a)
-      force[i * d + a] = finite ? mass[i] * (change_[i * d + a] / dt - body[a]) : residual_[i * d + a];
+      force[i * d + a] =
+          finite ? mass[i] * (vectors_.change[i * d + a] / dt - body[a]) : vectors_.residual[i * d + a];
   });
 }
 
