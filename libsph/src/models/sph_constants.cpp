@@ -91,6 +91,46 @@ constexpr double interface_damping = 0.03;
 // interface of a drop at rest moves ten times as fast, with 0.3 2.5 times.
 constexpr double background = 0.75;
 
+GroupTable group_table(const Scene& of) {
+  const double divide = density_divide(of);
+  GroupTable groups;
+  for (const Group& g : of.groups) {
+    groups.viscosity.push_back(g.viscosity);
+    groups.sound_speed.push_back(sound_at_rest(g));
+    groups.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
+    groups.side.push_back(side_of(of, static_cast<int>(&g - of.groups.data())));
+    groups.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
+    groups.shears.push_back(g.kind == GroupKind::fluid ? 0.0 : 1.0);
+    groups.density.push_back(g.density);
+    const std::size_t body = g.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.clamps);
+    groups.body.push_back(static_cast<double>(body));
+    groups.modulus.push_back(of.groups[body].bulk_modulus + 4.0 / 3.0 * of.groups[body].shear_modulus);
+    if (g.kind != GroupKind::grain) g.eos->check(g);
+  }
+  groups.surface_tension = of.terms.surface_tension.coefficient;
+  return groups;
+}
+
+RowScale scale_of_rows(const Scene& of, const PositionScale& scale) {
+  const double h = of.smoothing_length;
+  RowScale rows{};
+  rows.position_shift = row_position_shift(of, scale);
+  const double unit =
+      of.precision == Precision::mixed ? std::ldexp(scale.quantum, rows.position_shift) : scale.quantum;
+  rows.position_unit = unit / h;
+  rows.inverse_volume = 1 / power(of.spacing, of.dim);
+  rows.inverse_h = 1 / h;
+  rows.quantum = scale.quantum;
+  rows.pull = of.central_pull;
+  for (std::size_t a = 0; a < 3; ++a) {
+    rows.pull_centre[a] = of.pull_centre[a];
+    rows.gravity[a] = of.gravity[a];
+    // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
+    rows.head[a] = of.periodic[a] ? 0.0 : h;
+  }
+  return rows;
+}
+
 }  // namespace
 
 SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
@@ -106,39 +146,11 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   own_concentration = kernel.w_zero * gradient_factor * h;
   diffusion_factor = 2 * of.terms.density_diffusion * h * (volume * slope / h);
 
-  row_scale.position_shift = row_position_shift(of, scale);
-  const double unit =
-      of.precision == Precision::mixed ? std::ldexp(scale.quantum, row_scale.position_shift) : scale.quantum;
-  row_scale.position_unit = unit / h;
-  row_scale.inverse_volume = 1 / volume;
-  row_scale.inverse_h = 1 / h;
-  row_scale.quantum = scale.quantum;
-  row_scale.pull = of.central_pull;
-  for (std::size_t a = 0; a < 3; ++a) row_scale.pull_centre[a] = of.pull_centre[a];
-
-  const double divide = density_divide(of);
+  row_scale = scale_of_rows(of, scale);
+  groups = group_table(of);
   const auto fluid = std::ranges::find_if(of.groups, is_matter);
-  for (const Group& g : of.groups) {
-    groups.viscosity.push_back(g.viscosity);
-    groups.sound_speed.push_back(sound_at_rest(g));
-    groups.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
-    groups.side.push_back(side_of(of, static_cast<int>(&g - of.groups.data())));
-    groups.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
-    groups.shears.push_back(g.kind == GroupKind::fluid ? 0.0 : 1.0);
-    groups.density.push_back(g.density);
-    const std::size_t body = g.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.clamps);
-    groups.body.push_back(static_cast<double>(body));
-    groups.modulus.push_back(of.groups[body].bulk_modulus + 4.0 / 3.0 * of.groups[body].shear_modulus);
-    if (g.kind != GroupKind::grain) g.eos->check(g);
-  }
-  groups.surface_tension = of.terms.surface_tension.coefficient;
   terms = {};
-  // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
-  for (std::size_t a = 0; a < 3; ++a) {
-    terms.gravity[a] = of.periodic[a] ? 0.0 : of.gravity[a] * h;
-    row_scale.gravity[a] = of.gravity[a];
-    row_scale.head[a] = of.periodic[a] ? 0.0 : h;
-  }
+  for (std::size_t a = 0; a < 3; ++a) terms.gravity[a] = of.periodic[a] ? 0.0 : of.gravity[a] * h;
   terms.laplacian = 1 / kernel.second;
   terms.symmetric = (of.dim + 2) / kernel.fourth;
   terms.viscosity = fluid->viscosity / h * terms.laplacian;
