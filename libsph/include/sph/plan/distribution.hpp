@@ -2,17 +2,16 @@
 // ranks is in here, and nothing of it can reach a particle's bits.
 #pragma once
 
-#include <fstream>
-#include <functional>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "decomp/balancer.hpp"
 #include "decomp/comm.hpp"
 #include "decomp/migrate.hpp"
-#include "decomp/timer.hpp"
 #include "sph/core/findings.hpp"
+#include "sph/plan/cut_control.hpp"
 #include "sph/plan/particle_set.hpp"
+#include "sph/plan/row_order.hpp"
 #include "sph/scene/scene.hpp"
 
 namespace sph {
@@ -33,7 +32,7 @@ class Distribution {
   [[nodiscard]] std::int64_t list_radius() const { return reach_; }  ///< range of interaction + skin [quanta]
   [[nodiscard]] decomp::Box own_cells() const { return partition_.cells(comm_.rank()); }
   [[nodiscard]] std::int64_t migrated() const { return migrated_; }  ///< rows this rank sent away
-  [[nodiscard]] const decomp::BalanceAccount& balance() const { return balancer_.account(); }
+  [[nodiscard]] const decomp::BalanceAccount& balance() const { return cuts_.account(); }
 
   /// Where cuts may follow the load: shares out the particles, wherever their rows are now, evenly. Before
   /// the first rebuild; scatter() must follow.
@@ -47,8 +46,6 @@ class Distribution {
   /// Sends every row, with its contacts, to its owner wherever it is: set-up and resume.
   void scatter(Particles& particles, decomp::Payload* contacts = nullptr);
 
-  /// Pairs that are computed for each owned row of a set, or nothing where there are no lists yet.
-  using PairCounts = std::function<std::vector<std::uint32_t>(std::size_t set)>;
   /// What pairs carry migrates with the rows of their set, but is not sorted (it may be most of the memory):
   /// that of row r is afterwards in row order[r].
   struct Carried {
@@ -66,16 +63,10 @@ class Distribution {
 
  private:
   void cut(decomp::Cuts cuts);
-  void record_cuts();
-  /// Counts for the balancer: rows and their pairs in each column of cells.
-  [[nodiscard]] decomp::Balancer::CountCells counts_of(std::span<const ParticleSet> sets,
-                                                       const PairCounts& pairs) const;
   void wrap_positions(Particles& particles) const;
   [[nodiscard]] std::vector<decomp::Rank> owners(const Particles& particles) const;
   void migrate(std::span<ParticleSet> sets, double cost, const PairCounts& pairs, double moved,
                std::span<Carried> carried);
-  std::vector<std::uint32_t> sort_rows(ParticleSet& set);
-  [[nodiscard]] int curve_bits() const;
 
   const decomp::Comm& comm_;
   const Scene& scene_;
@@ -84,12 +75,10 @@ class Distribution {
   std::int64_t reach_;
   decomp::CellGrid grid_;
   decomp::JaggedPartition partition_;
-  decomp::Balancer balancer_;
-  std::vector<std::uint32_t>
-      curve_;  ///< place along the Hilbert curve of each own cell, x fastest; where they are few
+  CutControl cuts_;
+  RowOrder order_;
   std::int64_t migrated_ = 0;
   double to_face_ = 0;
-  std::ofstream record_;
 };
 
 }  // namespace sph
