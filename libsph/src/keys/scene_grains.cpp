@@ -13,19 +13,19 @@ namespace sph {
 namespace {
 
 void read_radii(const GroupReader& table, Group& group) {
-  const toml_tree::Node* value = table.find("diameter");
-  if (value == nullptr) return;
-  const toml_tree::Array* range = value->array();
+  const std::optional<KeyValue> value = table.value("diameter");
+  if (!value) return;
+  const toml_tree::Array* range = value->node().array();
   double least = 0, largest = 0;
   if (range == nullptr) {
-    least = largest = table.to_number(*value, keys::group["diameter"], dimension::length);
+    least = largest = value->number_in(value->node(), dimension::length);
     if (!(least > 0)) table.fail("diameter", fmt::format("is {}", least), "it must be positive");
   } else {
     if (range->size() != 2)
       table.fail("diameter", fmt::format("has {} values", range->size()),
                  "it must be one length, or an array of the least and the largest");
-    least = table.to_number((*range)[0], keys::group["diameter"], dimension::length);
-    largest = table.to_number((*range)[1], keys::group["diameter"], dimension::length);
+    least = value->number_in((*range)[0], dimension::length);
+    largest = value->number_in((*range)[1], dimension::length);
     if (!(least > 0)) table.fail("diameter", fmt::format("begins with {}", least), "it must be positive");
     if (!(least <= largest))
       table.fail("diameter", fmt::format("runs from {} down to {}", least, largest),

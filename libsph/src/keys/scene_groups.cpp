@@ -200,7 +200,8 @@ void read_groups(const TopReader& top, Scene& scene) {
 std::string read_name(const TableReader& table, std::string_view what,
                       const std::vector<std::string>& earlier) {
   const Key& key = table.key("name");
-  const std::string name = table.required_text(key);
+  table.require(key);
+  const std::string name = *table.get<&KeyValue::text>(key);
   const auto allowed = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
   };

@@ -57,7 +57,7 @@ LawConstants read_law_constants(const GroupReader& group, std::string_view choic
     const LawKey& key = law.keys[k];
     const Key& given = *keys::find_key(keys::group, key.name);
     if (key.otherwise == nullptr) table.require(given);
-    const std::optional<double> value = table.number(given);
+    const std::optional<double> value = table.get<&KeyValue::number>(given);
     values[k] = value ? *value : key.otherwise(values);
     if (values[k] > key.above && values[k] <= key.most) continue;
     if (!value)
@@ -72,7 +72,7 @@ LawConstants read_law_constants(const GroupReader& group, std::string_view choic
 void read_added_terms(const TermsReader& reader, Terms& terms) {
   const TableReader& table = reader;
   for (const AddedTerm* t : added_terms())
-    terms.added.push_back(table.number(*keys::find_key(keys::terms, t->word)).value_or(0));
+    terms.added.push_back(table.get<&KeyValue::number>(*keys::find_key(keys::terms, t->word)).value_or(0));
   if (std::ranges::all_of(terms.added, [](double x) { return x == 0; })) terms.added.clear();
 }
 

@@ -109,14 +109,14 @@ void read_lattice(const StartReader& table, Scene& scene) {
 }
 
 void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
-  const toml_tree::Node* value = table.find("velocity");
-  if (value != nullptr && value->array() != nullptr) {
+  const std::optional<KeyValue> value = table.value("velocity");
+  if (value && value->node().array() != nullptr) {
     start.velocity = InitialVelocity::uniform;
     start.uniform_velocity = *table.vector("velocity", dimension::speed);
-  } else if (value != nullptr) {
-    const auto* word = std::get_if<std::string>(&value->value);
+  } else if (value) {
+    const auto* word = std::get_if<std::string>(&value->node().value);
     const std::string what =
-        word == nullptr ? fmt::format("is {}", type_name(*value)) : fmt::format("is \"{}\"", *word);
+        word == nullptr ? fmt::format("is {}", type_name(value->node())) : fmt::format("is \"{}\"", *word);
     if (scene.of_grains() && (word == nullptr || *word != "rest"))
       table.fail("velocity", what, "grains start with \"rest\" or an array of speeds");
     if (word == nullptr)
@@ -124,7 +124,7 @@ void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
     if (*word == "taylor_green")
       start.velocity = InitialVelocity::taylor_green;
     else if (*word != "rest")
-      table.fail_word(keys::start["velocity"], *word, {"rest", "taylor_green"});
+      value->fail_word(*word, {"rest", "taylor_green"});
   }
   if (start.velocity != InitialVelocity::taylor_green) return;
   for (std::size_t a = 0; a < 2; ++a) {

@@ -1,11 +1,8 @@
 // Typed access to one table of a scene, by the entries of keys/. Unknown keys are refused when the reader is
-// made; each getter checks type, unit, finiteness and range of its key, and records that it was read, so that
-// finish() can refuse keys which have no meaning where they stand. read() does all that for every key with a
-// member. Every problem is one line "where: key: what is wrong; what would be right".
+// made; each getter decodes its key (key_value.hpp) and records that it was read, so that finish() can refuse
+// keys which have no meaning where they stand. read() does all that for every key with a member.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -16,11 +13,10 @@
 #include <vector>
 
 #include "keys/all_keys.hpp"
+#include "keys/key_value.hpp"
 #include "keys/toml_tree.hpp"
 
 namespace sph {
-
-using keys::Key;
 
 class TableReader {
  public:
@@ -35,9 +31,6 @@ class TableReader {
   /// Blames a key of this table (its value's place, or the table's if it is absent).
   [[noreturn]] void fail(const Key& key, std::string_view what, std::string_view right) const;
   [[noreturn]] void fail_missing(const Key& key, std::string_view right) const;
-  /// "is "x"; did you mean "y"?" for a word that is not among the valid ones.
-  [[noreturn]] void fail_word(const Key& key, const std::string& word,
-                              const std::vector<std::string>& words) const;
   /// Refuses the key, if it is there, unless `condition` holds; `reason` says when it has a meaning.
   void only_if(bool condition, const Key& key, std::string_view reason) const;
   /// Refuses two keys that say the same thing.
@@ -45,25 +38,18 @@ class TableReader {
   void require(const Key& key) const;  ///< refuses the table without it
   void finish() const;                 ///< refuses keys that nothing has read
 
-  [[nodiscard]] std::optional<std::string> text(const Key& key) const;
-  [[nodiscard]] std::string required_text(const Key& key) const;
-  [[nodiscard]] std::optional<double> number(const Key& key) const;
-  /// A node inside the value of `key` as a number in SI.
-  [[nodiscard]] double to_number(const toml_tree::Node& value, const Key& key, Dimension dim) const;
+  /// The value of a key, which counts as read; nothing if it is absent.
+  [[nodiscard]] std::optional<KeyValue> value(const Key& key) const;
+  /// ... decoded by one of the functions of KeyValue.
+  template <auto decode, class... Arguments>
+  [[nodiscard]] auto get(const Key& key, Arguments... arguments) const
+      -> std::optional<std::invoke_result_t<decltype(decode), const KeyValue&, Arguments...>> {
+    const std::optional<KeyValue> given = value(key);
+    if (!given) return std::nullopt;
+    return ((*given).*decode)(arguments...);
+  }
 
  protected:
-  [[nodiscard]] std::optional<bool> flag(const Key& key) const;
-  [[nodiscard]] std::optional<std::array<bool, 3>> flags(const Key& key) const;
-  [[nodiscard]] std::optional<std::int64_t> whole(const Key& key) const;
-  [[nodiscard]] std::optional<Double3> vector(const Key& key, Dimension dim) const;
-  [[nodiscard]] std::optional<int> choice(const Key& key) const;
-  /// Of the group or wall that is named.
-  [[nodiscard]] std::optional<int> index(const Key& key) const;
-  void require_grains(const Key& key, int group) const;
-  [[nodiscard]] std::optional<std::array<int, 2>> two_groups(const Key& key) const;
-  [[nodiscard]] std::optional<std::array<std::int64_t, 3>> copies(const Key& key) const;
-  /// A path: from the file, relative to its folder; from the command line, to the working one.
-  [[nodiscard]] std::optional<std::string> file(const Key& key) const;
   void read(void* owner) const;
 
   /// The sub-table; if it is absent, an empty one in the place of this table.
@@ -82,15 +68,6 @@ class TableReader {
  private:
   [[nodiscard]] std::string path_of(const Key& key) const;
   [[nodiscard]] bool applies(const Key& key) const;  ///< refuses it where it has no meaning
-  void put(const Key& key, const keys::Value& to) const;
-  // nullptr where the key is absent; what is of another type or length is refused.
-  template <class T>
-  [[nodiscard]] const T* value(const Key& key, std::string_view wanted) const;
-  [[nodiscard]] const toml_tree::Array* array(const Key& key, std::size_t size,
-                                              std::string_view wanted) const;
-  template <class T>
-  [[nodiscard]] const T& item(const Key& key, const toml_tree::Node& node, std::string_view wanted) const;
-  [[nodiscard]] int index_of(const Key& key, const std::string& name, std::string_view what) const;
 
   const toml_tree::Node* node_;
   std::string path_;
@@ -134,6 +111,7 @@ class Reader : public TableReader {
 
   [[nodiscard]] bool has(Name<> key) const { return TableReader::has(key); }
   [[nodiscard]] const toml_tree::Node* find(Name<> key) const { return TableReader::find(key); }
+  [[nodiscard]] std::optional<KeyValue> value(Name<> key) const { return TableReader::value(key); }
   [[noreturn]] void fail(Name<> key, std::string_view what, std::string_view right) const {
     TableReader::fail(key, what, right);
   }
@@ -145,24 +123,24 @@ class Reader : public TableReader {
   }
   void not_both(Name<> a, Name<> b) const { TableReader::not_both(a, b); }
   void require(Name<> key) const { TableReader::require(key); }
-  [[nodiscard]] std::optional<int> index(Name<keys::NameOf> key) const { return TableReader::index(key); }
+  [[nodiscard]] std::optional<int> index(Name<keys::NameOf> key) const { return get<&KeyValue::index>(key); }
   [[nodiscard]] std::optional<std::string> text(Name<keys::Text, keys::Words> key) const {
-    return TableReader::text(key);
+    return get<&KeyValue::text>(key);
   }
-  [[nodiscard]] std::optional<bool> flag(Name<keys::Flag> key) const { return TableReader::flag(key); }
+  [[nodiscard]] std::optional<bool> flag(Name<keys::Flag> key) const { return get<&KeyValue::flag>(key); }
   [[nodiscard]] std::optional<double> number(Name<keys::Number> key) const {
-    return TableReader::number(key);
+    return get<&KeyValue::number>(key);
   }
   [[nodiscard]] std::optional<Double3> vector(Name<keys::Vector> key) const {
-    return TableReader::vector(key, std::get<keys::Vector>(key.key.kind).dim);
+    return get<&KeyValue::vector>(key, std::get<keys::Vector>(key.key.kind).dim);
   }
   /// A vector where another value may stand too.
   [[nodiscard]] std::optional<Double3> vector(Name<keys::Special> key, Dimension dim) const {
-    return TableReader::vector(key, dim);
+    return get<&KeyValue::vector>(key, dim);
   }
   template <class E>
   [[nodiscard]] std::optional<E> choice(WordOf<E> key) const {
-    const std::optional<int> n = TableReader::choice(key);
+    const std::optional<int> n = get<&KeyValue::choice>(key);
     return n ? std::optional(static_cast<E>(*n)) : std::nullopt;
   }
   template <const auto& inner>
