@@ -267,6 +267,26 @@ using Int64x8 = SimdTraits<double>::Int;
          std::bit_cast<std::int64_t>(rounding_shift);
 }
 
+#if defined(__AVX512F__)
+/// Of add_to_rows() for four numbers a row: `rows` has x y of lanes `lane` and `lane` + 4, then z w of both.
+template <class T>
+[[gnu::always_inline]] inline void add_to_two_rows(T* base, const std::uint32_t* index, int lane,
+                                                   __m512i rows) {
+  const auto add = [&](std::uint32_t at_row, __m256i row) {
+    T* at = base + std::size_t{at_row} * 4;
+    if constexpr (std::is_floating_point_v<T>) {
+      _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), _mm256_castsi256_pd(row)));
+    } else {
+      __m256i* to = reinterpret_cast<__m256i*>(at);
+      _mm256_store_si256(to, _mm256_add_epi64(_mm256_load_si256(to), row));
+    }
+  };
+  const __m512i sorted = _mm512_shuffle_i64x2(rows, rows, 0xd8);
+  add(index[lane], _mm512_castsi512_si256(sorted));
+  add(index[lane + 4], _mm512_extracti64x4_epi64(sorted, 1));
+}
+#endif
+
 /// Adds lane l of value[0 .. Stride) to row index[l] of a table of Stride numbers a row (4 or 8, aligned to
 /// its size), lane by lane, so that an index may repeat. T: std::uint64_t, or double (in benchmarks).
 template <int Stride, class T, class Lanes>
@@ -274,7 +294,6 @@ template <int Stride, class T, class Lanes>
                                                const Lanes (&value)[Stride]) {
   static_assert((Stride == 4 || Stride == 8) && sizeof(T) == 8);
 #if defined(__AVX512F__)
-  constexpr bool floating = std::is_floating_point_v<T>;
   const auto low = [&](int a, int b) {
     return _mm512_unpacklo_epi64(std::bit_cast<__m512i>(value[a]), std::bit_cast<__m512i>(value[b]));
   };
@@ -293,7 +312,7 @@ template <int Stride, class T, class Lanes>
     const __m512i f = _mm512_shuffle_i64x2(odd45, odd67, 0x88), h = _mm512_shuffle_i64x2(odd45, odd67, 0xdd);
     const auto add = [&](int lane, __m512i row) {
       T* at = base + std::size_t{index[lane]} * 8;
-      if constexpr (floating)
+      if constexpr (std::is_floating_point_v<T>)
         _mm512_store_pd(at, _mm512_add_pd(_mm512_load_pd(at), _mm512_castsi512_pd(row)));
       else
         _mm512_store_si512(at, _mm512_add_epi64(_mm512_load_si512(at), row));
@@ -307,24 +326,10 @@ template <int Stride, class T, class Lanes>
     add(6, _mm512_shuffle_i64x2(c, g, 0xdd));
     add(7, _mm512_shuffle_i64x2(d, h, 0xdd));
   } else {
-    const auto add = [&](int lane, __m256i row) {
-      T* at = base + std::size_t{index[lane]} * 4;
-      if constexpr (floating) {
-        _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), _mm256_castsi256_pd(row)));
-      } else {
-        __m256i* rows = reinterpret_cast<__m256i*>(at);
-        _mm256_store_si256(rows, _mm256_add_epi64(_mm256_load_si256(rows), row));
-      }
-    };
-    const auto both = [&](int lane, __m512i rows) {  // blocks: x y of lanes 0 and 4, then z w of both
-      const __m512i sorted = _mm512_shuffle_i64x2(rows, rows, 0xd8);
-      add(lane, _mm512_castsi512_si256(sorted));
-      add(lane + 4, _mm512_extracti64x4_epi64(sorted, 1));
-    };
-    both(0, a);
-    both(1, b);
-    both(2, c);
-    both(3, d);
+    add_to_two_rows(base, index, 0, a);
+    add_to_two_rows(base, index, 1, b);
+    add_to_two_rows(base, index, 2, c);
+    add_to_two_rows(base, index, 3, d);
   }
 #else
   for (int l = 0; l < Simd<double>::lanes; ++l)

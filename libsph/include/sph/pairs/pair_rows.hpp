@@ -28,72 +28,102 @@ struct RowLayout {
   static constexpr int stride = (used + 3) / 4 * 4;
 };
 
-/// Fills rows [first, last) of `rows`.
+/// The row of particle i while it is filled.
 template <class T, int D, ValueSet S>
-void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& scale, std::size_t first,
-               std::size_t last, T* rows) {
+struct PackedRow {
+  static constexpr int dim = D;
+  static constexpr ValueSet values = S;
   using Layout = RowLayout<D, S>;
-  const auto* x = p.data<Field::position>();
-  const auto* v = p.data<Field::velocity>();
-  const auto* mass = p.data<Field::mass>();
-  const auto* rho = p.data<Field::density>();
-  const auto* pressure = p.data<Field::pressure>();
-  const auto* stress = p.data<Field::stress>();
-  const auto* sound = p.data<Field::sound_speed>();
-  const auto* group = p.data<Field::group>();
-  const auto* walls = p.data<Field::wall_pressures>();
-  const auto* colour = p.data<Field::colour_gradient>();
-  const auto* curvature = p.data<Field::curvature>();
-  const auto* displacement = p.data<Field::displacement>();
-  const auto* bond_stress = p.data<Field::bond_stress>();
-  const auto* direction = p.data<Field::direction>();
-  const auto* wall_slope = p.data<Field::wall_slope>();
-  const auto* energy = p.data<Field::specific_energy>();
-  const auto* width = p.data<Field::smoothing_length>();
-  const auto* correction = p.data<Field::kernel_correction>();
-  const auto* gradient = p.data<Field::velocity_gradient>();
-  const auto* liquid = p.data<Field::liquid_density>();
-  const auto* grain_drag = p.data<Field::grain_drag>();
-  const auto coordinate = [&](std::int64_t quanta) {
+  const GroupTable& groups;
+  const RowScale& scale;
+  T* numbers;
+  std::size_t i;
+  std::uint32_t group;
+
+  [[nodiscard]] bool is_wall() const { return groups.mover[group] == 0; }
+  [[gnu::always_inline]] void put(Value value, int k, double number) const {
+    numbers[Layout::offset(value) + k] = static_cast<T>(number);
+  }
+  [[gnu::always_inline]] void put_position(int at, std::int64_t quanta) const {
     if constexpr (sizeof(T) == 4)
-      return std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
+      numbers[at] = std::bit_cast<float>(static_cast<std::uint32_t>(quanta >> scale.position_shift));
     else
-      return std::bit_cast<double>(quanta);
-  };
-  for (std::size_t i = first; i < last; ++i) {
-    T* row = rows + i * Layout::stride;
-    for (int k = 0; k < D; ++k) row[k] = coordinate(x[i * D + k]);
-    const auto put = [row](Value value, int k, double number) {
-      row[Layout::offset(value) + k] = static_cast<T>(number);
-    };
+      numbers[at] = std::bit_cast<double>(quanta);
+  }
+};
+
+/// What every fluid or solid has: motion, density, pressure, and constants of its group.
+struct StateColumns {
+  explicit StateColumns(const Particles& p)
+      : x(p.data<Field::position>()),
+        v(p.data<Field::velocity>()),
+        mass(p.data<Field::mass>()),
+        rho(p.data<Field::density>()),
+        pressure(p.data<Field::pressure>()),
+        stress(p.data<Field::stress>()),
+        sound(p.data<Field::sound_speed>()),
+        walls(p.data<Field::wall_pressures>()),
+        energy(p.data<Field::specific_energy>()) {}
+  const std::int64_t* x;
+  const double *v, *mass, *rho, *pressure, *stress, *sound, *walls, *energy;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    constexpr int D = Row::dim;
+    const std::size_t i = row.i;
+    const GroupTable& groups = row.groups;
+    const RowScale& scale = row.scale;
+    for (int k = 0; k < D; ++k) row.put_position(k, x[i * D + k]);
     if constexpr (S.has(Value::velocity))
-      for (int k = 0; k < D; ++k) put(Value::velocity, k, v[i * D + k]);
-    if constexpr (S.has(Value::volume)) put(Value::volume, 0, mass[i] / rho[i] * scale.inverse_volume);
-    if constexpr (S.has(Value::pressure)) put(Value::pressure, 0, pressure[i]);
-    if constexpr (S.has(Value::density)) put(Value::density, 0, rho[i]);
+      for (int k = 0; k < D; ++k) row.put(Value::velocity, k, v[i * D + k]);
+    if constexpr (S.has(Value::volume)) row.put(Value::volume, 0, mass[i] / rho[i] * scale.inverse_volume);
+    if constexpr (S.has(Value::pressure)) row.put(Value::pressure, 0, pressure[i]);
+    if constexpr (S.has(Value::density)) row.put(Value::density, 0, rho[i]);
     if constexpr (S.has(Value::viscosity))
-      put(Value::viscosity, 0, groups.viscosity[group[i]] * scale.inverse_h);
+      row.put(Value::viscosity, 0, groups.viscosity[row.group] * scale.inverse_h);
     if constexpr (S.has(Value::sound_speed))
-      put(Value::sound_speed, 0, sound != nullptr ? sound[i] : groups.sound_speed[group[i]]);
-    if constexpr (S.has(Value::phase)) put(Value::phase, 0, static_cast<double>(group[i]));
-    if constexpr (S.has(Value::mover)) put(Value::mover, 0, groups.mover[group[i]]);
+      row.put(Value::sound_speed, 0, sound != nullptr ? sound[i] : groups.sound_speed[row.group]);
+    if constexpr (S.has(Value::phase)) row.put(Value::phase, 0, static_cast<double>(row.group));
+    if constexpr (S.has(Value::mover)) row.put(Value::mover, 0, groups.mover[row.group]);
     if constexpr (S.has(Value::potential)) {
       double square = 0;
       for (int k = 0; k < D; ++k) {
         const double away = static_cast<double>(x[i * D + k]) * scale.quantum - scale.pull_centre[k];
         square += away * away;
       }
-      put(Value::potential, 0, 0.5 * scale.pull * square);
+      row.put(Value::potential, 0, 0.5 * scale.pull * square);
     }
     if constexpr (S.has(Value::stress)) {
       constexpr int n = components(Value::stress, D);
-      for (int k = 0; k < n; ++k) put(Value::stress, k, stress[i * n + k] - (k < D ? pressure[i] : 0.0));
+      for (int k = 0; k < n; ++k) row.put(Value::stress, k, stress[i * n + k] - (k < D ? pressure[i] : 0.0));
     }
-    if constexpr (S.has(Value::heavy)) put(Value::heavy, 0, groups.heavy[group[i]]);
+    if constexpr (S.has(Value::heavy)) row.put(Value::heavy, 0, groups.heavy[row.group]);
     if constexpr (S.has(Value::pressures))
       for (int k = 0; k < 2; ++k)
-        put(Value::pressures, k, groups.mover[group[i]] == 0 ? walls[2 * i + k] : pressure[i]);
-    if constexpr (S.has(Value::side)) put(Value::side, 0, groups.side[group[i]]);
+        row.put(Value::pressures, k, row.is_wall() ? walls[2 * i + k] : pressure[i]);
+    if constexpr (S.has(Value::specific_energy)) row.put(Value::specific_energy, 0, energy[i]);
+    if constexpr (S.has(Value::shears)) row.put(Value::shears, 0, groups.shears[row.group]);
+  }
+};
+
+/// Of the interface with tension. Of particles on neither side nothing is known.
+struct InterfaceColumns {
+  explicit InterfaceColumns(const Particles& p)
+      : mass(p.data<Field::mass>()),
+        rho(p.data<Field::density>()),
+        colour(p.data<Field::colour_gradient>()),
+        curvature(p.data<Field::curvature>()) {}
+  const double *mass, *rho, *colour, *curvature;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    constexpr int D = Row::dim;
+    const std::size_t i = row.i;
+    const double tension = row.groups.surface_tension, inverse_h = row.scale.inverse_h;
+    [[maybe_unused]] const auto side = [&] { return row.groups.side[row.group]; };
+    if constexpr (S.has(Value::side)) row.put(Value::side, 0, side());
     if constexpr (S.has(Value::capillary)) {
       const double* g = colour + i * D;
       double square = 0;
@@ -101,59 +131,121 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
       const double length = std::sqrt(square), inverse = length > 0 ? 1 / length : 0.0;
       for (int a = 0; a < D; ++a)
         for (int b = a; b < D; ++b)
-          put(Value::capillary, symmetric_index(a, b, D),
-              groups.surface_tension * ((a == b ? length : 0.0) - g[a] * g[b] * inverse));
+          row.put(Value::capillary, symmetric_index(a, b, D),
+                  tension * ((a == b ? length : 0.0) - g[a] * g[b] * inverse));
     }
-    // Of particles on neither side nothing is known.
     if constexpr (S.has(Value::interface_weight)) {
-      const double side = groups.side[group[i]];
-      const double share = side != 0 ? layer_share(colour + i * D, D, scale.inverse_h) : 0.0;
-      put(Value::interface_weight, 0, share > 0 ? mass[i] / rho[i] * scale.inverse_volume * share : 0.0);
+      const double on = side(), share = on != 0 ? layer_share(colour + i * D, D, inverse_h) : 0.0;
+      row.put(Value::interface_weight, 0,
+              share > 0 ? mass[i] / rho[i] * row.scale.inverse_volume * share : 0.0);
       if constexpr (S.has(Value::interface_normal))
         for (int a = 0; a < D; ++a)
-          put(Value::interface_normal, a,
-              share > 0 ? side * colour[i * D + a] / (share * scale.inverse_h) : 0.0);
+          row.put(Value::interface_normal, a, share > 0 ? on * colour[i * D + a] / (share * inverse_h) : 0.0);
     }
-    if constexpr (S.has(Value::curvature))
-      put(Value::curvature, 0, groups.side[group[i]] != 0 ? curvature[i] : 0.0);
+    if constexpr (S.has(Value::curvature)) row.put(Value::curvature, 0, side() != 0 ? curvature[i] : 0.0);
     if constexpr (S.has(Value::capillary_pressure))
-      put(Value::capillary_pressure, 0,
-          groups.side[group[i]] != 0 ? groups.surface_tension * curvature[i] : 0.0);
+      row.put(Value::capillary_pressure, 0, side() != 0 ? tension * curvature[i] : 0.0);
+  }
+};
+
+/// Of total-Lagrangian solids.
+struct BondColumns {
+  explicit BondColumns(const Particles& p)
+      : x(p.data<Field::position>()),
+        displacement(p.data<Field::displacement>()),
+        mass(p.data<Field::mass>()),
+        stress(p.data<Field::bond_stress>()) {}
+  const std::int64_t *x, *displacement;
+  const double *mass, *stress;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    constexpr int D = Row::dim;
+    const std::size_t i = row.i;
+    const GroupTable& groups = row.groups;
     // A difference: it passes through a periodic face with the position, which has the image's shift.
+    [[maybe_unused]] const auto reference = [&](int k) { return x[i * D + k] - displacement[i * D + k]; };
     if constexpr (S.has(Value::reference))
-      for (int k = 0; k < D; ++k)
-        row[Layout::offset(Value::reference) + k] = coordinate(x[i * D + k] - displacement[i * D + k]);
+      for (int k = 0; k < D; ++k) row.put_position(Row::Layout::offset(Value::reference) + k, reference(k));
     if constexpr (S.has(Value::reference_cell))
       for (int k = 0; k < D; ++k)
-        put(Value::reference_cell, k,
-            static_cast<double>((x[i * D + k] - displacement[i * D + k]) >> (scale.position_shift + 29)));
+        row.put(Value::reference_cell, k,
+                static_cast<double>(reference(k) >> (row.scale.position_shift + 29)));
     if constexpr (S.has(Value::reference_volume))
-      put(Value::reference_volume, 0, mass[i] / groups.density[group[i]] * scale.inverse_volume);
-    if constexpr (S.has(Value::body)) put(Value::body, 0, groups.body[group[i]]);
+      row.put(Value::reference_volume, 0, mass[i] / groups.density[row.group] * row.scale.inverse_volume);
+    if constexpr (S.has(Value::body)) row.put(Value::body, 0, groups.body[row.group]);
     if constexpr (S.has(Value::bond_stress))
-      for (int k = 0; k < D * D; ++k) put(Value::bond_stress, k, bond_stress[i * D * D + k]);
-    if constexpr (S.has(Value::modulus)) put(Value::modulus, 0, groups.modulus[group[i]]);
-    if constexpr (S.has(Value::direction))
-      for (int k = 0; k < D; ++k) put(Value::direction, k, direction[i * D + k]);
-    if constexpr (S.has(Value::wall_slope))  // of partners it is not read
+      for (int k = 0; k < D * D; ++k) row.put(Value::bond_stress, k, stress[i * D * D + k]);
+    if constexpr (S.has(Value::modulus)) row.put(Value::modulus, 0, groups.modulus[row.group]);
+  }
+};
+
+/// Of implicit viscosity.
+struct ViscousColumns {
+  explicit ViscousColumns(const Particles& p)
+      : owned(p.owned()), direction(p.data<Field::direction>()), wall_slope(p.data<Field::wall_slope>()) {}
+  std::size_t owned;
+  const double *direction, *wall_slope;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr int D = Row::dim;
+    const std::size_t i = row.i;
+    if constexpr (Row::values.has(Value::direction))
+      for (int k = 0; k < D; ++k) row.put(Value::direction, k, direction[i * D + k]);
+    if constexpr (Row::values.has(Value::wall_slope))  // of partners it is not read
       for (int k = 0; k < D; ++k)
-        put(Value::wall_slope, k, wall_slope != nullptr && i < p.owned() ? wall_slope[i * D + k] : 0.0);
-    if constexpr (S.has(Value::specific_energy)) put(Value::specific_energy, 0, energy[i]);
-    if constexpr (S.has(Value::width)) put(Value::width, 0, width[i] * scale.inverse_h);
-    // Of walls neither is known, nor wanted.
+        row.put(Value::wall_slope, k, wall_slope != nullptr && i < owned ? wall_slope[i * D + k] : 0.0);
+  }
+};
+
+/// Sums over neighbours that later sums correct themselves with. Of walls none is known, nor wanted.
+struct CorrectionColumns {
+  explicit CorrectionColumns(const Particles& p)
+      : width(p.data<Field::smoothing_length>()),
+        kernel(p.data<Field::kernel_correction>()),
+        velocity(p.data<Field::velocity_gradient>()),
+        liquid(p.data<Field::liquid_density>()),
+        grain_drag(p.data<Field::grain_drag>()) {}
+  const double *width, *kernel, *velocity, *liquid, *grain_drag;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    constexpr int D = Row::dim;
+    const std::size_t i = row.i;
+    const RowScale& scale = row.scale;
+    if constexpr (S.has(Value::width)) row.put(Value::width, 0, width[i] * scale.inverse_h);
     if constexpr (S.has(Value::kernel_correction))
-      put(Value::kernel_correction, 0, groups.mover[group[i]] == 0 ? 1.0 : correction[i]);
+      row.put(Value::kernel_correction, 0, row.is_wall() ? 1.0 : kernel[i]);
     if constexpr (S.has(Value::velocity_gradient))
       for (int k = 0; k < D * D; ++k)
-        put(Value::velocity_gradient, k,
-            groups.mover[group[i]] == 0 ? 0.0 : gradient[i * D * D + k] / scale.inverse_h);
-    if constexpr (S.has(Value::shears)) put(Value::shears, 0, groups.shears[group[i]]);
-    if constexpr (S.has(Value::rest_gradient))  // of walls it is not known, nor wanted
+        row.put(Value::velocity_gradient, k, row.is_wall() ? 0.0 : velocity[i * D * D + k] / scale.inverse_h);
+    if constexpr (S.has(Value::rest_gradient))
       for (int k = 0; k < D; ++k)
-        put(Value::rest_gradient, k,
-            groups.mover[group[i]] == 0
-                ? 0.0
-                : liquid[i] * (scale.gravity[k] + grain_drag[i * D + k]) * scale.head[k]);
+        row.put(Value::rest_gradient, k,
+                row.is_wall() ? 0.0 : liquid[i] * (scale.gravity[k] + grain_drag[i * D + k]) * scale.head[k]);
+  }
+};
+
+/// Fills rows [first, last) of `rows`.
+template <class T, int D, ValueSet S>
+void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& scale, std::size_t first,
+               std::size_t last, T* rows) {
+  const StateColumns state(p);
+  const InterfaceColumns interface(p);
+  const BondColumns bonds(p);
+  const ViscousColumns viscous(p);
+  const CorrectionColumns corrections(p);
+  const auto* group = p.data<Field::group>();
+  for (std::size_t i = first; i < last; ++i) {
+    const PackedRow<T, D, S> row{groups, scale, rows + i * RowLayout<D, S>::stride, i, group[i]};
+    state.pack(row);
+    interface.pack(row);
+    bonds.pack(row);
+    viscous.pack(row);
+    corrections.pack(row);
   }
 }
 
