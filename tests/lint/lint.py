@@ -9,6 +9,7 @@ import sys
 
 import includes
 import numbers_rules
+import size_rules
 import text_rules
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -19,6 +20,7 @@ RULES = {
     "libm": numbers_rules.libm,
     "format": text_rules.clang_format,
     "length": text_rules.length,
+    "size": size_rules.size,
     "machine_path": text_rules.machine_path,
     "todo": text_rules.todo,
     "header": text_rules.header,
