@@ -88,7 +88,7 @@ struct Stresses {
                               constants->gradient_factor * constants->scene->smoothing_length);
       check(p, i, bonds.count, bonds.shape, step);
       const ElasticState<D> state = neo_hooke<D>(bonds.gradient, g.bulk_modulus, g.shear_modulus);
-      const double hourglass = constants->terms.hourglass * constants->groups.modulus[group[i]];
+      const double hourglass = constants->terms.bonds.hourglass * constants->groups.modulus[group[i]];
       bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
       const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
       if (!(ratio > 0))

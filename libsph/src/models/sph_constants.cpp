@@ -151,27 +151,27 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   const auto fluid = std::ranges::find_if(of.groups, is_matter);
   terms = {};
   for (std::size_t a = 0; a < 3; ++a) terms.gravity[a] = of.periodic[a] ? 0.0 : of.gravity[a] * h;
-  terms.laplacian = 1 / kernel.second;
-  terms.symmetric = (of.dim + 2) / kernel.fourth;
-  terms.viscosity = fluid->viscosity / h * terms.laplacian;
+  terms.viscous.laplacian = 1 / kernel.second;
+  terms.viscous.symmetric = (of.dim + 2) / kernel.fourth;
+  terms.viscous.uniform = fluid->viscosity / h * terms.viscous.laplacian;
   terms.density = fluid->density;
   terms.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
   terms.artificial_viscosity = of.terms.artificial_viscosity;
-  terms.quadratic_viscosity = of.terms.quadratic_viscosity;
-  terms.conduction = of.terms.conduction;
+  terms.shock.quadratic_viscosity = of.terms.quadratic_viscosity;
+  terms.shock.conduction = of.terms.conduction;
   terms.inverse_w_spacing = 1 / kernel.w_spacing;
-  terms.bond_range = of.list_range() / h;
-  terms.hourglass = of.terms.hourglass;
-  terms.contact_range = of.spacing / h;
+  terms.bonds.range = of.list_range() / h;
+  terms.bonds.hourglass = of.terms.hourglass;
+  terms.contact.range = of.spacing / h;
   // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor later.
   const double contact = contact_stiffness * power(of.spacing, of.dim) / (h * h);
-  terms.contact_force = contact * h / force_factor;
-  terms.contact_energy = 0.25 * contact * h * h;
+  terms.contact.force = contact * h / force_factor;
+  terms.contact.energy = 0.25 * contact * h * h;
   if (const InterfaceTension& t = of.terms.surface_tension;
       t.coefficient > 0 && t.form == TensionForm::jump) {
-    terms.interface_damping = interface_damping;
+    terms.jump.damping = interface_damping;
     // At a free surface nothing would hold against it.
-    if (!of.free_surface) terms.background_pressure = 2 * background * t.coefficient / h;
+    if (!of.free_surface) terms.jump.background_pressure = 2 * background * t.coefficient / h;
   }
 }
 

@@ -168,7 +168,7 @@ struct PairPass {
         pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
         if constexpr (values.has(Value::width)) look_at_widths(own, other, pair);
         if constexpr (values.has(Value::reference))
-          look_at_bond(own, other, unit, V(constants.bond_range), pair);
+          look_at_bond(own, other, unit, V(constants.bonds.range), pair);
         (Terms::template add<Kernel>(pair, constants, sums), ...);
       }
       store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
@@ -241,23 +241,18 @@ struct PairPass {
   static TermConstants<T> narrow(const TermConstants<double>& d) {
     TermConstants<T> c;
     for (int a = 0; a < 3; ++a) c.gravity[a] = static_cast<T>(d.gravity[a]);
-    c.viscosity = static_cast<T>(d.viscosity);
-    c.laplacian = static_cast<T>(d.laplacian);
-    c.symmetric = static_cast<T>(d.symmetric);
     c.density = static_cast<T>(d.density);
     c.inverse_sound_speed = static_cast<T>(d.inverse_sound_speed);
     c.artificial_viscosity = static_cast<T>(d.artificial_viscosity);
-    c.quadratic_viscosity = static_cast<T>(d.quadratic_viscosity);
-    c.conduction = static_cast<T>(d.conduction);
-    c.interface_damping = static_cast<T>(d.interface_damping);
-    c.background_pressure = static_cast<T>(d.background_pressure);
     c.inverse_w_spacing = static_cast<T>(d.inverse_w_spacing);
     c.half_step = static_cast<T>(d.half_step);
-    c.bond_range = static_cast<T>(d.bond_range);
-    c.hourglass = static_cast<T>(d.hourglass);
-    c.contact_range = static_cast<T>(d.contact_range);
-    c.contact_force = static_cast<T>(d.contact_force);
-    c.contact_energy = static_cast<T>(d.contact_energy);
+    c.viscous = {static_cast<T>(d.viscous.uniform), static_cast<T>(d.viscous.laplacian),
+                 static_cast<T>(d.viscous.symmetric)};
+    c.shock = {static_cast<T>(d.shock.quadratic_viscosity), static_cast<T>(d.shock.conduction)};
+    c.jump = {static_cast<T>(d.jump.damping), static_cast<T>(d.jump.background_pressure)};
+    c.bonds = {static_cast<T>(d.bonds.range), static_cast<T>(d.bonds.hourglass)};
+    c.contact = {static_cast<T>(d.contact.range), static_cast<T>(d.contact.force),
+                 static_cast<T>(d.contact.energy)};
     return c;
   }
 

@@ -10,25 +10,51 @@
 
 namespace sph {
 
+/// Of terms/viscosity.hpp.
+template <class T>
+struct ViscousConstants {
+  T uniform;               ///< eta / h where all groups share it, times `laplacian` [Pa s/m]
+  T laplacian, symmetric;  ///< scales of the two forms
+};
+/// Of terms/shock.hpp.
+template <class T>
+struct ShockConstants {
+  T quadratic_viscosity;  ///< beta
+  T conduction;           ///< alpha_u
+};
+/// Of terms/tension_jump.hpp.
+template <class T>
+struct JumpConstants {
+  T damping;              ///< beta
+  T background_pressure;  ///< twice p_b [Pa]
+};
+/// Of terms/bonds.hpp.
+template <class T>
+struct BondConstants {
+  T range;      ///< largest distance of two bonded particles / h
+  T hourglass;  ///< stiffness against hourglass modes over the modulus
+};
+/// Of terms/body_contact.hpp.
+template <class T>
+struct BodyContactConstants {
+  T range;          ///< distance at which bodies touch / h
+  T force, energy;  ///< scales
+};
+
 /// Constants of the scene that terms read, in the scaled units of pair_rows.hpp.
 template <class T>
 struct TermConstants {
-  T gravity[3];                     ///< g h [m^2/s^2]
-  T viscosity;                      ///< eta / h where all groups share it, times `laplacian` [Pa s/m]
-  T laplacian, symmetric;           ///< scales of the forms of terms/viscosity.hpp
-  T density;                        ///< rho_0 where there is one fluid [kg/m^3]
-  T inverse_sound_speed;            ///< where there is one fluid [s/m]
-  T artificial_viscosity;           ///< alpha
-  T quadratic_viscosity;            ///< beta
-  T conduction;                     ///< alpha_u
-  T interface_damping;              ///< beta of terms/tension_jump.hpp
-  T background_pressure;            ///< twice p_b of terms/tension_jump.hpp [Pa]
-  T inverse_w_spacing;              ///< 1 / w(spacing/h), unnormalised kernel
-  T half_step;                      ///< dt / 2h [s/m]
-  T bond_range;                     ///< largest distance of two bonded particles / h
-  T hourglass;                      ///< stiffness against hourglass modes over the modulus
-  T contact_range;                  ///< distance at which bodies touch / h
-  T contact_force, contact_energy;  ///< scales of terms/body_contact.hpp
+  T gravity[3];            ///< g h [m^2/s^2]
+  T density;               ///< rho_0 where there is one fluid [kg/m^3]
+  T inverse_sound_speed;   ///< where there is one fluid [s/m]
+  T artificial_viscosity;  ///< alpha
+  T inverse_w_spacing;     ///< 1 / w(spacing/h), unnormalised kernel
+  T half_step;             ///< dt / 2h [s/m]
+  ViscousConstants<T> viscous;
+  ShockConstants<T> shock;
+  JumpConstants<T> jump;
+  BondConstants<T> bonds;
+  BodyContactConstants<T> contact;
 };
 
 /// Everything a compiled pass needs besides its terms.

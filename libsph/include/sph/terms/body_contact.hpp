@@ -16,7 +16,7 @@ struct BodyContact {
   template <class P, class C>
   static auto overlap(const P& p, const C& c) {
     using V = typename P::V;
-    const V o = max(V(c.contact_range) - p.r, V::zero());
+    const V o = max(V(c.contact.range) - p.r, V::zero());
     return o - where_equal(p.template i<Value::body>(), p.template j<Value::body>(), o);
   }
   template <class P>
@@ -26,7 +26,7 @@ struct BodyContact {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V push = V(c.contact_force) * modulus(p) * overlap(p, c);
+    const V push = V(c.contact.force) * modulus(p) * overlap(p, c);
     const V s = push / max(p.r, V(static_cast<typename P::Scalar>(1e-30)));
     for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, -(s * p.e[a]));
   }
@@ -41,7 +41,7 @@ struct BodyContactEnergy {
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
     const V overlap = BodyContact::overlap(p, c);
-    const V energy = V(c.contact_energy) * BodyContact::modulus(p) * (overlap * overlap);
+    const V energy = V(c.contact.energy) * BodyContact::modulus(p) * (overlap * overlap);
     sums.template add<Field::contact_energy>(0, energy);
   }
 };

@@ -48,7 +48,7 @@ struct BondForce {
     using V = typename P::V;
     const V s =
         p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.bond.weight;
-    const V stiffness = V(2 * c.hourglass) * p.template i<Value::modulus>();  // one body, one modulus
+    const V stiffness = V(2 * c.bonds.hourglass) * p.template i<Value::modulus>();  // one body, one modulus
     for (int a = 0; a < P::dim; ++a) {
       V t = stiffness * p.bond.displacement[a];
       for (int b = 0; b < P::dim; ++b) {

@@ -55,7 +55,8 @@ typename P::V shock_push(const P& p, const C& c) {
   const V mu = h * approach_of(p) / (p.r2 + V(static_cast<T>(0.01)) * (h * h));
   const V rho = mean_density(p);
   const V sound = p.template i<Value::sound_speed>() + p.template j<Value::sound_speed>();
-  const V signal = V(c.artificial_viscosity * static_cast<T>(0.5)) * sound - V(c.quadratic_viscosity) * mu;
+  const V signal =
+      V(c.artificial_viscosity * static_cast<T>(0.5)) * sound - V(c.shock.quadratic_viscosity) * mu;
   return p.template i<Value::volume>() * p.template j<Value::volume>() * (rho * signal) * mu * p.f;
 }
 
@@ -83,7 +84,7 @@ struct ShockHeating {
     V work = V::zero();
     const V push = shock_push(p, c);
     const V volumes = p.template i<Value::volume>() * p.template j<Value::volume>() * p.f;
-    const V viscous = volumes * (V(c.laplacian) * mean_viscosity(p));  // as in Viscosity
+    const V viscous = volumes * (V(c.viscous.laplacian) * mean_viscosity(p));  // as in Viscosity
     for (int k = 0; k < P::dim; ++k) {
       const V dv = p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k);
       const V force = viscous * dv - push * p.e[k];
@@ -93,7 +94,7 @@ struct ShockHeating {
     const V u_i = p.template i<Value::specific_energy>(), u_j = p.template j<Value::specific_energy>();
     const V rho = mean_density(p);
     const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + rho * head(p, c);
-    const V flux = V(c.conduction) * sqrt(rho * max(excess, -excess)) * (u_i - u_j) * p.r;
+    const V flux = V(c.shock.conduction) * sqrt(rho * max(excess, -excess)) * (u_i - u_j) * p.r;
     const V inert = where_equal(min(u_i, u_j), V::zero(), flux);  // with what has no energy of its own
     sums.template add<Field::heating>(0, volumes * (flux - inert) - half * work);
   }

@@ -34,11 +34,11 @@ struct JumpOfPressure {
       approach += (p.template j<Value::velocity>(k) - p.template i<Value::velocity>(k)) * p.e[k];
     const V sound = min(p.template i<Value::sound_speed>(), p.template j<Value::sound_speed>());
     const V impedance = twice * rho_j * inverse * sound;
-    const V damping = V(c.interface_damping) * impedance *
-                      (approach / max(p.r2, V(static_cast<typename P::Scalar>(1e-30))));
+    const V damping =
+        V(c.jump.damping) * impedance * (approach / max(p.r2, V(static_cast<typename P::Scalar>(1e-30))));
     const V across = where_equal(side * p.template j<Value::side>(), V(-1), jump - damping);
     const V s = p.template i<Value::volume>() * p.template j<Value::volume>() *
-                (V(c.background_pressure) + across) * p.f;
+                (V(c.jump.background_pressure) + across) * p.f;
     for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, s * p.e[a]);
   }
 };

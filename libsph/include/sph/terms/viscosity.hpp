@@ -33,7 +33,7 @@ struct Viscosity {
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
     const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * mean_viscosity(p) *
-                (V(c.laplacian) * p.f);
+                (V(c.viscous.laplacian) * p.f);
     for (int k = 0; k < P::dim; ++k)
       sums.template add<Field::force>(
           k, s * (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)));
@@ -51,7 +51,7 @@ struct SymmetricViscosity {
     for (int k = 0; k < P::dim; ++k)
       stretch += (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)) * p.e[k];
     const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * mean_viscosity(p) *
-                (V(c.symmetric) * p.f * stretch);
+                (V(c.viscous.symmetric) * p.f * stretch);
     for (int k = 0; k < P::dim; ++k) sums.template add<Field::force>(k, s * p.e[k]);
   }
 };
@@ -64,7 +64,8 @@ struct UniformViscosity {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * (V(2 * c.viscosity) * p.f);
+    const V s =
+        p.template i<Value::volume>() * p.template j<Value::volume>() * (V(2 * c.viscous.uniform) * p.f);
     for (int k = 0; k < P::dim; ++k)
       sums.template add<Field::force>(
           k, s * (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)));

@@ -40,7 +40,7 @@ struct ViscousOperator {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V drag = viscous_drag(p) * V(c.laplacian);
+    const V drag = viscous_drag(p) * V(c.viscous.laplacian);
     for (int k = 0; k < P::dim; ++k)
       sums.template add<Field::viscous_sums>(
           k, drag * (p.template j<Value::direction>(k) - p.template i<Value::direction>(k)));
@@ -59,7 +59,7 @@ struct SymmetricViscousOperator {
     V stretch = V::zero();
     for (int k = 0; k < P::dim; ++k)
       stretch += (p.template j<Value::direction>(k) - p.template i<Value::direction>(k)) * p.e[k];
-    const V drag = viscous_drag(p) * V(c.symmetric);
+    const V drag = viscous_drag(p) * V(c.viscous.symmetric);
     for (int k = 0; k < P::dim; ++k) sums.template add<Field::viscous_sums>(k, drag * stretch * p.e[k]);
     // The mean over the directions: the diagonal is used to precondition alone.
     sums.template add<Field::viscous_sums>(P::dim, drag * p.r2 * V(static_cast<T>(1.0 / P::dim)));
