@@ -74,9 +74,9 @@ int main(int argc, char** argv) {
     Simulation s(comm, read_scene(scene, overrides));
     if (!s.scene().of_grains()) throw InputError(scene + ": is no scene of grains");
     for (int k = 0; k < 20; ++k) s.step();
-    if (s.scene().contact.law->word == HertzNormal::word)
+    if (s.scene().grains.contact.law->word == HertzNormal::word)
       compare<HertzNormal>(s);
-    else if (s.scene().contact.normal_damping)
+    else if (s.scene().grains.contact.normal_damping)
       compare<LinearRate>(s);
     else
       compare<LinearNormal>(s);

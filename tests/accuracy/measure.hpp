@@ -96,7 +96,7 @@ inline double mean_position(const sph::Simulation& s, const std::string& group, 
 /// group, rms over all fluid [Pa]. In 2D; the weight is the quintic kernel's.
 inline double pressure_noise(const sph::Simulation& s) {
   const std::vector<Sample> all = samples(s);
-  const double h = s.scene().smoothing_length, reach = s.scene().support();
+  const double h = s.scene().kernel.smoothing_length, reach = s.scene().support();
   std::vector<Sample> fluid;
   for (const Sample& q : all)
     if (s.scene().groups[q.group].kind == sph::GroupKind::fluid) fluid.push_back(q);

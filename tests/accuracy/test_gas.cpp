@@ -166,7 +166,8 @@ TEST(Gas, SoundIsAdiabatic) {
        "group.fluid.sound_speed=", "group.fluid.viscosity=0", "group.fluid.eos=ideal_gas",
        "group.fluid.heat_ratio=1.4", "group.fluid.start_pressure=50", "terms.artificial_viscosity=0",
        "terms.quadratic_viscosity=0", "terms.artificial_conduction=0"});
-  scene.start.velocity = sph::InitialVelocity::rest;  // the pressure alone: a wave along x and one along y
+  scene.start.velocity.kind =
+      sph::InitialVelocity::rest;  // the pressure alone: a wave along x and one along y
   sph::Simulation s(comm, scene);
   const double k = 4 * std::numbers::pi, c = std::sqrt(1.4 * 50);
   std::vector<double> crossings, peaks{0};

@@ -65,7 +65,7 @@ TEST(HydrostaticTank, FromZeroPressureTheSwingDecays) {
   const decomp::Comm comm(MPI_COMM_SELF);
   const sph::Scene scene = tank({"start.pressure=zero"});
   sph::Simulation s(comm, scene);
-  const double c = std::sqrt(scene.groups[0].bulk_modulus / scene.groups[0].density);
+  const double c = std::sqrt(scene.groups[0].eos.bulk_modulus / scene.groups[0].density);
   const double k = std::numbers::pi / 2;  // quarter wave: floor to free surface
   const double period = 2 * std::numbers::pi / (c * k);
   const auto mean_kinetic = [&](int periods) {
@@ -81,7 +81,7 @@ TEST(HydrostaticTank, FromZeroPressureTheSwingDecays) {
   const double t1 = s.global().time, second = mean_kinetic(4);
   std::printf("tank from p = 0: decay rate %.3f 1/s, delta h c k^2/2 = %.3f 1/s\n",
               0.5 * std::log(first / second) / (t1 - t0),
-              0.5 * scene.terms.density_diffusion * scene.smoothing_length * c * k * k);
+              0.5 * scene.terms.density_diffusion * scene.kernel.smoothing_length * c * k * k);
   const int periods = 64;
   measure::run_until(s, *scene.time.until - periods * period);
   double mean_error = 0;
@@ -109,9 +109,10 @@ TEST(HydrostaticTank, BubblyMagmaRests) {
   for (const measure::Sample& q : measure::samples(s))
     if (!measure::is_wall(s, q)) {
       start[q.x[1]] = q.p;
-      mass += q.x[1] < scene.spacing ? 0.5 * q.mass : q.mass;  // above the middle of the lowest row
+      mass += q.x[1] < scene.start.spacing ? 0.5 * q.mass : q.mass;  // above the middle of the lowest row
     }
-  const double lowest = start.begin()->first, weight = mass * 9.8 / (scene.upper[0] - scene.lower[0]);
+  const double lowest = start.begin()->first,
+               weight = mass * 9.8 / (scene.domain.upper[0] - scene.domain.lower[0]);
   EXPECT_NEAR(start.begin()->second, weight, 0.005 * weight);
   double fastest = 0, floor = 0;
   int n = 0;
@@ -119,9 +120,9 @@ TEST(HydrostaticTank, BubblyMagmaRests) {
   double worst = 0;
   for (const measure::Sample& q : measure::samples(s)) {
     if (measure::is_wall(s, q)) continue;
-    const auto row = start.lower_bound(q.x[1] - 0.5 * scene.spacing);
+    const auto row = start.lower_bound(q.x[1] - 0.5 * scene.start.spacing);
     worst = std::max(worst, std::abs(q.p - row->second));
-    if (q.x[1] < lowest + 0.5 * scene.spacing) floor += q.p, ++n;
+    if (q.x[1] < lowest + 0.5 * scene.start.spacing) floor += q.p, ++n;
   }
   std::printf("magma column to %.1f s: fastest %.3f m/s, p at the floor %.4f of the weight\n",
               s.global().time, fastest, floor / n / weight);

@@ -87,7 +87,7 @@ TEST(AcousticWave, DecaysAtTheRateOfTheDensityDiffusion) {
         sph::read_scene(PEPERITE_ACCURACY_DIR "/taylor_green.toml",
                         {"terms.shifting=false", "start.jitter=0", "group.fluid.viscosity=1e-9",
                          "terms.density_diffusion=" + std::to_string(delta)});
-    scene.start.velocity = sph::InitialVelocity::rest;  // the pressure field alone: two standing waves
+    scene.start.velocity.kind = sph::InitialVelocity::rest;  // the pressure field alone: two standing waves
     sph::Simulation s(comm, scene);
     const double c = 10, k = 4 * std::numbers::pi, period = 2 * std::numbers::pi / (c * k);
     const auto mean_square_amplitude = [&] {
@@ -104,7 +104,7 @@ TEST(AcousticWave, DecaysAtTheRateOfTheDensityDiffusion) {
     const double t0 = s.global().time, first = mean_square_amplitude();
     const double t1 = s.global().time, second = mean_square_amplitude();
     const double rate = 0.5 * std::log(first / second) / (t1 - t0);
-    const double expected = 0.5 * delta * scene.smoothing_length * c * k * k;
+    const double expected = 0.5 * delta * scene.kernel.smoothing_length * c * k * k;
     std::printf("acoustic wave, delta %.1f: decay rate %.3f 1/s, expected %.3f\n", delta, rate, expected);
     EXPECT_NEAR(PINNED(rate), expected, delta > 0 ? 0.01 * expected : 0.015);
   }
@@ -121,7 +121,8 @@ TEST(AcousticWave, RunsAtTheSpeedThatTheKernelLeaves) {
                       {"terms.shifting=false", "start.jitter=0", "group.fluid.viscosity=0",
                        "terms.density_diffusion=0", "start.spacing=0.025", "kernel.h_over_dx=1.2",
                        "start.flow_speed=1e-4", "time.cfl=", "time.dt=0.0015"});
-  scene.start.velocity = sph::InitialVelocity::rest;  // p alone: a wave of length 0.5 along x and one along y
+  scene.start.velocity.kind =
+      sph::InitialVelocity::rest;  // p alone: a wave of length 0.5 along x and one along y
   sph::Simulation s(comm, scene);
   ASSERT_NEAR(s.global().dt, dt, 1e-15);
   std::vector<double> crossings;

@@ -6,7 +6,7 @@ from source_files import at, code, cpp
 
 MOST_DATA, MOST_FUNCTIONS, MOST_LINES = 12, 20, 60
 # Temporary: classes that are being split. Take a name out with its split; none may come in.
-STILL_TOO_LARGE = {"Grains", "Physics", "TermConstants", "Scene", "Group", "Start", "Terms"}
+STILL_TOO_LARGE = set()
 
 _CLASS = re.compile(r"(?:template\s*)?(?:class|struct|union)\s+(?:alignas\(\)\s*)?(\w+)")
 _INITIALISED = re.compile(r"\)\s*(?:noexcept\s*)?:(?!:)")

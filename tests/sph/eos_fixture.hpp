@@ -15,8 +15,8 @@ namespace sph::test {
 inline Group fluid_of(const LawConstants& constants) {
   Group g;
   g.density = 3000;
-  g.bulk_modulus = 5e10;
-  g.eos_constants = constants;
+  g.eos.bulk_modulus = 5e10;
+  g.eos.constants = constants;
   return g;
 }
 
@@ -24,7 +24,7 @@ inline Group fluid_of(const LawConstants& constants) {
 /// no pressure, no energy and c^2 = K/rho_0.
 template <class Eos>
 void expect_one_law(const Group& g, double least, double most) {
-  const double unit = g.bulk_modulus / g.density;
+  const double unit = g.eos.bulk_modulus / g.density;
   EXPECT_EQ(Eos::pressure(g, g.density), 0);
   EXPECT_EQ(Eos::energy(g, g.density), 0);
   EXPECT_NEAR(Eos::sound_speed(g, g.density) / std::sqrt(unit), 1, 1e-14);

@@ -24,31 +24,32 @@ Scene scene_for(const Fusion& fusion) {
   const auto needs = [&](Value v) { return fusion.values.has(v); };
   Scene s;
   s.dim = fusion.dim;
-  s.precision = fusion.precision;
-  s.kernel = fusion.kernel;
-  s.spacing = dx;
-  s.smoothing_length = h_over_dx * dx;
-  for (std::size_t a = 0; a < 3; ++a) s.lower[a] = -0.3 - 0.1 * static_cast<double>(a), s.upper[a] = 3;
-  s.gravity = {1.7, -8.9, 2.3};
-  s.central_pull = 2.9;
-  s.pull_centre = {0.11, -0.07, 0.23};
+  s.terms.precision = fusion.precision;
+  s.kernel.shape = fusion.kernel;
+  s.start.spacing = dx;
+  s.kernel.smoothing_length = h_over_dx * dx;
+  for (std::size_t a = 0; a < 3; ++a)
+    s.domain.lower[a] = -0.3 - 0.1 * static_cast<double>(a), s.domain.upper[a] = 3;
+  s.domain.gravity = {1.7, -8.9, 2.3};
+  s.domain.central_pull = 2.9;
+  s.domain.pull_centre = {0.11, -0.07, 0.23};
   s.groups.resize(5);
   constexpr double density[]{900, 1500, 2300, 1900, 2300}, sound[]{11, 17, 23, 19, 23};
   constexpr double viscosity[]{0.7, 2.9, 1.3, 0, 0};
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
     s.groups[g].kind = g == solid ? GroupKind::solid : g < solid ? GroupKind::fluid : GroupKind::wall;
     s.groups[g].density = density[g];
-    s.groups[g].bulk_modulus = density[g] * sound[g] * sound[g];
+    s.groups[g].eos.bulk_modulus = density[g] * sound[g] * sound[g];
     s.groups[g].viscosity = viscosity[g];
   }
-  s.groups[solid].shear_modulus = 0.4 * s.groups[solid].bulk_modulus;
-  s.groups[clamp].clamps = solid;
-  if (needs(Value::reference)) s.groups[solid].lagrangian = Lagrangian::total;
-  if (needs(Value::width)) s.least_growth = 0.8, s.largest_growth = 1.3;
+  s.groups[solid].solid.shear_modulus = 0.4 * s.groups[solid].eos.bulk_modulus;
+  s.groups[clamp].wall.clamps = solid;
+  if (needs(Value::reference)) s.groups[solid].solid.lagrangian = Lagrangian::total;
+  if (needs(Value::width)) s.kernel.least_growth = 0.8, s.kernel.largest_growth = 1.3;
   s.terms.density_diffusion = 0.13;
   s.terms.artificial_viscosity = 0.6;
-  s.terms.quadratic_viscosity = 1.1;
-  s.terms.conduction = 0.4;
+  s.terms.gas.quadratic_viscosity = 1.1;
+  s.terms.gas.conduction = 0.4;
   s.terms.surface_tension = {{light, heavy}, 0.9, TensionForm::jump};
   return s;
 }
@@ -159,7 +160,7 @@ void PairCase::set(Field field, std::size_t row, double value) {
 void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   const auto d = static_cast<std::size_t>(particles_.dim());
   const Group& g = scene_.groups[at.group];
-  const double h = scene_.smoothing_length;
+  const double h = scene_.kernel.smoothing_length;
   const bool still = is_wall(at.group), beside = at.group == light || at.group == heavy;
   const bool far = at.x[0] > 11;  // from the interface, whoever is there
   const bool faint = uniform(number, Field::colour_gradient, 9) > 0.8;
@@ -189,7 +190,7 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   numbers(Field::smoothing_length, still ? h : 1.05 * h, still ? 0 : 0.25 * h);
   numbers(Field::stress, 0, 3000);
   numbers(Field::pressure, 1000, 4000);
-  const double sound = std::sqrt(g.bulk_modulus / g.density);
+  const double sound = std::sqrt(g.eos.bulk_modulus / g.density);
   numbers(Field::sound_speed, sound, 0.2 * sound);
   numbers(Field::kernel_correction, 1, 0.1, !still);
   numbers(Field::velocity_gradient, 0, 40, !still);
@@ -211,12 +212,12 @@ void PairCase::build_lists(double widened) {
     std::vector<double> reach(particles_.rows());
     const double* h = particles_.data<Field::smoothing_length>();
     for (std::size_t i = 0; i < reach.size(); ++i)  // of walls, and beside them, not less than h wide
-      reach[i] = widened * 3 * std::fmax(h[i], scene_.smoothing_length) / quantum() + 1;
+      reach[i] = widened * 3 * std::fmax(h[i], scene_.kernel.smoothing_length) / quantum() + 1;
     lists_.build(particles_, reach, ranges_, timers_);
   } else {
     decomp::Int3 length{};
     for (std::size_t a = 0; a < 3; ++a)
-      length[a] = constants_.scale.quanta(scene_.upper[a]) - constants_.scale.origin[a];
+      length[a] = constants_.scale.quanta(scene_.domain.upper[a]) - constants_.scale.origin[a];
     const std::int64_t radius = constants_.scale.quanta(range) + 1;
     const decomp::CellGrid grid(fusion_.dim, constants_.scale.origin, length, {}, radius);
     lists_.build(particles_, grid, {{}, grid.cells()}, radius, ranges_, timers_);

@@ -23,7 +23,8 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
   const PairParticle &i = pair.i, &j = pair.j;
   const Vec &x = pair.x, &grad = pair.gradient;
   const double r = pair.r, slope = pair.slope;
-  const double lattice_volume = power(scene_.spacing, dim_);  // the unit of volumes in sums without units
+  const double lattice_volume =
+      power(scene_.start.spacing, dim_);  // the unit of volumes in sums without units
   const Vec dv = j.v - i.v, dd = j.direction - i.direction;
   const auto one = [&](Field f, int k, double value) {
     sums.of[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)].add(value);
@@ -37,7 +38,7 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
   };
   const auto gravity = [&] {
     double head = 0;
-    for (int a = 0; a < dim_; ++a) head += scene_.gravity[static_cast<std::size_t>(a)] * x(a);
+    for (int a = 0; a < dim_; ++a) head += scene_.domain.gravity[static_cast<std::size_t>(a)] * x(a);
     return head;
   }();
   const double rho = 0.5 * (i.density + j.density), w_ij = w(r, h_);
@@ -61,10 +62,10 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       if (term.name == "PulledDensityDiffusion") {
         double to_i = 0, to_j = 0;
         for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) {
-          to_i += power(static_cast<double>(i.x[a]) * of_.quantum() - scene_.pull_centre[a], 2);
-          to_j += power(static_cast<double>(j.x[a]) * of_.quantum() - scene_.pull_centre[a], 2);
+          to_i += power(static_cast<double>(i.x[a]) * of_.quantum() - scene_.domain.pull_centre[a], 2);
+          to_j += power(static_cast<double>(j.x[a]) * of_.quantum() - scene_.domain.pull_centre[a], 2);
         }
-        rest += 0.5 * scene_.central_pull * (to_i - to_j);
+        rest += 0.5 * scene_.domain.central_pull * (to_i - to_j);
       }
       return one(Field::diffusion, 0,
                  i.group != j.group ? 0.0
@@ -82,12 +83,12 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       const Group& fluid = scene_.groups[light];
       return one(Field::diffusion, 0,
                  delta * j.volume * (i.pressure - j.pressure + fluid.density * gravity) /
-                     std::sqrt(fluid.bulk_modulus / fluid.density) * slope / r);
+                     std::sqrt(fluid.eos.bulk_modulus / fluid.density) * slope / r);
     }
     case key("Xsph"):
       return vector(Field::added, 0, (j.mover ? j.volume * j.density / rho : 0.0) * (w_ij / h_) * dv);
     case key("Concentration"):
-      vector(Field::spread, 0, j.volume * (1 + 0.2 * power(w_ij / w(scene_.spacing, h_), 4)) * grad);
+      vector(Field::spread, 0, j.volume * (1 + 0.2 * power(w_ij / w(scene_.start.spacing, h_), 4)) * grad);
       one(Field::spread, dim_, j.volume * w_ij / h_);
       return one(Field::spread, dim_ + 1, j.mover ? j.volume * w_ij * power(dv.dot(x) / r, 2) / h_ : 0.0);
     case key("ColourGradient"):
@@ -159,7 +160,7 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       const double mean = harmonic(i.density, j.density);
       const double jump = std::abs(i.pressure - j.pressure + mean * gravity);
       const double conducted = i.energy > 0 && j.energy > 0
-                                   ? i.volume * j.volume * scene_.terms.conduction * mean *
+                                   ? i.volume * j.volume * scene_.terms.gas.conduction * mean *
                                          std::sqrt(jump / mean) * (j.energy - i.energy) * grad.norm()
                                    : 0.0;
       one(Field::heating, 0, conducted + 0.5 * force.dot(dv));
@@ -182,7 +183,7 @@ void PairOracle::add_contact(const Pair& pair, Term term, PairSums& sums) const 
   const PairParticle &i = pair.i, &j = pair.j;
   const Vec& x = pair.x;
   const double r = pair.r;
-  const double d = scene_.spacing, overlap = d - r;
+  const double d = scene_.start.spacing, overlap = d - r;
   if (i.body == j.body || overlap < 0) return;
   const double k = contact_stiffness * std::min(i.modulus, j.modulus) * power(d, dim_) / (h_ * h_);
   if (term.name == "BodyContactEnergy") {
@@ -212,7 +213,7 @@ void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {
   };
   Vec force = Vec::Zero();
   if (term.name == "Deformation") {
-    const double bare_weight = bare(weight) * h_ * h_ * j.rest_volume / power(scene_.spacing, dim_);
+    const double bare_weight = bare(weight) * h_ * h_ * j.rest_volume / power(scene_.start.spacing, dim_);
     one(Field::deformation, 0, R < scene_.support() && r < scene_.list_range() ? 1 : 0);
     one(Field::deformation, 1, bare_weight * u.squaredNorm() / (h_ * h_));
     for (int a = 0; a < dim_; ++a) {
@@ -225,8 +226,8 @@ void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {
     return;
   }
   if (term.name == "BondForce")
-    force =
-        both * weight * ((i.bond_stress + j.bond_stress) * X + 2 * scene_.terms.hourglass * i.modulus * u);
+    force = both * weight *
+            ((i.bond_stress + j.bond_stress) * X + 2 * scene_.terms.bonds.hourglass * i.modulus * u);
   else
     force =
         2 * (dim_ + 2) * 0.5 * (i.viscosity + j.viscosity) * both * weight * (j.v - i.v).dot(x) * x / (r * r);
@@ -245,7 +246,7 @@ Vec PairOracle::shock(const Pair& pair) const {
   const double mu = h * std::min(dv.dot(x) - smooth, 0.0) / (r * r + 0.01 * h * h);
   const double sound = 0.5 * (i.sound + j.sound);
   return i.volume * j.volume * harmonic(i.density, j.density) *
-         (scene_.terms.artificial_viscosity * sound - scene_.terms.quadratic_viscosity * mu) * mu * grad;
+         (scene_.terms.artificial_viscosity * sound - scene_.terms.gas.quadratic_viscosity * mu) * mu * grad;
 }
 
 void PairOracle::add_force(const Pair& pair, Term term, PairSums& sums) const {

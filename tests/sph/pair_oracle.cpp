@@ -16,7 +16,11 @@ double power(double x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
 }  // namespace
 
 PairOracle::PairOracle(const PairCase& of)
-    : of_(of), scene_(of.scene()), dim_(scene_.dim), h_(scene_.smoothing_length), unit_(Mat::Identity()) {
+    : of_(of),
+      scene_(of.scene()),
+      dim_(scene_.dim),
+      h_(scene_.kernel.smoothing_length),
+      unit_(Mat::Identity()) {
   if (dim_ == 2) unit_(2, 2) = 0;
   second_ = moment(1);
   fourth_ = moment(3);
@@ -54,7 +58,7 @@ void PairOracle::load() {
       q.slope(e) = get(Field::wall_slope, row, a);
       if (g.kind != GroupKind::wall)
         q.rest_gradient(e) =
-            get(Field::liquid_density, row, 0) * (scene_.gravity[a] + get(Field::grain_drag, row, a));
+            get(Field::liquid_density, row, 0) * (scene_.domain.gravity[a] + get(Field::grain_drag, row, a));
       for (std::size_t b = 0; b < d; ++b) {
         const auto f = static_cast<Eigen::Index>(b);
         const int s =
@@ -69,8 +73,8 @@ void PairOracle::load() {
     q.volume = q.density > 0 ? q.mass / q.density : 0.0;
     q.sound = get(Field::sound_speed, row, 0);
     if (!p.has(Field::sound_speed)) {
-      const double shear = g.kind == GroupKind::solid ? g.shear_modulus : 0.0;
-      q.sound = std::sqrt((g.bulk_modulus + 4.0 / 3.0 * shear) / g.density);
+      const double shear = g.kind == GroupKind::solid ? g.solid.shear_modulus : 0.0;
+      q.sound = std::sqrt((g.eos.bulk_modulus + 4.0 / 3.0 * shear) / g.density);
     }
     q.energy = get(Field::specific_energy, row, 0);
     q.width = get(Field::smoothing_length, row, 0);
@@ -81,7 +85,7 @@ void PairOracle::load() {
     q.group = static_cast<int>(group);
     q.body = group == clamp ? static_cast<int>(solid) : q.group;
     const Group& material = scene_.groups[static_cast<std::size_t>(q.body)];
-    q.modulus = material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus;
+    q.modulus = material.eos.bulk_modulus + 4.0 / 3.0 * material.solid.shear_modulus;
     q.rest_volume = q.mass / g.density;
     q.mover = g.kind != GroupKind::wall;
     q.shears = g.kind != GroupKind::fluid;
@@ -95,9 +99,9 @@ void PairOracle::load() {
 double PairOracle::w(double r, double h) const {
   const double q = r / h, scale = 1 / power(h, dim_), s = std::max(1 - q / 2, 0.0);
   const auto cut = [&](double reach) { return power(std::max(reach - q, 0.0), 5); };
-  if (scene_.kernel == KernelShape::wendland_c2)
+  if (scene_.kernel.shape == KernelShape::wendland_c2)
     return scale * (dim_ == 2 ? 7 / (4 * pi) : 21 / (16 * pi)) * power(s, 4) * (1 + 2 * q);
-  if (scene_.kernel == KernelShape::wendland_c4)
+  if (scene_.kernel.shape == KernelShape::wendland_c4)
     return scale * (dim_ == 2 ? 9 / (4 * pi) : 495 / (256 * pi)) * power(s, 6) *
            (1 + 3 * q + 35.0 / 12 * q * q);
   return scale * (dim_ == 2 ? 7 / (478 * pi) : 1 / (120 * pi)) * (cut(3) - 6 * cut(2) + 15 * cut(1));
@@ -106,9 +110,9 @@ double PairOracle::w(double r, double h) const {
 double PairOracle::dw(double r, double h) const {
   const double q = r / h, scale = 1 / power(h, dim_ + 1), s = std::max(1 - q / 2, 0.0);
   const auto cut = [&](double reach) { return -5 * power(std::max(reach - q, 0.0), 4); };
-  if (scene_.kernel == KernelShape::wendland_c2)
+  if (scene_.kernel.shape == KernelShape::wendland_c2)
     return scale * (dim_ == 2 ? 7 / (4 * pi) : 21 / (16 * pi)) * -5 * q * power(s, 3);
-  if (scene_.kernel == KernelShape::wendland_c4)
+  if (scene_.kernel.shape == KernelShape::wendland_c4)
     return scale * (dim_ == 2 ? 9 / (4 * pi) : 495 / (256 * pi)) * (-14.0 / 3) * q * (1 + 2.5 * q) *
            power(s, 5);
   return scale * (dim_ == 2 ? 7 / (478 * pi) : 1 / (120 * pi)) * (cut(3) - 6 * cut(2) + 15 * cut(1));
@@ -118,9 +122,9 @@ double PairOracle::bare(double value) const {
   const auto alpha = [&]<class K>(K) {
     return dim_ == 2 ? K::template normalisation<2> : K::template normalisation<3>;
   };
-  const double factor = scene_.kernel == KernelShape::wendland_c2   ? alpha(WendlandC2{})
-                        : scene_.kernel == KernelShape::wendland_c4 ? alpha(WendlandC4{})
-                                                                    : alpha(Quintic{});
+  const double factor = scene_.kernel.shape == KernelShape::wendland_c2   ? alpha(WendlandC2{})
+                        : scene_.kernel.shape == KernelShape::wendland_c4 ? alpha(WendlandC4{})
+                                                                          : alpha(Quintic{});
   return value * power(h_, dim_) / factor;
 }
 
@@ -129,8 +133,8 @@ double PairOracle::moment(int exponent) const {
   for (int a = -4; a <= 4; ++a)
     for (int b = -4; b <= 4; ++b)
       for (int c = dim_ == 3 ? -4 : 0; c <= (dim_ == 3 ? 4 : 0); ++c) {
-        const double r = scene_.spacing * std::sqrt(a * a + b * b + c * c);
-        sum -= power(scene_.spacing, dim_) / dim_ * dw(r, h_) * power(r, exponent);
+        const double r = scene_.start.spacing * std::sqrt(a * a + b * b + c * c);
+        sum -= power(scene_.start.spacing, dim_) / dim_ * dw(r, h_) * power(r, exponent);
       }
   return sum;
 }

@@ -19,8 +19,8 @@ TEST(BirchMurnaghan, NoDensityIsMadeUp) {
   const Group rock = test::fluid_of({4.0});
   const double stretched = BirchMurnaghan::density(rock, BirchMurnaghan::pressure(rock, 0.75 * rock.density));
   EXPECT_NEAR(stretched / rock.density, 0.75, 1e-12);
-  EXPECT_EQ(BirchMurnaghan::density(rock, -rock.bulk_modulus), 0);
-  EXPECT_EQ(BirchMurnaghan::density(test::fluid_of({3.01}), 100 * rock.bulk_modulus), 0);
+  EXPECT_EQ(BirchMurnaghan::density(rock, -rock.eos.bulk_modulus), 0);
+  EXPECT_EQ(BirchMurnaghan::density(test::fluid_of({3.01}), 100 * rock.eos.bulk_modulus), 0);
 }
 
 }  // namespace sph

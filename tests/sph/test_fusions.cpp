@@ -246,7 +246,7 @@ TEST(Fusions, lose_a_bond_that_is_longer_than_its_range_though_lists_hold_it) {
     place(bonds, placed);
     PairCase c(fusion, placed, {.halo = false});
     for (Bond& bond : bonds)  // they were 3.5 spacings apart: less than the support
-      bond.displaced = std::llround((bond.r - 3.5) * c.scene().spacing / c.quantum());
+      bond.displaced = std::llround((bond.r - 3.5) * c.scene().start.spacing / c.quantum());
     for (const double widened : {1.0, 1.6}) {
       c.build_lists(widened);
       const auto found = count_bonds(c, bonds);

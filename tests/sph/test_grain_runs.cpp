@@ -93,7 +93,7 @@ TEST(GrainRuns, LostHistoryIsMissed) {
   const ContactLists& old = simulation.grains()->pairs().lists();
   ASSERT_GT(entries.bytes.size(), 100 * old.entry_bytes());
   std::vector<PlaneNow> planes;
-  for (const Wall& wall : simulation.scene().walls) {
+  for (const Wall& wall : simulation.scene().grains.walls) {
     planes.push_back({{}, wall.normal, {}, 0, true});
     for (std::size_t a = 0; a < 3; ++a) planes.back().point[a] = simulation.scale().quanta(wall.point[a]);
   }

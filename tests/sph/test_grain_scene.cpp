@@ -109,20 +109,20 @@ TEST(GrainScene, Defaults) {
   EXPECT_TRUE(s.of_grains());
   EXPECT_EQ(s.dim, 3);
   EXPECT_EQ(s.support(), 0.02);
-  EXPECT_EQ(s.spacing, 1.1 * 0.02);
+  EXPECT_EQ(s.start.spacing, 1.1 * 0.02);
   EXPECT_EQ(s.decomposition.skin, 0.06);
   EXPECT_FALSE(s.time.dt.has_value());
-  EXPECT_EQ(s.contact.law->word, "linear");
+  EXPECT_EQ(s.grains.contact.law->word, "linear");
   sph::ContactControl plain;
-  plain.law = s.contact.law;
-  EXPECT_EQ(s.contact, plain);
+  plain.law = s.grains.contact.law;
+  EXPECT_EQ(s.grains.contact, plain);
   EXPECT_EQ(s.groups[0].grain.least_radius, 0.01);
   EXPECT_EQ(s.groups[0].grain.largest_radius, 0.01);
   EXPECT_EQ(s.groups[0].grain.constants[1], 200);
   EXPECT_EQ(s.groups[0].grain.friction, 0);
   EXPECT_FALSE(s.groups[0].grain.fixed);
   EXPECT_EQ(s.groups[1].grain.largest_radius, 0);
-  EXPECT_EQ(s.start.velocity, sph::InitialVelocity::rest);
+  EXPECT_EQ(s.start.velocity.kind, sph::InitialVelocity::rest);
   EXPECT_EQ(s.output, sph::OutputControl{});
   EXPECT_EQ(s.start.tile, sph::Tile{});
 }
@@ -133,7 +133,7 @@ TEST(GrainScene, LargestGrainDecides) {
   EXPECT_EQ(s.groups[0].grain.least_radius, 0.005);
   EXPECT_EQ(s.groups[0].grain.largest_radius, 0.015);
   EXPECT_EQ(s.support(), 0.04);
-  EXPECT_EQ(s.spacing, 0.05);
+  EXPECT_EQ(s.start.spacing, 0.05);
   expect_round_trip(s);
 }
 
@@ -147,21 +147,22 @@ TEST(GrainScene, UnitsGiveTheSameBitsAsTheNumber) {
   EXPECT_EQ(parse(small, {"group.sand.diameter=9.3 mm"}).groups[0].grain.largest_radius, 0.5 * 0.0093);
   EXPECT_EQ(parse(small, hertz).groups[0].grain.constants[0], 1e7);
   const Options undamped{"group.sand.restitution=", "group.glass.restitution="};
-  EXPECT_EQ(parse(small, undamped + Options{"contact.normal_damping=50 1/s"}).contact.normal_damping, 50);
-  EXPECT_EQ(parse(small, undamped + Options{"contact.normal_damping=2 Hz"}).contact.normal_damping, 2);
+  EXPECT_EQ(parse(small, undamped + Options{"contact.normal_damping=50 1/s"}).grains.contact.normal_damping,
+            50);
+  EXPECT_EQ(parse(small, undamped + Options{"contact.normal_damping=2 Hz"}).grains.contact.normal_damping, 2);
   const sph::Scene s = parse(small + servo, {"wall.lid.force=2 mN", "wall.lid.servo_gain=3 mm/s/N",
                                              "wall.lid.largest_speed=1 cm/s", "stage.go.begin=700 ms"});
-  EXPECT_EQ(s.walls[1].force, 0.002);
-  EXPECT_EQ(s.walls[1].servo_gain, 0.003);
-  EXPECT_EQ(s.walls[1].largest_speed, 0.01);
-  EXPECT_EQ(s.stages[1].begin, 0.7);
+  EXPECT_EQ(s.grains.walls[1].force, 0.002);
+  EXPECT_EQ(s.grains.walls[1].servo_gain, 0.003);
+  EXPECT_EQ(s.grains.walls[1].largest_speed, 0.01);
+  EXPECT_EQ(s.grains.stages[1].begin, 0.7);
 }
 
 TEST(GrainScene, NormalsAreUnitVectorsThatRoundTrip) {
-  EXPECT_EQ(parse(small).walls[0].normal, (Double3{0, 0, 1}));
-  EXPECT_EQ(parse(small, {"wall.floor.normal=[0, 0, 1e-320]"}).walls[0].normal, (Double3{0, 0, 1}));
-  EXPECT_EQ(parse(small, {"wall.floor.normal=[0, 1e308, 1e308]"}).walls[0].normal,
-            parse(small, {"wall.floor.normal=[0, 3, 3]"}).walls[0].normal);
+  EXPECT_EQ(parse(small).grains.walls[0].normal, (Double3{0, 0, 1}));
+  EXPECT_EQ(parse(small, {"wall.floor.normal=[0, 0, 1e-320]"}).grains.walls[0].normal, (Double3{0, 0, 1}));
+  EXPECT_EQ(parse(small, {"wall.floor.normal=[0, 1e308, 1e308]"}).grains.walls[0].normal,
+            parse(small, {"wall.floor.normal=[0, 3, 3]"}).grains.walls[0].normal);
   std::uint64_t state = 1;
   const auto random = [&state] {
     state = state * 6364136223846793005U + 1442695040888963407U;
@@ -170,9 +171,9 @@ TEST(GrainScene, NormalsAreUnitVectorsThatRoundTrip) {
   for (int k = 0; k < 300; ++k) {
     const sph::Scene s = parse(small, {"wall.floor.normal=[" + std::to_string(random()) + ", " +
                                        std::to_string(random()) + ", " + std::to_string(random()) + "]"});
-    const Double3& n = s.walls[0].normal;
+    const Double3& n = s.grains.walls[0].normal;
     ASSERT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-15);
-    const Double3 again = parse(sph::to_toml(s)).walls[0].normal;
+    const Double3 again = parse(sph::to_toml(s)).grains.walls[0].normal;
     for (std::size_t a = 0; a < 3; ++a)
       ASSERT_EQ(std::bit_cast<std::uint64_t>(again[a]), std::bit_cast<std::uint64_t>(n[a]));
   }
@@ -183,21 +184,21 @@ TEST(GrainScene, ABoxIsItsSides) {
                     "wall.floor.point=", "wall.floor.normal=", "wall.floor.lower=[0, 0.25, 0]",
                     "wall.floor.upper=[1, 0.5, 0.75]"};
   const sph::Scene s = parse(small, box);
-  ASSERT_EQ(s.walls.size(), 6U);
-  EXPECT_EQ(s.walls[0].name, "floor_x0");
-  EXPECT_EQ(s.walls[3].name, "floor_y1");
-  EXPECT_EQ(s.walls[3].point[1], 0.5);
-  EXPECT_EQ(s.walls[3].normal, (Double3{0, -1, 0}));
-  EXPECT_EQ(s.walls[4].normal, (Double3{0, 0, 1}));
-  EXPECT_EQ(s.walls[5].point[2], 0.75);
-  EXPECT_EQ(s.walls[5].group, 1);
+  ASSERT_EQ(s.grains.walls.size(), 6U);
+  EXPECT_EQ(s.grains.walls[0].name, "floor_x0");
+  EXPECT_EQ(s.grains.walls[3].name, "floor_y1");
+  EXPECT_EQ(s.grains.walls[3].point[1], 0.5);
+  EXPECT_EQ(s.grains.walls[3].normal, (Double3{0, -1, 0}));
+  EXPECT_EQ(s.grains.walls[4].normal, (Double3{0, 0, 1}));
+  EXPECT_EQ(s.grains.walls[5].point[2], 0.75);
+  EXPECT_EQ(s.grains.walls[5].group, 1);
   expect_round_trip(s);
   const Options open{"domain.periodic=[true, false, false]", "wall.floor.open=[\"z1\", \"y0\"]",
                      "start.spacing=0.025"};
   const sph::Scene two = parse(small, box + open);
-  ASSERT_EQ(two.walls.size(), 2U);
-  EXPECT_EQ(two.walls[0].name, "floor_y1");
-  EXPECT_EQ(two.walls[1].name, "floor_z0");
+  ASSERT_EQ(two.grains.walls.size(), 2U);
+  EXPECT_EQ(two.grains.walls[0].name, "floor_y1");
+  EXPECT_EQ(two.grains.walls[1].name, "floor_z0");
   expect_round_trip(two);
   EXPECT_NE(
       message_of(small, box + Options{"wall.floor.open=[\"y2\"]"}).find("names \"y2\", which is no side"),
@@ -210,19 +211,19 @@ TEST(GrainScene, ABoxIsItsSides) {
 
 TEST(GrainScene, StagesNameWalls) {
   const sph::Scene s = parse(small + servo);
-  ASSERT_EQ(s.stages.size(), 2U);
-  EXPECT_EQ(s.stages[0].walls[0].wall, 1);
-  EXPECT_EQ(s.stages[0].walls[0].velocity, (Double3{0, 0, -0.1}));
-  EXPECT_TRUE(s.stages[1].walls[0].remove);
-  EXPECT_EQ(s.stages[1].walls[1].wall, 0);
+  ASSERT_EQ(s.grains.stages.size(), 2U);
+  EXPECT_EQ(s.grains.stages[0].walls[0].wall, 1);
+  EXPECT_EQ(s.grains.stages[0].walls[0].velocity, (Double3{0, 0, -0.1}));
+  EXPECT_TRUE(s.grains.stages[1].walls[0].remove);
+  EXPECT_EQ(s.grains.stages[1].walls[1].wall, 0);
   expect_round_trip(s);
   // A servo that a stage begins has its gain from the start.
   const sph::Scene late =
       parse(small + servo, {"wall.lid.force=", "wall.lid.velocity=[0, 0, -0.1]",
                             "stage.rest.wall.lid.velocity=", "stage.rest.wall.lid.force=3"});
-  EXPECT_FALSE(late.walls[1].force.has_value());
-  EXPECT_EQ(late.walls[1].servo_gain, 0.01);
-  EXPECT_EQ(late.stages[0].walls[0].force, 3);
+  EXPECT_FALSE(late.grains.walls[1].force.has_value());
+  EXPECT_EQ(late.grains.walls[1].servo_gain, 0.01);
+  EXPECT_EQ(late.grains.stages[0].walls[0].force, 3);
   expect_round_trip(late);
 }
 
@@ -261,15 +262,15 @@ kind = "contacts"
                         "output.contacts=true",
                         "output.average_time=0.1"};
   const sph::Scene s = parse(small + more, options);
-  EXPECT_EQ(s.contact.pairs[0].groups, (std::array{0, 1}));
-  EXPECT_FALSE(s.contact.pairs[0].restitution.has_value());
-  EXPECT_EQ(s.contact.pairs[1].groups, (std::array{0, 0}));
+  EXPECT_EQ(s.grains.contact.pairs[0].groups, (std::array{0, 1}));
+  EXPECT_FALSE(s.grains.contact.pairs[0].restitution.has_value());
+  EXPECT_EQ(s.grains.contact.pairs[1].groups, (std::array{0, 0}));
   EXPECT_EQ(s.output.monitors[0].wall, 1);
   EXPECT_EQ(s.output.monitors[1].name, "contacts");
   EXPECT_TRUE(s.output.contacts);
   EXPECT_TRUE(s.groups[1].grain.fixed);
   expect_round_trip(s);
-  EXPECT_TRUE(std::signbit(parse(sph::to_toml(s)).groups[1].wall_velocity[0]));
+  EXPECT_TRUE(std::signbit(parse(sph::to_toml(s)).groups[1].wall.velocity[0]));
   expect_round_trip(parse(small, hertz));
   expect_round_trip(parse(small, {"contact.law=walton_braun"}));
   expect_round_trip(

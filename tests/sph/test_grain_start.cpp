@@ -82,7 +82,7 @@ struct Placed {
     place_particles(s, scale, distribution, particles);
     wrap.origin = scale.origin;
     for (std::size_t a = 0; a < 3; ++a)
-      if (s.periodic[a]) wrap.period[a] = distribution.grid().length()[a];
+      if (s.domain.periodic[a]) wrap.period[a] = distribution.grid().length()[a];
   }
   [[nodiscard]] std::string print() const {
     return fingerprint(distribution.comm(), particles, {}, scale, wrap);

@@ -58,15 +58,15 @@ steps = 1
 )";
 
 double density(const Group& g, double absolute) {
-  return g.eos->kind == EosKind::bubbly ? bubbly_eos(g, g.gas_content).density(absolute)
-                                        : g.density * (1 + absolute / g.bulk_modulus);
+  return g.eos.law->kind == EosKind::bubbly ? bubbly_eos(g, g.bubbly.gas_content).density(absolute)
+                                            : g.density * (1 + absolute / g.eos.bulk_modulus);
 }
 
 TEST(Hydrostatic, Layers_carry_what_lies_above_them_each_by_its_own_equation_of_state) {
   const Scene scene = parse_scene(layers, "layers", {});
   const HydrostaticColumn column(scene);
   // Steps of a thousandth of a spacing, by the midpoint rule.
-  const double step = 5e-4, surface = scene.surface_pressure;
+  const double step = 5e-4, surface = scene.domain.surface_pressure;
   double p = surface;
   for (int n = 0; n < 130000; ++n) {
     const double y = 2 - (n + 0.5) * step;
@@ -84,7 +84,7 @@ TEST(Hydrostatic, Layers_carry_what_lies_above_them_each_by_its_own_equation_of_
 TEST(Hydrostatic, Of_liquids_alone_is_the_closed_form) {
   const Scene scene = parse_scene(layers, "water", {"start.layer.1.group=water", "start.layer.2.top=-99"});
   const HydrostaticColumn column(scene);
-  const double k = scene.groups[0].bulk_modulus;
+  const double k = scene.groups[0].eos.bulk_modulus;
   EXPECT_NEAR(column({0, -30, 0}), (k + 1e5) * std::expm1(1000 * 9.8 * 32 / k), 1e-6);
 }
 

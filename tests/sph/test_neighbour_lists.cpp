@@ -34,19 +34,19 @@ struct Cloud {
 Scene scene_of(const Cloud& cloud) {
   Scene s;
   s.dim = cloud.dim;
-  s.precision = cloud.precision;
-  s.spacing = s.smoothing_length = 0.1;
+  s.terms.precision = cloud.precision;
+  s.start.spacing = s.kernel.smoothing_length = 0.1;
   s.decomposition.skin = cloud.skin;
   s.decomposition.cuts = CutRule::fixed;
   s.groups.resize(2);
   s.groups[1].kind = GroupKind::wall;
   const double reach = s.support() * (1 + cloud.skin);
   for (std::size_t a = 0; a < static_cast<std::size_t>(cloud.dim); ++a) {
-    s.periodic[a] = cloud.periodic[a];
+    s.domain.periodic[a] = cloud.periodic[a];
     // A little more than three cells, of which a period must have as many: no list then reaches two images.
     const int least = cloud.periodic[a] ? 31 : 1;
-    s.lower[a] = -0.7 - 0.3 * static_cast<double>(a);
-    s.upper[a] = s.lower[a] + 0.1 * reach * std::max(cloud.size[a], least);
+    s.domain.lower[a] = -0.7 - 0.3 * static_cast<double>(a);
+    s.domain.upper[a] = s.domain.lower[a] + 0.1 * reach * std::max(cloud.size[a], least);
   }
   return s;
 }
@@ -137,7 +137,7 @@ class Part {
 
   /// What is wrong with the lists of one radius; nothing: "".
   [[nodiscard]] std::string fault_of_even_lists() {
-    NeighbourLists lists(lanes_of(scene_.precision));
+    NeighbourLists lists(lanes_of(scene_.terms.precision));
     const std::int64_t radius = distribution_.list_radius();
     lists.build(particles_, distribution_.grid(), distribution_.own_cells(), radius, set_.ranges, timers_);
     lists.mark_walls(particles_, is_wall_);
@@ -149,7 +149,7 @@ class Part {
     });
   }
   [[nodiscard]] std::string fault_of_uneven_lists() {
-    NeighbourLists lists(lanes_of(scene_.precision));
+    NeighbourLists lists(lanes_of(scene_.terms.precision));
     std::vector<double> reach(particles_.rows());
     for (std::size_t row = 0; row < reach.size(); ++row) reach[row] = crowd_.reach[number(row)];
     lists.build(particles_, reach, set_.ranges, timers_);

@@ -74,9 +74,9 @@ Scene both(const std::vector<std::string>& more = {}) {
                   "sand", {});
   const int group = static_cast<int>(scene.groups.size());
   scene.groups.push_back(grains.groups.front());
-  scene.contact = grains.contact;
-  scene.walls = grains.walls;
-  for (Wall& wall : scene.walls) wall.group = group;
+  scene.grains.contact = grains.grains.contact;
+  scene.grains.walls = grains.grains.walls;
+  for (Wall& wall : scene.grains.walls) wall.group = group;
   scene.start.fills.push_back({group, {0, 0, 0.0002}, {0.0075, 0.0075, 0.004}, 0.00107});
   return scene;
 }
@@ -125,7 +125,7 @@ TEST(Sets, FluidBesideGrainsIsThatAlone) {
 TEST(Sets, GrainsBesideFluidAreThoseAlone) {
   const std::vector<std::string> at_rest{"domain.gravity=[10, 0, -300]"};
   Scene scene = both({"start.velocity=\"rest\"", at_rest.front()});
-  scene.walls.front().velocity = {};
+  scene.grains.walls.front().velocity = {};
   Simulation beside(self(), scene);
   const Particles& p = beside.particles(1);
   std::vector<std::size_t> rows(p.owned());

@@ -21,7 +21,7 @@ Pairs look(const Simulation& s) {
   const auto d = static_cast<std::size_t>(p.dim()), lanes = static_cast<std::size_t>(s.lists().lanes());
   const std::int64_t* x = p.data<Field::position>();
   const double* h = p.data<Field::smoothing_length>();
-  const double radius = s.scene().support() / s.scene().smoothing_length / s.scale().quantum;
+  const double radius = s.scene().support() / s.scene().kernel.smoothing_length / s.scale().quantum;
   Pairs found;
   for (const RowRange& range : s.sets().front().ranges)
     for (std::size_t i = range.first; i < range.last; ++i) {

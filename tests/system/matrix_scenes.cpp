@@ -148,7 +148,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   }
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     for (const sph::Group& g : simulation.scene().groups)
-      if (g.fragments_to == static_cast<int>(group[i])) ++out.spray;
+      if (g.bubbly.fragments_to == static_cast<int>(group[i])) ++out.spray;
     if (psi != nullptr) out.void_fraction = std::max(out.void_fraction, psi[i]);
     if (strain != nullptr && simulation.scene().groups[group[i]].kind == sph::GroupKind::solid)
       out.unstrained += strain[i] == 0 ? 1 : 0;
@@ -169,7 +169,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     if (rough && end.contacts_begun < some) quiet("few contacts began");
     if (rough && end.contacts_ended < some) quiet("few contacts ended");
     if (rough && end.histories_kept < some) quiet("few contacts outlived a rebuild");
-    const bool servo = std::any_of(scene.walls.begin(), scene.walls.end(),
+    const bool servo = std::any_of(scene.grains.walls.begin(), scene.grains.walls.end(),
                                    [](const sph::Wall& wall) { return wall.force.has_value(); });
     if (servo && !end.walls_moved) quiet("no wall moved");
     return;

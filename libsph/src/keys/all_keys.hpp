@@ -16,9 +16,9 @@ inline constexpr auto top_keys = std::to_array<Key>({
     {"formulation", Words{formulation_words},
      "\"conservative\": quiet, conserves momentum; \"ida\": the equations of Ida's paper to the letter, "
      "for comparison.",
-     at<&Scene::formulation>, sph_only("it is of SPH; grains follow from [contact]")},
+     at<&Scene::terms, &Terms::formulation>, sph_only("it is of SPH; grains follow from [contact]")},
     {"precision", Words{precision_words}, "Arithmetic of pairs: \"mixed\" is single, on double state.",
-     at<&Scene::precision>, sph_only("contacts are always computed in double")},
+     at<&Scene::terms, &Terms::precision>, sph_only("contacts are always computed in double")},
     {"domain", Inner{&domain}, "Where everything happens.", Default{"required"}},
     {"kernel", Inner{&kernel}, "Of fluids and solids.",
      sph_only("grains act on each other where they touch: there is no kernel"),

@@ -25,17 +25,17 @@ inline constexpr Condition of_lattices{
     [](const Scene& s) { return s.start.file.empty() && s.start.tile.file.empty(); }, "lattices",
     "the particles come from start.file or start.tile"};
 inline constexpr Condition of_viscous_forms{
-    [](const Scene& s) { return s.formulation != Formulation::ida && !s.total_lagrangian(); },
+    [](const Scene& s) { return s.terms.formulation != Formulation::ida && !s.total_lagrangian(); },
     "fluids and updated solids, not \"ida\"",
     "formulation = \"ida\" and total-Lagrangian solids have none: remove it"};
 inline constexpr Condition of_flows{
-    [](const Scene& s) { return s.formulation != Formulation::ida && !s.has_kind(GroupKind::solid); },
+    [](const Scene& s) { return s.terms.formulation != Formulation::ida && !s.has_kind(GroupKind::solid); },
     "fluids, not \"ida\"", "it is for scenes without solids, and formulation = \"ida\" has none: remove it"};
 inline constexpr Condition of_gases{[](const Scene& s) { return has_eos(s, EosKind::ideal_gas); },
                                     "ideal gases", "only scenes with eos = \"ideal_gas\" have it"};
 inline constexpr Condition of_added_terms{
     [](const Scene& s) {
-      return s.formulation == Formulation::conservative && !s.total_lagrangian() &&
+      return s.terms.formulation == Formulation::conservative && !s.total_lagrangian() &&
              !has_eos(s, EosKind::ideal_gas);
     },
     "liquids and updated-Lagrangian solids",
@@ -44,9 +44,9 @@ inline constexpr Condition of_total{[](const Scene& s) { return s.total_lagrangi
                                     "total-Lagrangian solids",
                                     "only scenes of solids with lagrangian = \"total\" have it"};
 inline constexpr Condition of_dashpots{
-    [](const Scene& s) { return s.contact.law == nullptr || s.contact.law->dashpot; }, "laws with a dashpot",
-    "the contact law of the scene has no dashpot: remove it"};
-inline constexpr Condition of_restitution{[](const Scene& s) { return !s.contact.normal_damping; },
+    [](const Scene& s) { return s.grains.contact.law == nullptr || s.grains.contact.law->dashpot; },
+    "laws with a dashpot", "the contact law of the scene has no dashpot: remove it"};
+inline constexpr Condition of_restitution{[](const Scene& s) { return !s.grains.contact.normal_damping; },
                                           "contacts without normal_damping",
                                           "contact.normal_damping stands instead of it"};
 

@@ -7,46 +7,46 @@ namespace sph::keys {
 
 inline constexpr auto kernel_keys = std::to_array<Key>({
     {"shape", Words{kernel_shape_words}, "The quintic has a radius of 3 h, the other two of 2 h.",
-     at<&Scene::kernel>},
+     at<&KernelControl::shape>},
     {"h_over_dx", Number{dimension::none, positive},
      "Smoothing length h in spacings, 0.5 to 4; 1.0 to 1.2 is usual for the quintic.",
      Default{"required, or smoothing_length"}},
-    {"smoothing_length", Number{dimension::length, positive}, "h itself.", at<&Scene::smoothing_length>,
-     Default{"required, or h_over_dx"}},
+    {"smoothing_length", Number{dimension::length, positive}, "h itself.",
+     at<&KernelControl::smoothing_length>, Default{"required, or h_over_dx"}},
     {"least_growth", Number{dimension::none, {.least = 0.05, .most = 1}},
      "The kernel of a particle of an ideal gas is as wide as the particle is large, from least_growth h to "
      "largest_growth h. Tubes of rows that stay rows want 1.",
-     at<&Scene::least_growth>, of_gases, Default{"0.05; 1 beside walls"}},
+     at<&KernelControl::least_growth>, of_gases, Default{"0.05; 1 beside walls"}},
     {"largest_growth", Number{dimension::none, {.least = 1, .most = 20}},
      "Gas thinner than largest_growth^-D of what it was at the start keeps its heat: a point blast of R/dx "
      "= 20, 40, 80 wants 3, 5, 8. Periods and cells follow it. Walls must be thicker than the widest "
      "kernel; beside them one h, with which blasts lose kinetic energy, is the default.",
-     at<&Scene::largest_growth>, of_gases,
+     at<&KernelControl::largest_growth>, of_gases,
      Default{"3, less where a period is too short for it; 1 beside walls"}},
 });
-inline constexpr Table<Scene> kernel{
+inline constexpr Table<KernelControl> kernel{
     {"kernel", false, "The kernel of fluids and solids; one of h_over_dx and smoothing_length is required.",
      kernel_keys}};
 
 inline constexpr auto domain_keys = std::to_array<Key>({
-    {"lower", Vector{dimension::length}, "Particles that leave the domain end the run.", at<&Scene::lower>,
+    {"lower", Vector{dimension::length}, "Particles that leave the domain end the run.", at<&Domain::lower>,
      required},
-    {"upper", Vector{dimension::length}, "Above lower in each direction.", at<&Scene::upper>, required},
+    {"upper", Vector{dimension::length}, "Above lower in each direction.", at<&Domain::upper>, required},
     {"periodic", Flags{},
      "A period must be at least three cells of kernel radius (of grains: largest diameter) times 1 + "
      "decomposition.skin long.",
-     at<&Scene::periodic>, Default{"none"}},
+     at<&Domain::periodic>, Default{"none"}},
     {"gravity", Vector{dimension::acceleration}, "Also serves as a body force along a period.",
-     at<&Scene::gravity>},
+     at<&Domain::gravity>},
     {"central_pull", Number{dimension::rate_squared, not_negative},
-     "Acceleration -central_pull (x - pull_centre) of fluids without walls.", at<&Scene::central_pull>,
+     "Acceleration -central_pull (x - pull_centre) of fluids without walls.", at<&Domain::central_pull>,
      of_fluids},
     {"pull_centre", Vector{dimension::length}, "Of central_pull.", of_fluids, Default{"0"}},
     {"surface_pressure", Number{dimension::pressure, not_negative},
-     "The atmosphere, added in every equation of state.", at<&Scene::surface_pressure>,
+     "The atmosphere, added in every equation of state.", at<&Domain::surface_pressure>,
      sph_only("grains have no equation of state")},
 });
-inline constexpr Table<Scene> domain{
+inline constexpr Table<Domain> domain{
     {"domain", false, "The box that holds everything, and its gravity.", domain_keys}};
 
 inline constexpr auto time_keys = std::to_array<Key>({

@@ -10,11 +10,11 @@ inline constexpr auto fragmentation_keys = std::to_array<Key>({
     {"void_fraction",
      Number{dimension::none, {.least = 0, .most = 1, .above_least = true, .below_most = true}},
      "Above this volume fraction of gas a particle joins the other group for good.",
-     at<&Group::fragmentation_void_fraction>, required},
+     at<&BubblyMaterial::fragmentation_void_fraction>, required},
     {"group", NameOf{"group"}, "The group that it joins, a fluid with the same equation of state.",
-     index_at<&Group::fragments_to>, required},
+     index_at<&BubblyMaterial::fragments_to>, required},
 });
-inline constexpr Table<Group> fragmentation{
+inline constexpr Table<BubblyMaterial> fragmentation{
     {"group.fragmentation", false, "Bubbly fluid breaks.", fragmentation_keys}};
 
 inline constexpr Where bubbly = where("eos", "bubbly"), gas = where("eos", "ideal_gas");
@@ -33,7 +33,7 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "= (gamma - 1) rho u, with an energy equation; beside it there is no other matter but walls, which "
      "its heat does not enter, kernel \"quintic\", not \"ida\". \"birch_murnaghan\": of third order in the "
      "strain, for rocks and metals under pressure, whose K rises with it.",
-     at<&Group::eos>, of_sph},
+     at<&Group::eos, &Compressibility::law>, of_sph},
     {"density", Number{dimension::density, positive},
      "rho_0, at zero pressure; of a bubbly fluid that of its liquid, of an ideal gas that at the start, of "
      "grains that of the material.",
@@ -42,12 +42,12 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"heat_ratio",
      Number{dimension::none,
             {.least = 1, .above_least = true, .is = "it is that of the heat capacities (1.4 for air),"}},
-     "gamma of an ideal gas.", at<&Group::heat_ratio>, of_sph, gas, required},
+     "gamma of an ideal gas.", at<&Group::gas, &GasMaterial::heat_ratio>, of_sph, gas, required},
     {"start_pressure", Number{dimension::pressure, positive},
      "Of an ideal gas at the start. A start.file may hold the specific energy u [J/kg] instead.",
-     at<&Group::start_pressure>, of_sph, gas, required},
+     at<&Group::gas, &GasMaterial::start_pressure>, of_sph, gas, required},
     {"bulk_modulus", Number{dimension::pressure, positive}, "K; of a bubbly fluid that of its liquid.",
-     at<&Group::bulk_modulus>, of_sph, elastic,
+     at<&Group::eos, &Compressibility::bulk_modulus>, of_sph, elastic,
      Default{"required, or sound_speed; of a wall that of the first fluid"}},
     {"sound_speed", Number{dimension::speed, positive}, "c of the (bubble-free) material: K = rho_0 c^2.",
      of_sph, elastic, Default{"from bulk_modulus"}},
@@ -58,8 +58,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"bulk_viscosity", Number{dimension::viscosity, not_negative}, "zeta of Ida eq. (9).",
      at<&Group::bulk_viscosity>, of_sph, unless("eos", "ideal_gas", "an ideal gas has viscosity alone"),
      Default{"0; of a wall that of the first fluid"}},
-    {"shear_modulus", Number{dimension::pressure, positive}, "mu of a solid.", at<&Group::shear_modulus>,
-     of_sph, solid, Default{"required, or poisson_ratio"}},
+    {"shear_modulus", Number{dimension::pressure, positive}, "mu of a solid.",
+     at<&Group::solid, &SolidMaterial::shear_modulus>, of_sph, solid, Default{"required, or poisson_ratio"}},
     {"poisson_ratio", Number{dimension::none},
      "nu, above -1. Of a solid below 0.5: mu = 3 K (1 - 2 nu) / (2 (1 + nu)). Of grains with Hertz's law "
      "at most 0.5.",
@@ -69,7 +69,7 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "\"total\": stress is a function of the deformation since the start (neo-Hooke), for bodies that do "
      "not break; conserves energy; beside walls and other bodies of the kind alone, which it touches "
      "elastically; kernel \"quintic\"; starts free of stress. The particles of a group are one body.",
-     at<&Group::lagrangian>, of_sph, solid},
+     at<&Group::solid, &SolidMaterial::lagrangian>, of_sph, solid},
     {"gas_content",
      Number{dimension::none,
             {.least = 0,
@@ -77,19 +77,21 @@ inline constexpr auto group_keys = std::to_array<Key>({
              .above_least = true,
              .below_most = true,
              .is = "it is a mass per mass of liquid,"}},
-     "m: mass of volatiles per mass of liquid.", at<&Group::gas_content>, of_sph, bubbly, required},
+     "m: mass of volatiles per mass of liquid.", at<&Group::bubbly, &BubblyMaterial::gas_content>, of_sph,
+     bubbly, required},
     {"gas_rt", Number{dimension::specific_energy, positive}, "R T of the gas: p = rho_g R T.",
-     at<&Group::gas_rt>, of_sph, bubbly, required},
+     at<&Group::bubbly, &BubblyMaterial::gas_rt>, of_sph, bubbly, required},
     {"solubility_pressure", Number{dimension::pressure, positive},
-     "p_s: m_d = (p/p_s)^gamma can be dissolved.", at<&Group::solubility_pressure>, of_sph, bubbly, required},
+     "p_s: m_d = (p/p_s)^gamma can be dissolved.", at<&Group::bubbly, &BubblyMaterial::solubility_pressure>,
+     of_sph, bubbly, required},
     {"solubility_exponent", Number{dimension::none, positive}, "gamma of the solubility.",
-     at<&Group::solubility_exponent>, of_sph, bubbly},
+     at<&Group::bubbly, &BubblyMaterial::solubility_exponent>, of_sph, bubbly},
     {"fragmentation", Inner{&fragmentation}, "A bubbly fluid joins another group where it holds much gas.",
      of_sph, bubbly},
     {"clamps", NameOf{"group"},
      "A wall holds this total-Lagrangian solid: its particles are bonded to those of the solid, whose "
      "material it has.",
-     index_at<&Group::clamps>, of_sph, walls},
+     index_at<&Group::wall, &WallMaterial::clamps>, of_sph, walls},
     {"velocity", Vector{dimension::speed},
      "Of the material of a wall, which slides in its own plane and stays where it is, or of fixed grains, "
      "which drag what touches them as a belt does.",

@@ -23,12 +23,12 @@ ContactPair read_pair(const Reader<keys::contact_pair>& table) {
 }  // namespace
 
 void read_contact_law(const Reader<keys::contact>& table, Scene& scene) {
-  table.read(scene.contact);
+  table.read(scene.grains.contact);
   std::vector<std::string> by_rate;
   for (const ContactLaw* law : contact_laws())
     if (law->by_rate != nullptr) by_rate.emplace_back(law->word);
   table.only_if(
-      scene.contact.law->by_rate != nullptr, "normal_damping",
+      scene.grains.contact.law->by_rate != nullptr, "normal_damping",
       fmt::format("it is of law = {}; this one takes the restitution of its groups", either(by_rate)));
 }
 

@@ -50,7 +50,7 @@ void read_body(const GroupReader& table, Group& group) {
                 "a material without diameter has no grains: it is for walls");
   table.only_if(g.fixed, "velocity",
                 "only grains with fixed = true have it; the others start with start.velocity");
-  group.wall_velocity = table.vector("velocity").value_or(Double3{});
+  group.wall.velocity = table.vector("velocity").value_or(Double3{});
 }
 
 void read_contact_material(const GroupReader& table, GrainMaterial& g, const ContactControl& contact) {
@@ -71,7 +71,7 @@ void read_grain_groups(const TopReader& top, Scene& scene) {
     if (first == nullptr) first = &tables[k];
     tables[k].read(group);
     read_body(tables[k], group);
-    read_contact_material(tables[k], group.grain, scene.contact);
+    read_contact_material(tables[k], group.grain, scene.grains.contact);
     tables[k].finish();
     const bool has_grains = group.grain.largest_radius > 0;
     sized = sized || has_grains;

@@ -19,16 +19,17 @@ void read_stiffness(const GroupReader& table, Group& group) {
   using Name = GroupReader::Name<>;
   table.not_both("bulk_modulus", "sound_speed");
   table.not_both("poisson_ratio", "shear_modulus");
-  if (group.eos->kind == EosKind::ideal_gas) group.bulk_modulus = group.heat_ratio * group.start_pressure;
+  if (group.eos.law->kind == EosKind::ideal_gas)
+    group.eos.bulk_modulus = group.gas.heat_ratio * group.gas.start_pressure;
   const std::optional<double> speed = table.number("sound_speed");
-  if (speed) group.bulk_modulus = group.density * *speed * *speed;
-  if (group.bulk_modulus == 0 && !speed && group.eos->kind != EosKind::ideal_gas)
+  if (speed) group.eos.bulk_modulus = group.density * *speed * *speed;
+  if (group.eos.bulk_modulus == 0 && !speed && group.eos.law->kind != EosKind::ideal_gas)
     table.fail_missing("bulk_modulus", "give it in Pa, or sound_speed in m/s");
   const std::string_view beyond = "makes a modulus beyond the range of numbers";
-  if (!(group.bulk_modulus > 0 && std::isfinite(group.bulk_modulus)))
-    table.fail(speed                                   ? Name("sound_speed")
-               : group.eos->kind == EosKind::ideal_gas ? Name("start_pressure")
-                                                       : Name("bulk_modulus"),
+  if (!(group.eos.bulk_modulus > 0 && std::isfinite(group.eos.bulk_modulus)))
+    table.fail(speed                                       ? Name("sound_speed")
+               : group.eos.law->kind == EosKind::ideal_gas ? Name("start_pressure")
+                                                           : Name("bulk_modulus"),
                beyond, "check its unit");
 
   const bool solid = group.kind == GroupKind::solid;
@@ -38,8 +39,8 @@ void read_stiffness(const GroupReader& table, Group& group) {
   if (!nu) table.fail_missing("poisson_ratio", "give it, or shear_modulus in Pa");
   if (!(*nu > -1 && *nu < 0.5))
     table.fail("poisson_ratio", fmt::format("is {}", *nu), "it must be between -1 and 0.5, both excluded");
-  group.shear_modulus = 3 * group.bulk_modulus * (1 - 2 * *nu) / (2 * (1 + *nu));
-  if (!(group.shear_modulus > 0 && std::isfinite(group.shear_modulus)))
+  group.solid.shear_modulus = 3 * group.eos.bulk_modulus * (1 - 2 * *nu) / (2 * (1 + *nu));
+  if (!(group.solid.shear_modulus > 0 && std::isfinite(group.solid.shear_modulus)))
     table.fail("poisson_ratio", beyond, "check it and bulk_modulus");
 }
 
@@ -47,7 +48,7 @@ void read_stiffness(const GroupReader& table, Group& group) {
 void read_material(const GroupReader& table, Group& group, const Group* like) {
   if (like != nullptr) {
     group.density = like->density;
-    group.bulk_modulus = like->bulk_modulus;
+    group.eos.bulk_modulus = like->eos.bulk_modulus;
     group.viscosity = like->viscosity;
     group.bulk_viscosity = like->bulk_viscosity;
   }
@@ -62,13 +63,13 @@ void read_material(const GroupReader& table, Group& group, const Group* like) {
   read_stiffness(table, group);
   std::vector<LawWord> laws;
   for (const EquationOfState* law : equations_of_state()) laws.push_back({law->word, law->keys});
-  group.eos_constants = read_law_constants(table, "eos", {group.eos->word, group.eos->keys}, laws);
+  group.eos.constants = read_law_constants(table, "eos", {group.eos.law->word, group.eos.law->keys}, laws);
   table.only_if(wall, "velocity",
                 "only groups with kind = \"wall\" have it; movers start with start.velocity");
   if (!wall) return;
-  group.wall_velocity = table.vector("velocity").value_or(Double3{});
-  group.slip = table.flag("slip").value_or(false);
-  table.only_if(!group.slip, "velocity", "a wall with slip = true drags nothing along");
+  group.wall.velocity = table.vector("velocity").value_or(Double3{});
+  group.wall.slip = table.flag("slip").value_or(false);
+  table.only_if(!group.wall.slip, "velocity", "a wall with slip = true drags nothing along");
 }
 
 /// The solid that a wall is bonded to, -1 for other groups.
@@ -77,7 +78,7 @@ int read_clamps(const GroupReader& table, const Group& group, const std::vector<
   const int solid = *table.index("clamps");
   table.only_if(false, "velocity", "a clamp holds its solid at rest");
   table.only_if(false, "slip", "a clamp holds its solid at rest");
-  if (const Group& g = groups[static_cast<std::size_t>(solid)]; g.lagrangian != Lagrangian::total)
+  if (const Group& g = groups[static_cast<std::size_t>(solid)]; g.solid.lagrangian != Lagrangian::total)
     table.fail("clamps", fmt::format("names \"{}\"", g.name),
                "it must name a solid with lagrangian = \"total\"");
   return solid;
@@ -86,15 +87,15 @@ int read_clamps(const GroupReader& table, const Group& group, const std::vector<
 /// Total-Lagrangian solids have passes of their own, in which nothing else takes part yet.
 void check_total_lagrangian(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
   const bool any = std::any_of(groups.begin(), groups.end(),
-                               [](const Group& g) { return g.lagrangian == Lagrangian::total; });
+                               [](const Group& g) { return g.solid.lagrangian == Lagrangian::total; });
   for (std::size_t k = 0; any && k < groups.size(); ++k) {
     const Group& g = groups[k];
     const std::string_view right = "a scene of those has no other matter but walls";
     if (g.kind == GroupKind::fluid)
       tables[k].fail("kind", "is \"fluid\" beside total-Lagrangian solids", right);
-    if (g.kind == GroupKind::solid && g.lagrangian == Lagrangian::updated)
+    if (g.kind == GroupKind::solid && g.solid.lagrangian == Lagrangian::updated)
       tables[k].fail("lagrangian", "is \"updated\" beside total-Lagrangian solids", right);
-    if (g.slip)
+    if (g.wall.slip)
       tables[k].fail("slip", "is on", "total-Lagrangian solids touch walls without friction anyway");
     if (g.kind == GroupKind::solid && g.bulk_viscosity > 0)
       tables[k].fail("bulk_viscosity", fmt::format("is {}", g.bulk_viscosity),
@@ -111,22 +112,22 @@ void check_target(const Reader<keys::fragmentation>& table, const Group& from, c
   };
   if (to.kind != GroupKind::fluid)
     table.fail("group", fmt::format("names \"{}\", which is no fluid", to.name), "fragments are a fluid");
-  same(from.eos == to.eos, "eos");
+  same(from.eos.law == to.eos.law, "eos");
   same(from.density == to.density, "density");
-  same(from.bulk_modulus == to.bulk_modulus, "bulk_modulus");
-  same(from.gas_rt == to.gas_rt, "gas_rt");
-  same(from.solubility_pressure == to.solubility_pressure, "solubility_pressure");
-  same(from.solubility_exponent == to.solubility_exponent, "solubility_exponent");
+  same(from.eos.bulk_modulus == to.eos.bulk_modulus, "bulk_modulus");
+  same(from.bubbly.gas_rt == to.bubbly.gas_rt, "gas_rt");
+  same(from.bubbly.solubility_pressure == to.bubbly.solubility_pressure, "solubility_pressure");
+  same(from.bubbly.solubility_exponent == to.bubbly.solubility_exponent, "solubility_exponent");
 }
 
 void read_fragmentation(const GroupReader& table, std::size_t self, std::vector<Group>& groups) {
   Group& group = groups[self];
   if (!table.has("fragmentation")) return;
   const auto inner = table.table<keys::fragmentation>();
-  inner.read(group);
-  if (group.fragments_to == static_cast<int>(self))
+  inner.read(group.bubbly);
+  if (group.bubbly.fragments_to == static_cast<int>(self))
     inner.fail("group", "names the group itself", "fragments join another group");
-  check_target(inner, group, groups[static_cast<std::size_t>(group.fragments_to)]);
+  check_target(inner, group, groups[static_cast<std::size_t>(group.bubbly.fragments_to)]);
 }
 
 /// What grains act on besides each other: fluids.
@@ -189,8 +190,8 @@ void read_groups(const TopReader& top, Scene& scene) {
     if (groups[k].kind != GroupKind::grain) read_fragmentation(tables[k], k, groups);
   for (std::size_t k = 0; k < tables.size(); ++k) {
     if (groups[k].kind == GroupKind::grain) continue;
-    const int target = groups[k].fragments_to;
-    if (target >= 0 && groups[static_cast<std::size_t>(target)].fragments_to >= 0)
+    const int target = groups[k].bubbly.fragments_to;
+    if (target >= 0 && groups[static_cast<std::size_t>(target)].bubbly.fragments_to >= 0)
       tables[k].fail("fragmentation", "leads to a group that fragments again",
                      "fragments must stay what they are");
     tables[k].finish();

@@ -21,11 +21,11 @@ GrainFill read_fill(const Reader<keys::fill>& table, const Scene& scene) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (!(fill.lower[a] < fill.upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "nothing would be filled");
-    if (fill.lower[a] < scene.lower[a] || fill.upper[a] > scene.upper[a])
-      table.fail(fill.lower[a] < scene.lower[a] ? Reader<keys::fill>::Name<>("lower")
-                                                : Reader<keys::fill>::Name<>("upper"),
+    if (fill.lower[a] < scene.domain.lower[a] || fill.upper[a] > scene.domain.upper[a])
+      table.fail(fill.lower[a] < scene.domain.lower[a] ? Reader<keys::fill>::Name<>("lower")
+                                                       : Reader<keys::fill>::Name<>("upper"),
                  fmt::format("reaches out of the domain in {}", axis_names[a]),
-                 fmt::format("the domain is {} to {} there", scene.lower[a], scene.upper[a]));
+                 fmt::format("the domain is {} to {} there", scene.domain.lower[a], scene.domain.upper[a]));
   }
   double grains = 1;
   for (std::size_t a = 0; a < 3; ++a) grains *= (fill.upper[a] - fill.lower[a]) / fill.spacing;
@@ -42,23 +42,23 @@ GrainFill read_fill(const Reader<keys::fill>& table, const Scene& scene) {
 }  // namespace
 
 void read_drag(const TopReader& top, const Reader<keys::drag>& table, Scene& scene) {
-  table.read(scene.drag);
-  table.only_if(scene.drag.law->resistance != nullptr, "own_disturbance",
+  table.read(scene.grains.drag);
+  table.only_if(scene.grains.drag.law->resistance != nullptr, "own_disturbance",
                 "with law = \"none\" fluid and grains do not act on each other");
   table.finish();
-  if (scene.formulation == Formulation::ida)
+  if (scene.terms.formulation == Formulation::ida)
     top.fail("formulation", "is \"ida\"", "it knows no grains: use \"conservative\"");
   const std::vector<GroupReader> groups = top.tables<keys::group>();
   for (std::size_t k = 0; k < groups.size(); ++k)
-    if (const double d = 2 * scene.groups[k].grain.largest_radius; d > scene.smoothing_length)
+    if (const double d = 2 * scene.groups[k].grain.largest_radius; d > scene.kernel.smoothing_length)
       groups[k].fail(
           "diameter",
           fmt::format("reaches {:.4g} m, more than the smoothing length of {:.4g} m", d,
-                      scene.smoothing_length),
+                      scene.kernel.smoothing_length),
           "the fluid is averaged over the kernel around grains: raise kernel.smoothing_length, at best to "
           "two diameters or more");
   for (std::size_t k = 0; k < groups.size(); ++k)
-    if (scene.groups[k].eos->kind == EosKind::ideal_gas)
+    if (scene.groups[k].eos.law->kind == EosKind::ideal_gas)
       groups[k].fail("eos", "is \"ideal_gas\" beside grains", "grains act on liquids and bubbly magma alone");
 }
 

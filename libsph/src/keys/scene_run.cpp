@@ -18,8 +18,8 @@ std::array<int, 2> default_cut_axes(const Scene& scene) {
   if (scene.dim == 2) return {0, 1};
   int vertical = 2;
   for (int a : {1, 0})
-    if (std::fabs(scene.gravity[static_cast<std::size_t>(a)]) >
-        std::fabs(scene.gravity[static_cast<std::size_t>(vertical)]))
+    if (std::fabs(scene.domain.gravity[static_cast<std::size_t>(a)]) >
+        std::fabs(scene.domain.gravity[static_cast<std::size_t>(vertical)]))
       vertical = a;
   return vertical == 2 ? std::array{0, 1} : vertical == 1 ? std::array{0, 2} : std::array{1, 2};
 }
@@ -82,7 +82,8 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
     if (!monitor.id && !monitor.nearest_to)
       table.fail_missing("nearest_to", "give it, or the id of a particle");
     for (std::size_t a = 0; monitor.nearest_to && a < static_cast<std::size_t>(scene.dim); ++a)
-      if ((*monitor.nearest_to)[a] < scene.lower[a] || (*monitor.nearest_to)[a] > scene.upper[a])
+      if ((*monitor.nearest_to)[a] < scene.domain.lower[a] ||
+          (*monitor.nearest_to)[a] > scene.domain.upper[a])
         table.fail("nearest_to", fmt::format("lies outside the domain in {}", axis_names[a]),
                    "name a point between domain.lower and domain.upper");
   }

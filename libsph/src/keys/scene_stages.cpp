@@ -41,7 +41,7 @@ WallStage read_stage(const Reader<keys::stage>& table, const Scene& scene, Cours
   WallStage stage;
   table.read(stage);
   for (const auto& t : table.tables<keys::stage_wall>()) {
-    const WallChange change = read_change(t, scene.walls, course);
+    const WallChange change = read_change(t, scene.grains.walls, course);
     for (const WallChange& other : stage.walls)
       if (other.wall == change.wall)
         t.fail("name", "names a wall that this stage has changed already", "change each wall once a stage");
@@ -56,9 +56,9 @@ WallStage read_stage(const Reader<keys::stage>& table, const Scene& scene, Cours
 /// A servo that nothing ever sets a force for.
 void check_servos(const TopReader& top, const Scene& scene, const Course& course) {
   for (const auto& table : top.tables<keys::wall>())
-    for (std::size_t k = 0; k < scene.walls.size(); ++k)
-      if (scene.walls[k].name == table.text("name") && scene.walls[k].servo_gain > 0 &&
-          !scene.walls[k].force && !course.driven_by_force[k])
+    for (std::size_t k = 0; k < scene.grains.walls.size(); ++k)
+      if (scene.grains.walls[k].name == table.text("name") && scene.grains.walls[k].servo_gain > 0 &&
+          !scene.grains.walls[k].force && !course.driven_by_force[k])
         table.fail("servo_gain", "is given, but no force", "give force here or in a [[stage.wall]]");
 }
 
@@ -67,7 +67,7 @@ void check_servos(const TopReader& top, const Scene& scene, const Course& course
 std::vector<WallStage> read_stages(const TopReader& top, const Scene& scene) {
   std::vector<WallStage> stages;
   std::vector<std::string> names;
-  Course course{std::vector<bool>(scene.walls.size()), std::vector<bool>(scene.walls.size())};
+  Course course{std::vector<bool>(scene.grains.walls.size()), std::vector<bool>(scene.grains.walls.size())};
   for (const auto& table : top.tables<keys::stage>()) {
     names.push_back(read_name(table, "stage", names));
     WallStage stage = read_stage(table, scene, course);

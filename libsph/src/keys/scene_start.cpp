@@ -29,7 +29,7 @@ Region read_region(const Reader<keys::region>& table, const Scene& scene) {
       table.fail("group", fmt::format("names \"{}\", a material without diameter", g->name),
                  "give that [[group]] the diameter of its grains");
   }
-  const Start& start = scene.start;
+  const LatticeFill& lattice = scene.start.lattice;
   bool outside = false;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     const bool box = region.shape == RegionShape::box;
@@ -38,7 +38,7 @@ Region read_region(const Reader<keys::region>& table, const Scene& scene) {
     if (region.shape == RegionShape::everywhere) continue;
     const double least = box ? region.lower[a] : region.centre[a] - region.radius;
     const double most = box ? region.upper[a] : region.centre[a] + region.radius;
-    outside = outside || most <= start.lower[a] || least >= start.upper[a];
+    outside = outside || most <= lattice.lower[a] || least >= lattice.upper[a];
   }
   if (outside)
     table.fail("shape", "lies outside the filled lattice", "move it between start.lower and start.upper");
@@ -47,58 +47,60 @@ Region read_region(const Reader<keys::region>& table, const Scene& scene) {
 }
 
 void check_fill(const StartReader& table, const Scene& scene) {
-  const Start& start = scene.start;
+  const LatticeFill& lattice = scene.start.lattice;
   double points = 1;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
-    if (!(start.lower[a] < start.upper[a]))
+    if (!(lattice.lower[a] < lattice.upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "nothing would be filled");
-    if (start.lower[a] < scene.lower[a])
+    if (lattice.lower[a] < scene.domain.lower[a])
       table.fail("lower", fmt::format("reaches below the domain in {}", axis_names[a]),
-                 fmt::format("it must be at least {} there", scene.lower[a]));
-    if (start.upper[a] > scene.upper[a])
+                 fmt::format("it must be at least {} there", scene.domain.lower[a]));
+    if (lattice.upper[a] > scene.domain.upper[a])
       table.fail("upper", fmt::format("reaches above the domain in {}", axis_names[a]),
-                 fmt::format("it must be at most {} there", scene.upper[a]));
-    points *= (start.upper[a] - start.lower[a]) / scene.spacing;
+                 fmt::format("it must be at most {} there", scene.domain.upper[a]));
+    points *= (lattice.upper[a] - lattice.lower[a]) / scene.start.spacing;
   }
   if (points < 1)
-    table.fail("spacing", fmt::format("is {} m, more than the filled extent", scene.spacing),
+    table.fail("spacing", fmt::format("is {} m, more than the filled extent", scene.start.spacing),
                "reduce it so that particles fit in");
   if (points > most_lattice_points)
-    table.fail("spacing", fmt::format("is {} m and would make {:.1e} particles", scene.spacing, points),
+    table.fail("spacing", fmt::format("is {} m and would make {:.1e} particles", scene.start.spacing, points),
                "check its unit");
 }
 
 /// A filled period must hold whole cells of the lattice, or its seam would be wider or narrower than dx.
 void check_seam(const StartReader& table, const Scene& scene) {
-  const Start& start = scene.start;
-  const std::size_t axes = start.lattice == LatticeKind::square ? static_cast<std::size_t>(scene.dim) : 1;
+  const LatticeFill& lattice = scene.start.lattice;
+  const std::size_t axes = lattice.kind == LatticeKind::square ? static_cast<std::size_t>(scene.dim) : 1;
   for (std::size_t a = 0; a < axes; ++a) {
-    const bool filled = start.lower[a] == scene.lower[a] && start.upper[a] == scene.upper[a];
-    if (!scene.periodic[a] || !filled) continue;
-    const double cells = (scene.upper[a] - scene.lower[a]) / scene.spacing;
+    const bool filled =
+        lattice.lower[a] == scene.domain.lower[a] && lattice.upper[a] == scene.domain.upper[a];
+    if (!scene.domain.periodic[a] || !filled) continue;
+    const double cells = (scene.domain.upper[a] - scene.domain.lower[a]) / scene.start.spacing;
     if (std::fabs(cells - std::nearbyint(cells)) > 1e-6 * cells)
       table.fail(
           "spacing",
-          fmt::format("{}divides the periodic length in {} into {:.6g} cells",
-                      table.has("spacing") ? "" : fmt::format("is {:.6g} m by default and ", scene.spacing),
-                      axis_names[a], cells),
+          fmt::format(
+              "{}divides the periodic length in {} into {:.6g} cells",
+              table.has("spacing") ? "" : fmt::format("is {:.6g} m by default and ", scene.start.spacing),
+              axis_names[a], cells),
           "choose one that gives a whole number");
   }
 }
 
 void read_lattice(const StartReader& table, Scene& scene) {
   Start& start = scene.start;
-  if (start.lattice == LatticeKind::hexagonal && scene.dim != 2)
+  if (start.lattice.kind == LatticeKind::hexagonal && scene.dim != 2)
     table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\"");
-  if (!table.has("origin")) start.lattice_origin = start.lower;
+  if (!table.has("origin")) start.lattice.origin = start.lattice.lower;
   check_fill(table, scene);
   check_seam(table, scene);
   const std::vector<Reader<keys::region>> regions = table.tables<keys::region>();
   if (regions.empty()) table.fail_missing("region", "paint groups with [[start.region]], or give start.file");
   bool matter = false;
   for (const auto& r : regions) {
-    start.regions.push_back(read_region(r, scene));
-    const int group = start.regions.back().group;
+    start.lattice.regions.push_back(read_region(r, scene));
+    const int group = start.lattice.regions.back().group;
     matter = matter || (group >= 0 && can_move(scene.groups[static_cast<std::size_t>(group)]));
   }
   if (!matter)
@@ -111,8 +113,8 @@ void read_lattice(const StartReader& table, Scene& scene) {
 void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
   const std::optional<KeyValue> value = table.value("velocity");
   if (value && value->node().array() != nullptr) {
-    start.velocity = InitialVelocity::uniform;
-    start.uniform_velocity = *table.vector("velocity", dimension::speed);
+    start.velocity.kind = InitialVelocity::uniform;
+    start.velocity.uniform = *table.vector("velocity", dimension::speed);
   } else if (value) {
     const auto* word = std::get_if<std::string>(&value->node().value);
     const std::string what =
@@ -122,14 +124,14 @@ void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
     if (word == nullptr)
       table.fail("velocity", what, "it must be \"rest\", \"taylor_green\" or an array of speeds");
     if (*word == "taylor_green")
-      start.velocity = InitialVelocity::taylor_green;
+      start.velocity.kind = InitialVelocity::taylor_green;
     else if (*word != "rest")
       value->fail_word(*word, {"rest", "taylor_green"});
   }
-  if (start.velocity != InitialVelocity::taylor_green) return;
+  if (start.velocity.kind != InitialVelocity::taylor_green) return;
   for (std::size_t a = 0; a < 2; ++a) {
-    const double periods = (scene.upper[a] - scene.lower[a]) / start.flow_length;
-    if (!scene.periodic[a] || std::fabs(periods - std::nearbyint(periods)) > 1e-9 * periods)
+    const double periods = (scene.domain.upper[a] - scene.domain.lower[a]) / start.velocity.flow_length;
+    if (!scene.domain.periodic[a] || std::fabs(periods - std::nearbyint(periods)) > 1e-9 * periods)
       table.fail("velocity",
                  fmt::format("is \"taylor_green\", but {} does not repeat with the flow", axis_names[a]),
                  "make x and y periodic with lengths that are multiples of flow_length");
@@ -167,7 +169,7 @@ std::vector<Layer> read_layers(const StartReader& table, const Scene& scene) {
 
 void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
   start.layers = read_layers(table, scene);
-  if (start.pressure == InitialPressure::taylor_green && start.velocity != InitialVelocity::taylor_green)
+  if (start.pressure == InitialPressure::taylor_green && start.velocity.kind != InitialVelocity::taylor_green)
     table.fail("pressure", "is \"taylor_green\" without that velocity",
                "set velocity = \"taylor_green\" too");
   if (start.pressure != InitialPressure::hydrostatic) return;
@@ -175,8 +177,8 @@ void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
     table.fail_missing("surface_height", "give the height where the hydrostatic pressure is zero");
   double weight = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    weight += std::fabs(scene.gravity[a]);
-    if (scene.periodic[a] && scene.gravity[a] != 0)
+    weight += std::fabs(scene.domain.gravity[a]);
+    if (scene.domain.periodic[a] && scene.domain.gravity[a] != 0)
       table.fail("pressure",
                  fmt::format("is \"hydrostatic\", but gravity points along the periodic {}", axis_names[a]),
                  "start from \"zero\" where a body force drives the flow");
@@ -197,8 +199,8 @@ void read_start(const StartReader& table, Scene& scene) {
     inner.finish();
   }
   if (!from_file) {
-    start.lower = scene.lower;
-    start.upper = scene.upper;
+    start.lattice.lower = scene.domain.lower;
+    start.lattice.upper = scene.domain.upper;
   }
   using Name = StartReader::Name<>;
   for (const Name key :

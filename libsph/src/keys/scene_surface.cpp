@@ -32,7 +32,7 @@ bool contains(const Region& region, const Double3& x, int dim) {
 
 int painted_group(const Scene& scene, const Double3& x) {
   int group = -1;
-  for (const Region& region : scene.start.regions)
+  for (const Region& region : scene.start.lattice.regions)
     if (contains(region, x, scene.dim)) group = region.group;
   return group;
 }
@@ -41,17 +41,20 @@ int painted_group(const Scene& scene, const Double3& x) {
 
 bool has_free_surface(const Scene& scene) {
   const Start& start = scene.start;
+  const LatticeFill& lattice = start.lattice;
+  const Domain& domain = scene.domain;
   const auto axes = static_cast<std::size_t>(scene.dim);
   bool all_periodic = true;
-  for (std::size_t a = 0; a < axes; ++a) all_periodic = all_periodic && scene.periodic[a];
+  for (std::size_t a = 0; a < axes; ++a) all_periodic = all_periodic && domain.periodic[a];
   if (!start.file.empty()) return start.free_surface.value_or(!all_periodic);
 
   const std::int64_t most = scene.dim == 2 ? samples_2d : samples_3d;
   std::array<std::int64_t, 3> points{1, 1, 1}, samples{1, 1, 1};
   for (std::size_t a = 0; a < axes; ++a) {
-    if (scene.periodic[a] && (start.lower[a] > scene.lower[a] || start.upper[a] < scene.upper[a]))
+    if (domain.periodic[a] && (lattice.lower[a] > domain.lower[a] || lattice.upper[a] < domain.upper[a]))
       return true;
-    points[a] = std::max<std::int64_t>(1, std::llround((start.upper[a] - start.lower[a]) / scene.spacing));
+    points[a] =
+        std::max<std::int64_t>(1, std::llround((lattice.upper[a] - lattice.lower[a]) / start.spacing));
     samples[a] = std::min(points[a], most);
   }
   const auto index = [&](std::size_t a, std::int64_t k) {
@@ -64,8 +67,8 @@ bool has_free_surface(const Scene& scene) {
         Double3 x{};
         bool edge = false;
         for (std::size_t a = 0; a < axes; ++a) {
-          x[a] = start.lower[a] + (static_cast<double>(index(a, k[a])) + 0.5) * scene.spacing;
-          edge = edge || (!scene.periodic[a] && (k[a] == 0 || k[a] == samples[a] - 1));
+          x[a] = lattice.lower[a] + (static_cast<double>(index(a, k[a])) + 0.5) * start.spacing;
+          edge = edge || (!domain.periodic[a] && (k[a] == 0 || k[a] == samples[a] - 1));
         }
         const int group = painted_group(scene, x);
         if (group < 0) return true;

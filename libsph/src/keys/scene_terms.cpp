@@ -23,7 +23,7 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
     table.fail("between", "names one group twice",
                "name two groups of fluid, for example [\"melt\", \"gas\"]");
   const auto ends = [&](int k) {
-    const int fragments = groups[static_cast<std::size_t>(k)].fragments_to;
+    const int fragments = groups[static_cast<std::size_t>(k)].bubbly.fragments_to;
     return fragments < 0 ? k : fragments;
   };
   if (ends(tension.between[0]) == ends(tension.between[1]))
@@ -32,7 +32,7 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
   for (const Group& g : groups) {
     const int k = static_cast<int>(&g - groups.data());
     const bool on_a_side = std::any_of(tension.between.begin(), tension.between.end(), [&](int of) {
-      return k == of || k == groups[static_cast<std::size_t>(of)].fragments_to;
+      return k == of || k == groups[static_cast<std::size_t>(of)].bubbly.fragments_to;
     });
     if (tension.form == TensionForm::jump && g.kind == GroupKind::fluid && !on_a_side)
       table.fail("form", fmt::format("is \"jump\", and \"{}\" is a third fluid", g.name),
@@ -44,30 +44,30 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
 
 /// What holds by default, before the table says anything.
 void set_usual_terms(Scene& scene) {
-  const bool ida = scene.formulation == Formulation::ida, total = scene.total_lagrangian();
+  const bool ida = scene.terms.formulation == Formulation::ida, total = scene.total_lagrangian();
   const bool gas = has_eos(scene, EosKind::ideal_gas);
   Terms& terms = scene.terms;
   if (ida || total || gas) terms.density_diffusion = 0;
   if (gas) {  // is rarely without shocks
     terms.artificial_viscosity = 1;
-    terms.quadratic_viscosity = 2;
-    terms.conduction = 0.3;
+    terms.gas.quadratic_viscosity = 2;
+    terms.gas.conduction = 0.3;
   }
   const auto first =
       std::ranges::find_if_not(scene.groups, [](const Group& g) { return g.kind == GroupKind::grain; });
   const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
     return g.kind == GroupKind::grain || g.viscosity == first->viscosity;
   });
-  if (!(uniform || ida || total || gas)) terms.viscosity = ViscosityForm::symmetric;
+  if (!(uniform || ida || total || gas)) terms.viscous.form = ViscosityForm::symmetric;
 }
 
 void check_terms(const TermsReader& table, const Scene& scene) {
   const Terms& terms = scene.terms;
-  const double least = scene.precision == Precision::mixed ? 1e-6 : 1e-12;
-  if (terms.viscosity_tolerance < least)
-    table.fail("viscosity_tolerance", fmt::format("is {}", terms.viscosity_tolerance),
+  const double least = scene.terms.precision == Precision::mixed ? 1e-6 : 1e-12;
+  if (terms.viscous.tolerance < least)
+    table.fail("viscosity_tolerance", fmt::format("is {}", terms.viscous.tolerance),
                fmt::format("it is a share of the forces, {} to 0.1", least));
-  const bool ida = scene.formulation == Formulation::ida;
+  const bool ida = scene.terms.formulation == Formulation::ida;
   if (ida && terms.density_diffusion != 0)
     table.fail("density_diffusion", fmt::format("is {}", terms.density_diffusion),
                "formulation = \"ida\" has none: remove it");
@@ -86,7 +86,7 @@ void check_terms(const TermsReader& table, const Scene& scene) {
 void read_terms(const TermsReader& table, Scene& scene) {
   set_usual_terms(scene);
   table.read(scene.terms);
-  table.only_if(scene.terms.implicit_viscosity, "viscosity_tolerance", "set implicit_viscosity = true too");
+  table.only_if(scene.terms.viscous.implicit, "viscosity_tolerance", "set implicit_viscosity = true too");
   check_terms(table, scene);
   if (table.has("surface_tension"))
     scene.terms.surface_tension = read_surface_tension(table.table<keys::surface_tension>(), scene.groups);
@@ -98,18 +98,18 @@ void read_terms(const TermsReader& table, Scene& scene) {
 // beside a wall that slips would lack the viscosity of what is mirrored there.
 void check_implicit_viscosity(const TermsReader& terms, const Scene& scene) {
   constexpr double most = 1e5;
-  if (!scene.terms.implicit_viscosity) return;
+  if (!scene.terms.viscous.implicit) return;
   for (const Group& g : scene.groups)
-    if (g.slip)
+    if (g.wall.slip)
       terms.fail("implicit_viscosity", fmt::format("is on, and the wall \"{}\" slips", g.name),
                  "it knows walls that do not slip alone");
-  if (scene.precision != Precision::mixed) return;
+  if (scene.terms.precision != Precision::mixed) return;
   double diffusivity = 0, sound = 0;
   for (const Group& g : scene.groups) {
     diffusivity = std::max(diffusivity, g.viscosity / g.density);
-    sound = std::max(sound, std::sqrt(g.bulk_modulus / g.density));
+    sound = std::max(sound, std::sqrt(g.eos.bulk_modulus / g.density));
   }
-  const double h = scene.smoothing_length, dt = scene.time.dt.value_or(scene.time.cfl * h / sound);
+  const double h = scene.kernel.smoothing_length, dt = scene.time.dt.value_or(scene.time.cfl * h / sound);
   if (const double number = diffusivity * dt / (h * h); number > most)
     terms.fail("implicit_viscosity", fmt::format("in mixed precision with nu dt / h^2 = {:.3g}", number),
                fmt::format("set precision = \"double\" above {:.3g}", most));

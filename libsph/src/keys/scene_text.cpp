@@ -12,32 +12,33 @@ namespace {
 
 void write_group(SceneWriter& out, const Group& g) {
   out.table(keys::group, g);
-  for (std::size_t k = 0; k < g.eos->keys.size(); ++k) out.number(g.eos->keys[k].name, g.eos_constants[k]);
-  if (g.kind == GroupKind::wall && g.slip)
+  for (std::size_t k = 0; k < g.eos.law->keys.size(); ++k)
+    out.number(g.eos.law->keys[k].name, g.eos.constants[k]);
+  if (g.kind == GroupKind::wall && g.wall.slip)
     out.raw("slip", "true");
-  else if (g.kind == GroupKind::wall && g.clamps < 0)
-    out.vector("velocity", g.wall_velocity);
-  if (g.fragmentation_void_fraction) out.table(keys::fragmentation, g);
+  else if (g.kind == GroupKind::wall && g.wall.clamps < 0)
+    out.vector("velocity", g.wall.velocity);
+  if (g.bubbly.fragmentation_void_fraction) out.table(keys::fragmentation, g.bubbly);
 }
 
 void write_start(SceneWriter& out, const Scene& scene) {
   const Start& s = scene.start;
   out.header(keys::start);
-  out.number("spacing", scene.spacing);
+  out.number("spacing", s.spacing);
   out.keys(keys::start, s);
   const bool velocity_of_file = scene.of_grains() && (!s.file.empty() || !s.tile.file.empty());
-  if (s.velocity == InitialVelocity::uniform)
-    out.vector("velocity", s.uniform_velocity);
+  if (s.velocity.kind == InitialVelocity::uniform)
+    out.vector("velocity", s.velocity.uniform);
   else if (!velocity_of_file)
-    out.text("velocity", s.velocity == InitialVelocity::rest ? "rest" : "taylor_green");
+    out.text("velocity", s.velocity.kind == InitialVelocity::rest ? "rest" : "taylor_green");
   if (!s.tile.file.empty()) out.table(keys::tile, s.tile);
   for (const Layer& layer : s.layers) out.table(keys::layer, layer);
-  for (const Region& region : s.regions) out.table(keys::region, region);
+  for (const Region& region : s.lattice.regions) out.table(keys::region, region);
   for (const GrainFill& fill : s.fills) out.table(keys::fill, fill);
 }
 
 void write_terms(SceneWriter& out, Terms terms) {
-  if (!terms.implicit_viscosity) terms.viscosity_tolerance = 0;  // not written
+  if (!terms.viscous.implicit) terms.viscous.tolerance = 0;  // not written
   out.table(keys::terms, terms);
   for (std::size_t k = 0; k < terms.added.size(); ++k)
     if (terms.added[k] > 0) out.number(added_terms()[k]->word, terms.added[k]);
@@ -54,14 +55,14 @@ void write_output(SceneWriter& out, const Scene& scene) {
 std::string to_toml(const Scene& scene) {
   SceneWriter out(scene);
   out.keys(keys::top, scene);
-  out.table(keys::domain, scene);
-  if (scene.central_pull > 0) out.vector("pull_centre", scene.pull_centre);
-  if (scene.has_matter()) out.table(keys::kernel, scene);
+  out.table(keys::domain, scene.domain);
+  if (scene.domain.central_pull > 0) out.vector("pull_centre", scene.domain.pull_centre);
+  if (scene.has_matter()) out.table(keys::kernel, scene.kernel);
   if (scene.has_grains()) write_contacts(out, scene);
-  if (scene.is_mixture()) write_drag(out, scene.drag);
+  if (scene.is_mixture()) write_drag(out, scene.grains.drag);
   for (const Group& g : scene.groups)
     if (g.kind == GroupKind::grain)
-      write_material(out, g, *scene.contact.law);
+      write_material(out, g, *scene.grains.contact.law);
     else
       write_group(out, g);
   if (scene.has_grains()) write_walls(out, scene);

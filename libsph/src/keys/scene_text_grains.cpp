@@ -27,12 +27,12 @@ void write_material(SceneWriter& out, const Group& group, const ContactLaw& law)
     out.raw("diameter", fmt::format("[{}, {}]", SceneWriter::real(least), SceneWriter::real(largest)));
   else if (largest > 0)
     out.number("diameter", largest);
-  if (group.grain.fixed) out.vector("velocity", group.wall_velocity);
+  if (group.grain.fixed) out.vector("velocity", group.wall.velocity);
 }
 
 void write_contacts(SceneWriter& out, const Scene& scene) {
-  out.table(keys::contact, scene.contact);
-  for (const ContactPair& pair : scene.contact.pairs) out.table(keys::contact_pair, pair);
+  out.table(keys::contact, scene.grains.contact);
+  for (const ContactPair& pair : scene.grains.contact.pairs) out.table(keys::contact_pair, pair);
 }
 
 void write_drag(SceneWriter& out, DragControl drag) {
@@ -42,8 +42,8 @@ void write_drag(SceneWriter& out, DragControl drag) {
 }
 
 void write_walls(SceneWriter& out, const Scene& scene) {
-  for (const Wall& wall : scene.walls) write_wall(out, wall);
-  for (const WallStage& stage : scene.stages) {
+  for (const Wall& wall : scene.grains.walls) write_wall(out, wall);
+  for (const WallStage& stage : scene.grains.stages) {
     out.table(keys::stage, stage);
     for (const WallChange& change : stage.walls) {
       out.table(keys::stage_wall, change);

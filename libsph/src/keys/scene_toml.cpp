@@ -58,18 +58,18 @@ struct Tables {
 };
 
 void read_pull(const DomainReader& table, Scene& scene) {
-  table.only_if(scene.central_pull > 0, "pull_centre", "give central_pull too");
-  scene.pull_centre = table.vector("pull_centre").value_or(Double3{});
+  table.only_if(scene.domain.central_pull > 0, "pull_centre", "give central_pull too");
+  scene.domain.pull_centre = table.vector("pull_centre").value_or(Double3{});
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    if (scene.central_pull > 0 && scene.periodic[a])
+    if (scene.domain.central_pull > 0 && scene.domain.periodic[a])
       table.fail("central_pull", fmt::format("would jump across the period in {}", axis_names[a]),
                  "use it in domains without periods");
 }
 
 void read_domain(const DomainReader& table, Scene& scene) {
-  table.read(scene);
+  table.read(scene.domain);
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    if (!(scene.lower[a] < scene.upper[a]))
+    if (!(scene.domain.lower[a] < scene.domain.upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the domain is empty");
   read_pull(table, scene);
   table.finish();
@@ -78,13 +78,13 @@ void read_domain(const DomainReader& table, Scene& scene) {
 void read_kernel(const KernelReader& table, Scene& scene) {
   table.not_both("smoothing_length", "h_over_dx");
   set_growth(scene);
-  table.read(scene);
+  table.read(scene.kernel);
   const std::optional<double> ratio = table.number("h_over_dx");
   const bool has_h = table.has("smoothing_length");
   if (!has_h && !ratio)
     table.fail_missing("h_over_dx", "give it (1.0 to 1.2 is usual), or smoothing_length in m");
-  if (!has_h) scene.smoothing_length = *ratio * scene.spacing;
-  const double found = has_h ? scene.smoothing_length / scene.spacing : *ratio;
+  if (!has_h) scene.kernel.smoothing_length = *ratio * scene.start.spacing;
+  const double found = has_h ? scene.kernel.smoothing_length / scene.start.spacing : *ratio;
   constexpr double rounding = 1e-12;  // a limit that is given as h/dx must pass when it comes back as h
   if (found < least_h_over_dx * (1 - rounding) || found > most_h_over_dx * (1 + rounding)) {
     const std::string what = fmt::format("makes h/dx = {:.6g}", found);
@@ -105,7 +105,8 @@ void read_time(const Reader<keys::time>& table, Scene& scene) {
 /// Cells are counted in integers of fixed width: a domain beyond all reason would overflow them.
 void check_extent(const DomainReader& domain, const Scene& scene) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    if (const double spacings = (scene.upper[a] - scene.lower[a]) / scene.spacing; spacings > most_spacings)
+    if (const double spacings = (scene.domain.upper[a] - scene.domain.lower[a]) / scene.start.spacing;
+        spacings > most_spacings)
       domain.fail("upper", fmt::format("the domain is {:.1e} spacings long in {}", spacings, axis_names[a]),
                   fmt::format("at most {:.0e} are possible: check the units here and of start.spacing",
                               most_spacings));
@@ -115,15 +116,16 @@ void check_extent(const DomainReader& domain, const Scene& scene) {
 void check_periods(const Tables& tables, const Scene& scene) {
   const double cell = scene.list_range() + scene.support() * scene.decomposition.skin;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
-    const double length = scene.upper[a] - scene.lower[a];
-    if (scene.periodic[a] && length < least_periodic_cells * cell)
-      tables.domain.fail("periodic",
-                         fmt::format("the period of {} m in {} is shorter than {} cells of {:.6g} m", length,
-                                     axis_names[a], least_periodic_cells, cell),
-                         fmt::format("lengthen the domain, or reduce {} or decomposition.skin",
-                                     scene.of_grains()          ? "the grains"
-                                     : scene.largest_growth > 1 ? "kernel.largest_growth, start.spacing"
-                                                                : "start.spacing"));
+    const double length = scene.domain.upper[a] - scene.domain.lower[a];
+    if (scene.domain.periodic[a] && length < least_periodic_cells * cell)
+      tables.domain.fail(
+          "periodic",
+          fmt::format("the period of {} m in {} is shorter than {} cells of {:.6g} m", length, axis_names[a],
+                      least_periodic_cells, cell),
+          fmt::format("lengthen the domain, or reduce {} or decomposition.skin",
+                      scene.of_grains()                 ? "the grains"
+                      : scene.kernel.largest_growth > 1 ? "kernel.largest_growth, start.spacing"
+                                                        : "start.spacing"));
   }
 }
 
@@ -151,15 +153,15 @@ void read_top(const TopReader& top, Scene& scene) {
 
 void read_fluids_and_solids(const Tables& tables, Scene& scene) {
   tables.start.require("spacing");
-  scene.spacing = *tables.start.number("spacing");
+  scene.start.spacing = *tables.start.number("spacing");
   check_extent(tables.domain, scene);
   read_groups(tables.top, scene);
   read_kernel(tables.kernel, scene);
   const std::vector<GroupReader> groups = tables.top.tables<keys::group>();
   for (std::size_t k = 0; k < groups.size(); ++k)
-    if (scene.formulation == Formulation::ida && scene.groups[k].slip)
+    if (scene.terms.formulation == Formulation::ida && scene.groups[k].wall.slip)
       groups[k].fail("slip", "is on", "formulation = \"ida\" has none: remove it");
-  if (scene.central_pull > 0 && (scene.has_kind(GroupKind::wall) || scene.has_kind(GroupKind::solid)))
+  if (scene.domain.central_pull > 0 && (scene.has_kind(GroupKind::wall) || scene.has_kind(GroupKind::solid)))
     tables.domain.fail("central_pull", "acts on fluids alone, and the scene has walls or solids",
                        "use gravity there");
 }
@@ -167,22 +169,22 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
 void read_grains(const Tables& tables, Scene& scene) {
   read_contact_law(tables.contact, scene);
   read_grain_groups(tables.top, scene);
-  scene.contact.pairs = read_contact_pairs(tables.contact);
+  scene.grains.contact.pairs = read_contact_pairs(tables.contact);
   if (!scene.is_mixture()) {
-    scene.spacing = tables.start.number("spacing").value_or(diameters_apart * scene.support());
+    scene.start.spacing = tables.start.number("spacing").value_or(diameters_apart * scene.support());
     check_extent(tables.domain, scene);
   }
-  scene.walls = read_walls(tables.top, scene);
-  scene.stages = read_stages(tables.top, scene);
+  scene.grains.walls = read_walls(tables.top, scene);
+  scene.grains.stages = read_stages(tables.top, scene);
 }
 
 /// Bodies start free of stress, in equations of their own.
 void check_total_lagrangian(const Tables& tables, const Scene& scene) {
   if (!scene.total_lagrangian()) return;
-  if (scene.formulation == Formulation::ida)
+  if (scene.terms.formulation == Formulation::ida)
     tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
-  if (scene.surface_pressure > 0)
-    tables.domain.fail("surface_pressure", fmt::format("is {}", scene.surface_pressure),
+  if (scene.domain.surface_pressure > 0)
+    tables.domain.fail("surface_pressure", fmt::format("is {}", scene.domain.surface_pressure),
                        "solids with lagrangian = \"total\" start free of stress: remove it");
   if (scene.start.pressure != InitialPressure::zero)
     tables.start.fail("pressure", "is of fluids", "solids with lagrangian = \"total\" start free of stress");
@@ -210,8 +212,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   check_total_lagrangian(tables, scene);
   check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
   check_implicit_viscosity(tables.terms, scene);
-  scene.free_surface = scene.has_matter() && has_free_surface(scene);
-  scene.open = scene.terms.shifting && scene.free_surface;
+  scene.start.has_surface = scene.has_matter() && has_free_surface(scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);
     check_file(tables.start.table<keys::tile>(), "file", scene.start.tile.file);

@@ -33,10 +33,11 @@ Double3 unit_normal(const WallReader& table, Double3 n) {
 void check_plane(const WallReader& table, const Scene& scene, const Wall& wall) {
   double room = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (scene.periodic[a] && wall.normal[a] != 0)
+    if (scene.domain.periodic[a] && wall.normal[a] != 0)
       table.fail("normal", fmt::format("points along {}, which is periodic", axis_names[a]),
                  "a wall must be the same in every period: make its normal 0 there");
-    room += ((wall.normal[a] > 0 ? scene.upper[a] : scene.lower[a]) - wall.point[a]) * wall.normal[a];
+    room += ((wall.normal[a] > 0 ? scene.domain.upper[a] : scene.domain.lower[a]) - wall.point[a]) *
+            wall.normal[a];
   }
   if (!(room > 0))
     table.fail("point", "leaves the whole domain behind the wall",
@@ -89,11 +90,11 @@ std::vector<Wall> read_box(const WallReader& table, const Scene& scene, const Wa
   for (std::size_t a = 0; a < 3; ++a) {
     if (!(lower[a] < upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
-    if (lower[a] < scene.lower[a] || upper[a] > scene.upper[a])
-      table.fail(lower[a] < scene.lower[a] ? WallReader::Name<>("lower") : WallReader::Name<>("upper"),
+    if (lower[a] < scene.domain.lower[a] || upper[a] > scene.domain.upper[a])
+      table.fail(lower[a] < scene.domain.lower[a] ? WallReader::Name<>("lower") : WallReader::Name<>("upper"),
                  fmt::format("lies outside the domain in {}", axis_names[a]),
                  "a box must lie between domain.lower and domain.upper");
-    if (scene.periodic[a]) continue;
+    if (scene.domain.periodic[a]) continue;
     for (const int side : {0, 1}) {
       sides.push_back(fmt::format("{}{}", axis_names[a], side));
       Wall plane = like;

@@ -27,11 +27,11 @@ inline constexpr auto terms_keys = std::to_array<Key>({
      "alpha. Acts like a kinematic viscosity alpha h c / 8: keep it well below the real one.",
      at<&Terms::artificial_viscosity>, Default{"0; of ideal gases 1, against shocks"}},
     {"quadratic_viscosity", Number{dimension::none, not_negative},
-     "beta. Keeps particles of strong shocks apart.", at<&Terms::quadratic_viscosity>, of_gases,
-     Default{"2"}},
+     "beta. Keeps particles of strong shocks apart.", at<&Terms::gas, &GasTerms::quadratic_viscosity>,
+     of_gases, Default{"2"}},
     {"artificial_conduction", Number{dimension::none, not_negative},
-     "alpha_u. Smooths the energy where the start had a jump.", at<&Terms::conduction>, of_gases,
-     Default{"0.3"}},
+     "alpha_u. Smooths the energy where the start had a jump.", at<&Terms::gas, &GasTerms::conduction>,
+     of_gases, Default{"0.3"}},
     {"shifting", Flag{},
      "Keeps particles evenly spread, also where the pressure is negative, and a closed box as full as it "
      "was. Near a free surface, that is where the start leaves a lattice point inside empty, or has movers "
@@ -42,18 +42,18 @@ inline constexpr auto terms_keys = std::to_array<Key>({
     {"viscosity", Words{viscosity_form_words},
      "How viscous forces are summed. \"laplacian\": the more accurate inside; \"symmetric\": right where "
      "viscosity jumps and at free surfaces, where the other damps waves at half their rate.",
-     at<&Terms::viscosity>, of_viscous_forms,
+     at<&Terms::viscous, &ViscousForces::form>, of_viscous_forms,
      Default{"\"laplacian\" where all groups are equally viscous, else \"symmetric\""}},
     {"implicit_viscosity", Flag{},
      "For scenes without solids. Explicit viscosity wants dt <= h^2 / (8 nu); viscous forces of the end of "
      "the step, found by iterations, limit no step (bulk_viscosity does). It pays where nu > 0.3 c h or "
      "so. Not with walls that slip; in mixed precision up to nu dt / h^2 = 1e5.",
-     at<&Terms::implicit_viscosity>, of_flows},
+     at<&Terms::viscous, &ViscousForces::implicit>, of_flows},
     {"viscosity_tolerance",
      Number{dimension::none, {.least = 1e-12, .most = 0.1, .is = "it is a share of the forces,"}},
      "Of implicit viscosity: stop when the error is this share of the forces; in mixed precision 1e-6 at "
      "least.",
-     at<&Terms::viscosity_tolerance>},
+     at<&Terms::viscous, &ViscousForces::tolerance>},
     {"pressure_weights", Words{pressure_weights_words},
      "For scenes without solids. \"density\" weighs each pressure by the other's density: quiet interfaces "
      "between fluids of different density.",
@@ -61,11 +61,11 @@ inline constexpr auto terms_keys = std::to_array<Key>({
     {"hourglass", Number{dimension::none, up_to(1, "it is a share of the modulus,")},
      "Total-Lagrangian solids: stiffness against motion that the stress does not see, over K + 4/3 mu; "
      "with the default plates bend as they should.",
-     at<&Terms::hourglass>, of_total},
+     at<&Terms::bonds, &BondTerms::hourglass>, of_total},
     {"largest_stretch", Number{dimension::none, {.least = 1, .most = 2, .is = "it is a ratio of lengths,"}},
      "Total-Lagrangian solids: how far bonds may reach, in kernel radii. Lists reach so much further; a "
      "bond that is longer ends the run.",
-     at<&Terms::largest_stretch>, of_total},
+     at<&Terms::bonds, &BondTerms::largest_stretch>, of_total},
     {"surface_tension", Inner{&surface_tension}, "For scenes of fluids.", of_flows, Default{"none"}},
 });
 inline constexpr Table<Terms> terms{

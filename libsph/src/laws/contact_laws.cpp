@@ -16,7 +16,7 @@ Roughness roughness_of(const Scene& scene) {
     friction = friction || g.grain.friction > 0;
     rolling = rolling || g.grain.rolling_friction > 0;
   }
-  for (const ContactPair& p : scene.contact.pairs) {
+  for (const ContactPair& p : scene.grains.contact.pairs) {
     friction = friction || p.friction.value_or(0) > 0;
     rolling = rolling || p.rolling_friction.value_or(0) > 0;
   }
@@ -36,8 +36,8 @@ Registry<ContactLaw>& contact_law_registry() {
 std::span<const ContactLaw* const> contact_laws() { return contact_law_registry().look(); }
 
 const ContactLaw& contact_law(const Scene& scene) {
-  const ContactLaw& law = *scene.contact.law;
-  return scene.contact.normal_damping ? *law.by_rate : law;
+  const ContactLaw& law = *scene.grains.contact.law;
+  return scene.grains.contact.normal_damping ? *law.by_rate : law;
 }
 
 ContactFusion contact_fusion(const Scene& scene) {

@@ -23,7 +23,7 @@ std::span<const EquationOfState* const> equations_of_state() { return eos_regist
 const EquationOfState* linear_eos() { return &eos_entry_of<LinearEos>(); }
 
 bool has_eos(const Scene& scene, EosKind kind) {
-  return std::ranges::any_of(scene.groups, [&](const Group& g) { return g.eos->kind == kind; });
+  return std::ranges::any_of(scene.groups, [&](const Group& g) { return g.eos.law->kind == kind; });
 }
 
 }  // namespace sph

@@ -72,7 +72,7 @@ void add_drifts(Builder& b) {
   for_each_on(b.scene(), Effect::drift, [&](const AddedTerm& t, double strength) {
     b.add_kick(b.sums_over_pairs(std::string(t.word), {t.term}));
     b.add_kick(std::string(t.word) + " drift",
-               Drift{strength, b.scene().smoothing_length, b.constants().scale.quantum},
+               Drift{strength, b.scene().kernel.smoothing_length, b.constants().scale.quantum},
                [strength](const GlobalState& global) { return longest_added_drift(strength, global); });
   });
 }

@@ -5,18 +5,19 @@
 namespace sph {
 
 BodyForces::BodyForces(const SphConstants& constants)
-    : constants_(&constants), surface_(constants.scene->kernel, constants.scene->dim) {}
+    : constants_(&constants), surface_(constants.scene->kernel.shape, constants.scene->dim) {}
 
 Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
   const auto d = static_cast<std::size_t>(p.dim());
   const Scene& scene = *constants_->scene;
   const std::int64_t* x = p.get<Field::position>();
-  const double pull = scene.central_pull, control = tension_control(p, i);
+  const double pull = scene.domain.central_pull, control = tension_control(p, i);
   const double* grains = p.get<Field::grain_pull>();
-  Double3 acceleration = scene.gravity;
+  Double3 acceleration = scene.domain.gravity;
   for (std::size_t a = 0; a < d; ++a) {
     if (grains != nullptr) acceleration[a] += grains[i * d + a];
-    if (pull != 0) acceleration[a] -= pull * (constants_->scale.metres(x[i * d + a]) - scene.pull_centre[a]);
+    if (pull != 0)
+      acceleration[a] -= pull * (constants_->scale.metres(x[i * d + a]) - scene.domain.pull_centre[a]);
     if (control != 0) acceleration[a] += control * p.get<Field::spread>()[i * (d + 2) + a];
   }
   return acceleration;
@@ -28,7 +29,7 @@ Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
 double BodyForces::disordered_share(const Particles& p, std::size_t i) const {
   constexpr double inside = 0.985, margin = 0.007, spray = 0.6;
   const std::size_t d = static_cast<std::size_t>(p.dim());
-  const double h = constants_->scene->smoothing_length;
+  const double h = constants_->scene->kernel.smoothing_length;
   const double* spread = p.get<Field::spread>() + i * (d + 2);
   const double volume =
       p.get<Field::mass>()[i] / p.get<Field::density>()[i] * constants_->row_scale.inverse_volume;
@@ -47,7 +48,7 @@ double BodyForces::disordered_share(const Particles& p, std::size_t i) const {
 // free surface leaves no other way.
 double BodyForces::tension_control(const Particles& p, std::size_t i) const {
   const Scene& scene = *constants_->scene;
-  if (!scene.terms.shifting || !scene.open) return 0;
+  if (!scene.terms.shifting || !scene.open()) return 0;
   const double pressure = p.get<Field::pressure>()[i];
   if (pressure >= 0) return 0;
   return 2 * pressure / p.get<Field::density>()[i] * std::fmax(0.0, disordered_share(p, i));

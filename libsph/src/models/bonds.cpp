@@ -79,15 +79,15 @@ struct Stresses {
       double& energy = p.get<Field::strain_energy>()[i];
       energy = contact != nullptr ? contact[i] : 0.0;
       const Group& own = constants->scene->groups[group[i]];
-      if (own.kind == GroupKind::wall && own.clamps < 0) {  // rigid
+      if (own.kind == GroupKind::wall && own.wall.clamps < 0) {  // rigid
         bond_stress.setZero();
         continue;
       }
       const Group& g = constants->scene->groups[static_cast<std::size_t>(constants->groups.body[group[i]])];
       const BondSums<D> bonds(p.get<Field::deformation>() + i * sums,
-                              constants->gradient_factor * constants->scene->smoothing_length);
+                              constants->gradient_factor * constants->scene->kernel.smoothing_length);
       check(p, i, bonds.count, bonds.shape, step);
-      const ElasticState<D> state = neo_hooke<D>(bonds.gradient, g.bulk_modulus, g.shear_modulus);
+      const ElasticState<D> state = neo_hooke<D>(bonds.gradient, g.eos.bulk_modulus, g.solid.shear_modulus);
       const double hourglass = constants->terms.bonds.hourglass * constants->groups.modulus[group[i]];
       bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
       const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
@@ -97,8 +97,8 @@ struct Stresses {
 
       // For output: Cauchy stress P F^T / J; out of the plane mu (1/J - 1) + lambda' (J - 1).
       const Tensor<D> cauchy = (state.first_piola + state.first_piola * bonds.gradient.transpose()) / ratio;
-      const double out_of_plane = (g.bulk_modulus + g.shear_modulus / 3) * state.volume_change -
-                                  g.shear_modulus * (state.volume_change / ratio);
+      const double out_of_plane = (g.eos.bulk_modulus + g.solid.shear_modulus / 3) * state.volume_change -
+                                  g.solid.shear_modulus * (state.volume_change / ratio);
       const double pressure = -(cauchy.trace() + (D == 2 ? out_of_plane : 0.0)) / 3;
       p.get<Field::pressure>()[i] = pressure;
       p.get<Field::density>()[i] = own.density / ratio;

@@ -7,7 +7,7 @@ namespace sph {
 
 Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms, Rows rows) {
   const SphConstants& k = *constants_;
-  const Fusion& fusion = find_fusion(scene().dim, scene().precision, scene().kernel, terms);
+  const Fusion& fusion = find_fusion(scene().dim, scene().terms.precision, scene().kernel.shape, terms);
   fields_ |= fusion.writes;
   const auto work = [&k, &fusion, rows](StepState& s, Side side) {
     const PassContext context = k.context(s.particles, *s.lists, s.rows, s.global.dt);

@@ -29,7 +29,7 @@ ContactTable::ContactTable(const Scene& scene, double dt)
 void ContactTable::find_quanta(const Scene& scene) {
   double radius = 0;
   for (const Group& g : scene.groups) radius = std::max(radius, g.grain.largest_radius);
-  const double overlap = scene.contact.largest_overlap * radius;
+  const double overlap = scene.grains.contact.largest_overlap * radius;
   const double force = stiffest_contact(scene, radius) * overlap;
   force_quantum_ = std::ldexp(next_power_of_two(4 * force), -50);
   double friction = 1;

@@ -47,8 +47,8 @@ std::vector<Neighbour> neighbours(int dim, double q) {
 }
 
 std::vector<Neighbour> neighbours(const Scene& scene) {
-  const double q = scene.spacing / scene.smoothing_length;
-  switch (scene.kernel) {
+  const double q = scene.start.spacing / scene.kernel.smoothing_length;
+  switch (scene.kernel.shape) {
     case KernelShape::wendland_c2:
       return neighbours<WendlandC2>(scene.dim, q);
     case KernelShape::wendland_c4:
@@ -73,7 +73,7 @@ class Modes {
       fourth_ += n.weight * n.r2 * n.r2 / scene.dim;
     }
     const int steps = scene.dim == 2 ? 16 : 8;
-    const double most = std::numbers::pi * scene.smoothing_length / scene.spacing;
+    const double most = std::numbers::pi * scene.kernel.smoothing_length / scene.start.spacing;
     for (int a = 0; a <= steps; ++a)
       for (int b = 0; b <= a; ++b)
         for (int c = 0; c <= (scene.dim == 3 ? b : 0); ++c)
@@ -156,22 +156,22 @@ std::vector<Key> keys_of(const Scene& scene) {
 
 std::vector<Rates> rates_of(const Scene& scene, const std::vector<double>& sounds) {
   std::vector<Rates> all;
-  const double h = scene.smoothing_length;
-  const bool ida = scene.formulation == Formulation::ida;
+  const double h = scene.kernel.smoothing_length;
+  const bool ida = scene.terms.formulation == Formulation::ida;
   for (std::size_t k = 0; k < scene.groups.size(); ++k) {
     const Group& g = scene.groups[k];
     if (g.kind == GroupKind::wall && !ida) continue;  // it has the sums of the matter beside it
     const bool solid = g.kind == GroupKind::solid;
-    const double nu = scene.terms.implicit_viscosity ? 0 : g.viscosity / g.density;
+    const double nu = scene.terms.viscous.implicit ? 0 : g.viscosity / g.density;
     Rates r;
     r.sound = sounds[k] / h;
     r.diffusion =
-        solid || g.eos->kind == EosKind::ideal_gas ? 0 : 2 * scene.terms.density_diffusion * r.sound;
+        solid || g.eos.law->kind == EosKind::ideal_gas ? 0 : 2 * scene.terms.density_diffusion * r.sound;
     r.artificial = 0.5 * scene.terms.artificial_viscosity * r.sound;
     r.bulk = g.bulk_viscosity / g.density / (h * h);
     if (ida)  // eq. (9) of the velocity gradient: no pairwise viscosity
       r.bulk += 2 * nu / (h * h);
-    else if (scene.terms.viscosity == ViscosityForm::symmetric)
+    else if (scene.terms.viscous.form == ViscosityForm::symmetric)
       r.symmetric = 2 * (scene.dim + 2) * nu / (h * h);
     else
       r.laplacian = 2 * nu / (h * h);

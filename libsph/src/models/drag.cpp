@@ -12,7 +12,9 @@
 #include "sph/scene/grain_mass.hpp"
 
 namespace sph {
-bool has_drag(const Scene& scene) { return scene.is_mixture() && scene.drag.law->resistance != nullptr; }
+bool has_drag(const Scene& scene) {
+  return scene.is_mixture() && scene.grains.drag.law->resistance != nullptr;
+}
 
 Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const PositionScale& scale,
            const SphConstants& constants)
@@ -22,7 +24,7 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
       constants_(&constants),
       push_(scene),
       near_(scene, scale, constants) {
-  const DragLaw& law = *scene.drag.law;
+  const DragLaw& law = *scene.grains.drag.law;
   // As if it took the heaviest grain, or the fluid in its place, to the speed of sound within h, or dragged a grain
   // in a packed bed with that speed.
   double largest = 0;
@@ -35,7 +37,7 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
       const double heavy = grain_mass(std::max(g.density, f.density), g.grain.largest_radius);
       const double fast =
           law.resistance({DragForce::packed, sound, f.density, f.viscosity, 2 * g.grain.largest_radius});
-      largest = std::max({largest, heavy * sound * sound / scene.smoothing_length, fast * sound});
+      largest = std::max({largest, heavy * sound * sound / scene.kernel.smoothing_length, fast * sound});
       const double d = 2 * g.grain.least_radius, volume = volume_of(g.grain.least_radius);
       const double zeta = law.resistance({DragForce::packed, 0, f.density, f.viscosity, d});
       const double solid = (1 - DragForce::packed) / DragForce::packed;
@@ -113,12 +115,12 @@ double Drag::step_of(const PushLimits& limits) const {
   const double cfl = std::max(scene_->time.cfl, std::min(1.25 * scene_->time.cfl, 1.0));
   double dt = std::numeric_limits<double>::infinity();
   if (limits.rate > 0) dt = DragForce::usual_share / limits.rate;
-  if (limits.sound > 0) dt = std::min(dt, cfl * scene_->smoothing_length / limits.sound);
+  if (limits.sound > 0) dt = std::min(dt, cfl * scene_->kernel.smoothing_length / limits.sound);
   return dt;
 }
 
 void Drag::guard_step(const Reduction& reduction, const GlobalState& global) const {
-  const double h = scene_->smoothing_length;
+  const double h = scene_->kernel.smoothing_length;
   if (reduction[rate_] * global.dt > DragForce::largest_share)
     throw GuardError(fmt::format(
         "{}grains take the fluid along within {:.3g} s, less than a time step; set time.dt to {:.3g} s or "

@@ -13,8 +13,8 @@ namespace {
 /// W(k) the transform of the kernel for h = 1 and L(k) that of the viscous term, whose forms differ at wave lengths
 /// of a few h (for L = k^2 it is (1/6 pi) <1/r> over two points spread with the kernel: 0.0432, 0.0570, 0.0652).
 double self_mobility(const Scene& scene) {
-  const bool symmetric = scene.terms.viscosity == ViscosityForm::symmetric;
-  switch (scene.kernel) {
+  const bool symmetric = scene.terms.viscous.form == ViscosityForm::symmetric;
+  switch (scene.kernel.shape) {
     case KernelShape::wendland_c2:
       return symmetric ? 0.0621 : 0.0645;
     case KernelShape::wendland_c4:
@@ -36,8 +36,8 @@ double unscreened(double solid) {
 
 DragForce::DragForce(const Scene& scene)
     : scene_(&scene),
-      law_(scene.drag.law),
-      self_mobility_(scene.drag.own_disturbance ? self_mobility(scene) : 0.0) {}
+      law_(scene.grains.drag.law),
+      self_mobility_(scene.grains.drag.own_disturbance ? self_mobility(scene) : 0.0) {}
 
 // F = V theta + z (u - v') with the velocity v' = v + dt F / m after it and z that of the drag law at the speed
 // relative to the fluid without the grain's own disturbance,
@@ -50,8 +50,8 @@ Push DragForce::operator()(const FluidAround& around, const GrainInFluid& grain,
   constexpr int rounds = 8;
   constexpr double most = 0.8;  // of a zeta: beyond that the grain is too large for h
   const double volume = volume_of(0.5 * grain.diameter), mass_over_dt = grain.mass / dt;
-  const double h = scene_->smoothing_length, solid = 1 - around.porosity;
-  const double screen = scene_->drag.own_disturbance ? unscreened(std::clamp(solid, 0.0, 0.74)) : 0;
+  const double h = scene_->kernel.smoothing_length, solid = 1 - around.porosity;
+  const double screen = scene_->grains.drag.own_disturbance ? unscreened(std::clamp(solid, 0.0, 0.74)) : 0;
   DragState state{std::min(1.0, around.porosity + screen * around.own), 0, around.density, around.viscosity,
                   grain.diameter};
   Double3 moved{}, relative{};

@@ -45,7 +45,7 @@ void Drag::deposit_porosity(StepState& s, Side side) {
   const double* walls = fluid.data<Field::wall_share>();
   for_movers(s.ranges, [&](std::size_t i) {
     const double open =
-        walls == nullptr ? 1.0 : std::max(1 - scene_->smoothing_length * walls[i * 4 + 3], least_open);
+        walls == nullptr ? 1.0 : std::max(1 - scene_->kernel.smoothing_length * walls[i * 4 + 3], least_open);
     porosity[i] = 1 - static_cast<double>(deposits_[i]) * porosity_quantum / open;
     if (porosity[i] >= least_porosity) return;
     s.findings.add(fluid.data<Field::id>()[i], [&] {

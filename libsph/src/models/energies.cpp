@@ -18,9 +18,9 @@ double potential_energy(const Scene& scene, const PositionScale& scale, const Wr
   double work = 0;
   for (std::size_t a = 0; a < d; ++a) {
     const double x = scale.metres(wrap(static_cast<int>(a), p.data<Field::position>()[row * d + a]));
-    const double away = x - scene.pull_centre[a];
-    work += scene.gravity[a] * x;
-    work -= 0.5 * scene.central_pull * (away * away);
+    const double away = x - scene.domain.pull_centre[a];
+    work += scene.domain.gravity[a] * x;
+    work -= 0.5 * scene.domain.central_pull * (away * away);
   }
   return -p.data<Field::mass>()[row] * work;
 }

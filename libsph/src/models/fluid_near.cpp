@@ -24,7 +24,10 @@ double surface_slope(KernelShape kernel) {
 }  // namespace
 
 FluidNear::FluidNear(const Scene& scene, const PositionScale& scale, const SphConstants& constants)
-    : scene_(&scene), constants_(&constants), scale_(scale), surface_slope_(surface_slope(scene.kernel)) {}
+    : scene_(&scene),
+      constants_(&constants),
+      scale_(scale),
+      surface_slope_(surface_slope(scene.kernel.shape)) {}
 
 void FluidNear::rebuild(const Particles& grains, const ListSetting& setting) {
   const auto timing = setting.timers.time(decomp::Region::lists);
@@ -61,7 +64,7 @@ void FluidNear::find_kernel(const Particles& grains, std::size_t i, const Partic
   const std::int64_t* at = grains.data<Field::position>() + i * 3;
   const std::int64_t* x = fluid.data<Field::position>();
   const std::span<const std::uint32_t> near = rows(i);
-  const double h = scene_->smoothing_length, unit = scale_.quantum / h;
+  const double h = scene_->kernel.smoothing_length, unit = scale_.quantum / h;
   kernel_.resize(near.size());
   for (std::size_t k = 0; k < near.size(); ++k) {
     const std::int64_t* of = x + std::size_t{near[k]} * 3;
@@ -73,9 +76,9 @@ void FluidNear::find_kernel(const Particles& grains, std::size_t i, const Partic
     kernel_[k] = std::sqrt(square);
   }
   const double h3 = h * h * h;
-  if (scene_->kernel == KernelShape::quintic)
+  if (scene_->kernel.shape == KernelShape::quintic)
     kernel_values<Quintic>(Quintic::normalisation<3> / h3, kernel_);
-  else if (scene_->kernel == KernelShape::wendland_c2)
+  else if (scene_->kernel.shape == KernelShape::wendland_c2)
     kernel_values<WendlandC2>(WendlandC2::normalisation<3> / h3, kernel_);
   else
     kernel_values<WendlandC4>(WendlandC4::normalisation<3> / h3, kernel_);
@@ -87,14 +90,14 @@ FluidNear::Share FluidNear::share_of(std::size_t i, double radius, const Particl
   constexpr double least = 0.02;  // of the kernel: what is beside a wall and dry
   const auto* group = fluid.data<Field::group>();
   const std::span<const std::uint32_t> near = rows(i);
-  const double wall_volume = scene_->spacing * scene_->spacing * scene_->spacing;
+  const double wall_volume = scene_->start.spacing * scene_->start.spacing * scene_->start.spacing;
   double wet = 0, walls = 0;
   for (std::size_t k = 0; k < near.size(); ++k) {
     wet += weights_[k];
     if (constants_->is_wall(group[near[k]])) walls += wall_volume * kernel_[k];
   }
   const double open = 1 - walls;
-  const double depth = (wet / open - 0.5) / surface_slope_ * scene_->smoothing_length / radius;
+  const double depth = (wet / open - 0.5) / surface_slope_ * scene_->kernel.smoothing_length / radius;
   if (!(wet > least) || !(open > least) || depth <= -1) return {0, 0};
   return {1 / wet, depth >= 1 ? 1.0 : 0.25 * (2 + depth * (3 - depth * depth))};
 }

@@ -53,19 +53,19 @@ struct Compression {
     const auto* group = p.get<Field::group>();
     for_movers(step.ranges, [&](std::size_t i) {
       const double width = h[i] * constants->row_scale.inverse_h;
-      const GasKernel kernel =
-          gas_kernel({width, constants->gradient_factor * scene.smoothing_length, constants->kernel_at_zero,
-                      sums[2 * i], sums[2 * i + 1], more[i * moments], more[i * moments + 1]},
-                     static_cast<int>(d), scene.least_growth, scene.largest_growth);
+      const GasKernel kernel = gas_kernel(
+          {width, constants->gradient_factor * scene.kernel.smoothing_length, constants->kernel_at_zero,
+           sums[2 * i], sums[2 * i + 1], more[i * moments], more[i * moments + 1]},
+          static_cast<int>(d), scene.kernel.least_growth, scene.kernel.largest_growth);
       if (!(kernel.open > 0))
         find_fault(*constants, p, i, step, "is inside a wall; reduce time.cfl or time.dt");
       const double before = rho[i];
       rho[i] = mass[i] * constants->row_scale.inverse_volume * kernel.number;
-      h[i] = kernel.width * scene.smoothing_length;
+      h[i] = kernel.width * scene.kernel.smoothing_length;
       correction[i] = kernel.correction;
       // At the start there was no density before.
       if (before > 0)
-        energy[i] = IdealGas{scene.groups[group[i]].heat_ratio}.compressed(energy[i], rho[i] / before);
+        energy[i] = IdealGas{scene.groups[group[i]].gas.heat_ratio}.compressed(energy[i], rho[i] / before);
       if (!(energy[i] > 0))
         find_fault(*constants, p, i, step, "has no energy left; reduce time.cfl or time.dt");
       if (d == 2)
@@ -99,7 +99,7 @@ struct Heat {
     const double* gradient = p.get<Field::velocity_gradient>();
     const auto* group = p.get<Field::group>();
     const std::size_t d = static_cast<std::size_t>(p.dim());
-    const double fastest_in_time = scene.time.cfl * scene.smoothing_length / growth_in_a_step;
+    const double fastest_in_time = scene.time.cfl * scene.kernel.smoothing_length / growth_in_a_step;
     for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
       const RowRange& r = range_of(step.ranges, c);
       for (std::size_t i = r.first; i < r.last; ++i) {
@@ -108,7 +108,8 @@ struct Heat {
         for (std::size_t a = 0; a < d; ++a)
           power -= 0.5 * step.global.dt * (force[i * d + a] / mass[i]) * own[1 + a];
         const double expansion = trace_of(gradient + i * d * d, d);
-        const double later = 1 - 0.5 * (scene.groups[group[i]].heat_ratio - 1) * step.global.dt * expansion;
+        const double later =
+            1 - 0.5 * (scene.groups[group[i]].gas.heat_ratio - 1) * step.global.dt * expansion;
         step.maxima.sound = larger(fastest_in_time / static_cast<double>(d) * expansion, step.maxima.sound);
         energy[i] += step.global.dt * (power / mass[i]) / std::fmin(std::fmax(later, 0.7), 1.4);
         if (!(energy[i] > 0))
@@ -163,8 +164,8 @@ void look_at_gas(const SphConstants& constants, const GasView& p, std::size_t fi
     if (g.kind == GroupKind::wall) continue;
     double square = 0;
     for (std::size_t a = 0; a < d; ++a) square += v[i * d + a] * v[i * d + a];
-    const double finer = scene.smoothing_length / h[i];
-    const double sound = IdealGas{g.heat_ratio}.sound_speed(energy[i]);
+    const double finer = scene.kernel.smoothing_length / h[i];
+    const double sound = IdealGas{g.gas.heat_ratio}.sound_speed(energy[i]);
     maxima.sound = larger((sound + std::sqrt(square)) * finer, maxima.sound);
     if (rho[i] > 0) maxima.viscosity = std::fmax(maxima.viscosity, g.viscosity / rho[i] * (finer * finer));
   }
@@ -187,7 +188,7 @@ void add_heat(Builder& b) { b.add_kick("heat", Heat{&b.constants(), &b.materials
 const std::vector<double>& GasReach::find(const Particles& p) {
   listed_.resize(p.rows());
   const double* h = p.data<Field::smoothing_length>();
-  const double radius = scene_->support() / scene_->smoothing_length;
+  const double radius = scene_->support() / scene_->kernel.smoothing_length;
   for (std::size_t i = 0; i < listed_.size(); ++i)
     listed_[i] = std::fmin(radius * room_to_grow * h[i], scene_->list_range());
   return listed_;
@@ -196,7 +197,7 @@ const std::vector<double>& GasReach::find(const Particles& p) {
 double GasReach::growth(const Particles& p) const {
   double most = 0;
   const double* h = p.data<Field::smoothing_length>();
-  const double radius = scene_->support() / scene_->smoothing_length;
+  const double radius = scene_->support() / scene_->kernel.smoothing_length;
   for (std::size_t i = 0; i < (listed_.empty() ? 0 : p.owned()); ++i)
     most = std::fmax(most, std::fmin(radius * fastest_growth * h[i], scene_->list_range()) / listed_[i]);
   return most;

@@ -17,7 +17,7 @@ PairConstants law_part(const std::array<double, 8>& k) { return {k[0], k[1], k[2
 
 std::array<double, 8> constants_of(const Scene& scene, std::size_t a, std::size_t b, double dt) {
   const GrainMaterial &m = scene.groups[a].grain, &n = scene.groups[b].grain;
-  const ContactControl& control = scene.contact;
+  const ContactControl& control = scene.grains.contact;
   double friction = std::min(m.friction, n.friction);
   double rolling = std::min(m.rolling_friction, n.rolling_friction);
   double restitution = std::min(m.restitution, n.restitution);
@@ -41,7 +41,7 @@ double stiffest_contact(const Scene& scene, double radius) {
   for (std::size_t a = 0; a < scene.groups.size(); ++a)
     for (std::size_t b = a; b < scene.groups.size(); ++b)
       stiffest = std::max(stiffest, law.stiffness(law_part(constants_of(scene, a, b, 0)), radius,
-                                                  scene.contact.largest_overlap * radius));
+                                                  scene.grains.contact.largest_overlap * radius));
   return stiffest;
 }
 
@@ -71,12 +71,13 @@ GrainTimeSteps grain_time_steps(const Scene& scene) {
   if (sliding > 0) {
     const double share = 2.0 / 7.0 * sliding / stiffness;
     steps.limit = std::min(
-        steps.limit,
-        linear_stable_step(sliding, mass / 7, scene.contact.tangential_damping * zeta / std::sqrt(share)));
+        steps.limit, linear_stable_step(sliding, mass / 7,
+                                        scene.grains.contact.tangential_damping * zeta / std::sqrt(share)));
   }
   if (rolling > 0)  // pairs/rolling.hpp: k_r = 2.25 k (mu_r r)^2, dashpot 2 eta sqrt(7/5 m r^2 k_r)
-    steps.limit = std::min(steps.limit, linear_stable_step(2.25 * rolling * rolling * stiffness, 0.4 * mass,
-                                                           std::sqrt(3.5) * scene.contact.rolling_damping));
+    steps.limit =
+        std::min(steps.limit, linear_stable_step(2.25 * rolling * rolling * stiffness, 0.4 * mass,
+                                                 std::sqrt(3.5) * scene.grains.contact.rolling_damping));
   const LawSteps wanted = law.steps({scene.groups, stiffness, mass});
   steps.recommended = std::min(wanted.recommended, 0.5 * steps.limit);
   steps.advised = wanted.advised;

@@ -35,13 +35,14 @@ double speed_along(const Double3& velocity, const Double3& normal) {
 double step_of_scene(const Scene& scene) {
   const double dt = grain_step(scene);
   if (scene.time.dt || !scene.has_matter()) return dt;
-  return std::min(dt, scene.time.cfl * scene.smoothing_length / std::ranges::max(sounds_at_rest(scene)));
+  return std::min(dt,
+                  scene.time.cfl * scene.kernel.smoothing_length / std::ranges::max(sounds_at_rest(scene)));
 }
 
 }  // namespace
 
 double longest_grain_move(const Scene& scene) {
-  const double lambda = scene.contact.largest_overlap;
+  const double lambda = scene.grains.contact.largest_overlap;
   return std::min(1.0, std::sqrt(4 * lambda - lambda * lambda)) * least_radius(scene);
 }
 
@@ -65,13 +66,13 @@ void check_wall_speeds(const Scene& scene) {
     throw InputError(fmt::format("{}: {}: wall \"{}\" at {:.6g} m/s: {}, or this speed", scene.file, key,
                                  wall.name, speed, grain_move_text(scene, speed * dt)));
   };
-  for (const Wall& wall : scene.walls) {
+  for (const Wall& wall : scene.grains.walls) {
     check(wall, "wall.velocity", speed_along(wall.velocity, wall.normal));
     check(wall, "wall.largest_speed", wall.largest_speed);
   }
-  for (const WallStage& stage : scene.stages)
+  for (const WallStage& stage : scene.grains.stages)
     for (const WallChange& change : stage.walls) {
-      const Wall& wall = scene.walls[static_cast<std::size_t>(change.wall)];
+      const Wall& wall = scene.grains.walls[static_cast<std::size_t>(change.wall)];
       if (change.velocity)
         check(wall, fmt::format("stage \"{}\": velocity", stage.name),
               speed_along(*change.velocity, wall.normal));

@@ -19,7 +19,7 @@ GrainPairs::GrainPairs(std::size_t set, const Scene& scene, const PositionScale&
       scale_(scale),
       walls_(&walls),
       lists_(contact_fusion(scene).parities),
-      sums_a_row_(contact_fusion(scene).spins ? 8 : 4) {
+      spins_(contact_fusion(scene).spins) {
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
 }
 
@@ -54,7 +54,7 @@ ContactCensus GrainPairs::find_pairs(const Particles& particles, const ListSetti
   lists_.build(particles, s.grid, s.own_cells, s.radius, s.skin, scale_.quantum, s.ranges, fixed_, planes);
   const ContactCensus found = lists_.unpack(particles, carried, order, scale_.quantum, planes);
   counters_.carried += lists_.carried();
-  sums_.assign(particles.rows() * sums_a_row_, 0);
+  sums_.assign(particles.rows() * (spins_ ? 8 : 4), 0);
   const std::int64_t* x = particles.data<Field::position>();
   listed_.grains.assign(x, x + particles.owned() * 3);
   listed_.walls.clear();
@@ -66,6 +66,12 @@ void GrainPairs::count(const RowRanges&, std::span<std::uint32_t> entries) const
   for (const auto blocks : {lists_.interior(), lists_.boundary()})
     for (const ContactBlock& b : blocks)
       share_block(entries, b.first, b.last, (b.pairs_end - b.pairs) * ContactGroups::lanes);
+}
+
+FieldSet GrainPairs::swept() const {
+  FieldSet fields{Field::position, Field::velocity};
+  if (spins_) fields |= FieldSet{Field::spin};
+  return fields;
 }
 
 std::int64_t GrainPairs::touching() const {

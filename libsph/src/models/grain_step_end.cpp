@@ -19,6 +19,30 @@ std::string text_of(const Scene& scene, const PositionScale& scale, const Contac
                      text_of_partner(scene, fault.partner));
 }
 
+void add_too_fast(const Scene& scene, const PositionScale& scale, const StepState& s, Findings& found) {
+  const double* v = s.particles.data<Field::velocity>();
+  const std::int64_t* x = s.particles.data<Field::position>();
+  const double dt = s.global.dt, longest = longest_grain_move(scene);
+  for (std::size_t i = 0; i < s.particles.owned(); ++i) {
+    if (scene.groups[s.particles.data<Field::group>()[i]].grain.fixed) continue;
+    const double speed =
+        std::sqrt(v[i * 3] * v[i * 3] + v[i * 3 + 1] * v[i * 3 + 1] + v[i * 3 + 2] * v[i * 3 + 2]);
+    if (!(speed * dt > longest)) continue;
+    const std::uint64_t id = s.particles.data<Field::id>()[i];
+    found.add(id, [&] {
+      // Where it came from: so fast, it may have wrapped around.
+      std::array<std::int64_t, 3> at;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const std::int64_t way = round_to_quanta(v[i * 3 + a] * (dt / scale.quantum));
+        at[a] = static_cast<std::int64_t>(static_cast<std::uint64_t>(x[i * 3 + a]) -
+                                          static_cast<std::uint64_t>(way));
+      }
+      return fmt::format("grain {} {} has a speed of {:.6g} m/s: {}", id,
+                         text_of_place(scene, scale, at.data()), speed, grain_move_text(scene, speed * dt));
+    });
+  }
+}
+
 }  // namespace
 
 void Grains::reserve(Reduction& r) {
@@ -56,33 +80,8 @@ void Grains::guard(const decomp::Comm& comm, const StepState& s, const Reduction
           "stiffness or reduce time.dt",
           text_of(*scene_, scale_, f), f.value, f.limit);
     });
-  if (!strong && !deep) add_too_fast(s, found);
+  if (!strong && !deep) add_too_fast(*scene_, scale_, s, found);
   found.stop(comm, step_text(s.global.step));
-}
-
-void Grains::add_too_fast(const StepState& s, Findings& found) const {
-  const double* v = s.particles.data<Field::velocity>();
-  const std::int64_t* x = s.particles.data<Field::position>();
-  const double dt = s.global.dt, longest = longest_grain_move(*scene_);
-  for (std::size_t i = 0; i < s.particles.owned(); ++i) {
-    if (scene_->groups[s.particles.data<Field::group>()[i]].grain.fixed) continue;
-    const double speed =
-        std::sqrt(v[i * 3] * v[i * 3] + v[i * 3 + 1] * v[i * 3 + 1] + v[i * 3 + 2] * v[i * 3 + 2]);
-    if (!(speed * dt > longest)) continue;
-    const std::uint64_t id = s.particles.data<Field::id>()[i];
-    found.add(id, [&] {
-      // Where it came from: so fast, it may have wrapped around.
-      std::array<std::int64_t, 3> at;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const std::int64_t way = round_to_quanta(v[i * 3 + a] * (dt / scale_.quantum));
-        at[a] = static_cast<std::int64_t>(static_cast<std::uint64_t>(x[i * 3 + a]) -
-                                          static_cast<std::uint64_t>(way));
-      }
-      return fmt::format("grain {} {} has a speed of {:.6g} m/s: {}", id,
-                         text_of_place(*scene_, scale_, at.data()), speed,
-                         grain_move_text(*scene_, speed * dt));
-    });
-  }
 }
 
 void Grains::act(const Reduction& r, GlobalState& global) {

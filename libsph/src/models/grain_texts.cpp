@@ -17,7 +17,7 @@ std::string text_of_place(const Scene& scene, const PositionScale& scale, const 
 }
 
 std::string text_of_partner(const Scene& scene, std::uint64_t key) {
-  return (key & wall_key) != 0 ? fmt::format("wall \"{}\"", scene.walls[key & ~wall_key].name)
+  return (key & wall_key) != 0 ? fmt::format("wall \"{}\"", scene.grains.walls[key & ~wall_key].name)
                                : fmt::format("grain {}", key);
 }
 

@@ -68,9 +68,9 @@ Plan Grains::plan() {
   append(plan.sums, {"contacts to forget", decomp::Region::contacts, {}, {}, [this](StepState& s, Side) {
                        begin_step(s.particles, s.global);
                      }});
-  const FieldSet writes = alone_ ? reads() : reads().without({Field::position});
-  append(plan.kick, {alone_ ? "contacts, kick, drift" : "contacts, kick", decomp::Region::contacts, reads(),
-                     writes, [this](StepState& s, Side side) {
+  const FieldSet writes = alone_ ? pairs_.swept() : pairs_.swept().without({Field::position});
+  append(plan.kick, {alone_ ? "contacts, kick, drift" : "contacts, kick", decomp::Region::contacts,
+                     pairs_.swept(), writes, [this](StepState& s, Side side) {
                        sweep(s.particles,
                              side == Side::interior ? pairs_.lists().interior() : pairs_.lists().boundary(),
                              s.ranges, s.global.dt);
@@ -81,12 +81,6 @@ Plan Grains::plan() {
                          s.maxima.acceleration = larger(most, s.maxima.acceleration);
                      }});
   return plan;
-}
-
-FieldSet Grains::reads() const {
-  FieldSet fields{Field::position, Field::velocity};
-  if (fusion_.spins) fields |= FieldSet{Field::spin};
-  return fields;
 }
 
 double Grains::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
@@ -117,17 +111,17 @@ void Grains::begin_step(const Particles& particles, const GlobalState& global) {
 }
 
 ContactContext Grains::context(Particles& particles, double dt) {
-  return {
-      &particles,
-      &pairs_.lists(),
-      {table_.data(), table_.groups(), scene_->contact.pull ? -std::numeric_limits<double>::infinity() : 0.0},
-      {planes_, wall_force_.data()},
-      pairs_.sums().data(),
-      {scale_.quantum, table_.force_quantum(), table_.torque_quantum()},
-      dt,
-      {scene_->gravity[0], scene_->gravity[1], scene_->gravity[2]},
-      scene_->contact.largest_overlap,
-      alone_};
+  return {&particles,
+          &pairs_.lists(),
+          {table_.data(), table_.groups(),
+           scene_->grains.contact.pull ? -std::numeric_limits<double>::infinity() : 0.0},
+          {planes_, wall_force_.data()},
+          pairs_.sums().data(),
+          {scale_.quantum, table_.force_quantum(), table_.torque_quantum()},
+          dt,
+          {scene_->domain.gravity[0], scene_->domain.gravity[1], scene_->domain.gravity[2]},
+          scene_->grains.contact.largest_overlap,
+          alone_};
 }
 
 void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges,

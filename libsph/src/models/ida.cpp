@@ -35,9 +35,9 @@ struct DensitiesAndStresses {
       if (g.kind == GroupKind::solid) {
         // (11) less its isotropic part: -K div v is the rate of -p in (10), so lambda - K = -2/3 mu is left.
         if (d == 2)
-          update_hooke_literal<2>(s, grad, -2.0 / 3.0 * g.shear_modulus, g.shear_modulus, dt);
+          update_hooke_literal<2>(s, grad, -2.0 / 3.0 * g.solid.shear_modulus, g.solid.shear_modulus, dt);
         else
-          update_hooke_literal<3>(s, grad, -2.0 / 3.0 * g.shear_modulus, g.shear_modulus, dt);
+          update_hooke_literal<3>(s, grad, -2.0 / 3.0 * g.solid.shear_modulus, g.solid.shear_modulus, dt);
         continue;
       }
       const double div = trace_of(grad, d);

@@ -57,7 +57,7 @@ struct Kick {
         v2 += v[i * d + a] * v[i * d + a];
       }
       // How far it takes a particle is counted in its own h.
-      const double finer = h != nullptr ? scene->smoothing_length / h[i] : 1.0;
+      const double finer = h != nullptr ? scene->kernel.smoothing_length / h[i] : 1.0;
       speed2 = larger(v2, speed2);
       acceleration2 = larger(a2 * (finer * finer), acceleration2);
     });
@@ -76,7 +76,7 @@ struct WallVelocities {
     double* v = p.get<Field::velocity>();
     const auto* group = p.get<Field::group>();
     for_walls(step.ranges, [&](std::size_t i) {
-      for (std::size_t a = 0; a < d; ++a) v[i * d + a] = scene->groups[group[i]].wall_velocity[a];
+      for (std::size_t a = 0; a < d; ++a) v[i * d + a] = scene->groups[group[i]].wall.velocity[a];
     });
   }
 };
@@ -105,8 +105,8 @@ struct Fragmentation {
     const double* psi = p.get<Field::void_fraction>();
     for_movers(step.ranges, [&](std::size_t i) {
       const Group& g = scene->groups[group[i]];
-      if (g.fragments_to >= 0 && psi[i] > *g.fragmentation_void_fraction)
-        group[i] = static_cast<std::uint32_t>(g.fragments_to);
+      if (g.bubbly.fragments_to >= 0 && psi[i] > *g.bubbly.fragmentation_void_fraction)
+        group[i] = static_cast<std::uint32_t>(g.bubbly.fragments_to);
     });
   }
 };

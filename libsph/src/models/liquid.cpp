@@ -63,9 +63,11 @@ struct Densities {
         div = trace_of(gradient + i * d * d, d);
         if (g.kind == GroupKind::solid) {
           if (d == 2)
-            update_deviator<2>(stress + i * components_of_stress, gradient + i * 4, g.shear_modulus, dt);
+            update_deviator<2>(stress + i * components_of_stress, gradient + i * 4, g.solid.shear_modulus,
+                               dt);
           else
-            update_deviator<3>(stress + i * components_of_stress, gradient + i * 9, g.shear_modulus, dt);
+            update_deviator<3>(stress + i * components_of_stress, gradient + i * 9, g.solid.shear_modulus,
+                               dt);
         }
       }
       const double exchanged = g.kind == GroupKind::solid ? 0.0 : diffusion[i];
@@ -101,7 +103,7 @@ void add_kinematics(Builder& b) {
                           : weighted(s) ? term<WeightedDivergence>
                                         : term<Divergence>,
                           has_drag(s)                        ? term<MixtureDensityDiffusion>
-                          : s.central_pull > 0               ? term<PulledDensityDiffusion>
+                          : s.domain.central_pull > 0        ? term<PulledDensityDiffusion>
                           : single && !solid && !weighted(s) ? term<UniformDensityDiffusion>
                                                              : term<DensityDiffusion>};
   if (s.terms.shifting) terms.push_back(term<Concentration>);
@@ -119,13 +121,13 @@ void add_forces(Builder& b) {
         return g.kind == GroupKind::grain || g.viscosity == first->viscosity;
       });
   const bool jump = tension(s) && s.terms.surface_tension.form == TensionForm::jump;
-  const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
+  const bool symmetric = s.terms.viscous.form == ViscosityForm::symmetric;
   const bool uniform = uniform_viscosity && !solid && !weighted(s) && !tension(s) && !symmetric;
   std::vector<Term> terms{slips(s)      ? term<SlippingStress>
                           : solid       ? term<StressDivergence>
                           : weighted(s) ? term<WeightedPressure>
                                         : term<Pressure>};
-  if (!s.terms.implicit_viscosity)
+  if (!s.terms.viscous.implicit)
     terms.push_back(uniform     ? term<UniformViscosity>
                     : symmetric ? term<SymmetricViscosity>
                                 : term<Viscosity>);

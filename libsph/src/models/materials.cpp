@@ -17,7 +17,7 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
                p.template get<Field::pressure>(),
                nullptr,
                nullptr,
-               scene.surface_pressure};
+               scene.domain.surface_pressure};
   if (const double* liquid = p.template get<Field::liquid_density>()) rows.density = liquid;
   double* sound = nullptr;
   if constexpr (V::writes.has(Field::sound_speed)) {
@@ -33,9 +33,9 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
     end = begin + 1;
     while (end < last && group[end] == group[begin]) ++end;
     const Group& g = scene.groups[group[begin]];
-    const bool wall = g.kind == GroupKind::wall && scene.formulation == Formulation::conservative;
+    const bool wall = g.kind == GroupKind::wall && scene.terms.formulation == Formulation::conservative;
     rows.sound_speed = sound;
-    if (sound != nullptr && (wall || g.eos->constant_sound)) {
+    if (sound != nullptr && (wall || g.eos.law->constant_sound)) {
       std::fill(sound + begin, sound + end, constants_->groups.sound_speed[group[begin]]);
       rows.sound_speed = nullptr;
     }
@@ -43,7 +43,7 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
       std::fill(rows.pressure + begin, rows.pressure + end, 0.0);
       if (rows.void_fraction != nullptr) std::fill(rows.void_fraction + begin, rows.void_fraction + end, 0.0);
     } else {
-      g.eos->derive(g, rows, begin, end);
+      g.eos.law->derive(g, rows, begin, end);
     }
   }
 }

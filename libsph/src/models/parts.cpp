@@ -13,7 +13,7 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
   if (scene.has_matter()) {
     physics.emplace(sets.size(), scene, scale);
     sph_pairs.emplace(sets.size(), *physics);
-    sets.push_back({physics->fields(), stays});
+    sets.push_back({physics->built().fields(), stays});
     models.push_back(&*physics);
     if (Shifting* shifting = physics->shifting()) models.push_back(shifting);
     pairs.push_back(&*sph_pairs);
@@ -32,7 +32,7 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
     pairs.push_back(&*drag);
   }
   if (physics) {
-    Plan of_fluid = physics->plan();
+    Plan of_fluid = physics->built().plan();
     if (drag) drag->add_porosity_to(of_fluid);
     append(plan, std::move(of_fluid), physics->set());
   }

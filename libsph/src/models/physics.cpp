@@ -26,13 +26,13 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
   if (gas_) builder_.add_fields({Field::sound_speed, Field::specific_energy});
   stiffens_ = std::ranges::any_of(scene.groups, stiffens);
   if (stiffens_) builder_.add_fields({Field::sound_speed});
-  if (scene.has_kind(GroupKind::solid) || scene.formulation == Formulation::ida)
+  if (scene.has_kind(GroupKind::solid) || scene.terms.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
   if (gas_) reach_.emplace(scene);
   if (scene.terms.shifting) shifting_.emplace(set, constants_, body_forces_);
 
   add_drift(builder_);
-  if (scene.formulation == Formulation::ida)
+  if (scene.terms.formulation == Formulation::ida)
     add_ida(builder_);
   else if (gas_)
     add_gas(builder_);
@@ -47,7 +47,7 @@ void Physics::add_liquids_and_solids() {
   const Scene& s = *scene_;
   const bool walls = s.has_kind(GroupKind::wall), fluid = s.has_kind(GroupKind::fluid);
   // Grains in the fluid want to know of walls before it has densities, others after the forces.
-  const bool wall_share = walls && fluid && (s.terms.implicit_viscosity || s.free_surface || has_drag(s));
+  const bool wall_share = walls && fluid && (s.terms.viscous.implicit || s.start.has_surface || has_drag(s));
   if (wall_share && has_drag(s)) add_wall_share(builder_);
   add_kinematics(builder_);
   if (walls) add_walls(builder_, s.terms.pressure_weights == PressureWeights::density);
@@ -57,8 +57,8 @@ void Physics::add_liquids_and_solids() {
   add_accelerations(builder_);
   // Only where fluid flies can it come into walls.
   if (wall_share && !has_drag(s)) add_wall_share(builder_);
-  if (wall_share && s.free_surface) add_walls_that_hold(builder_);
-  if (s.terms.implicit_viscosity) add_implicit_viscosity(builder_, walls);
+  if (wall_share && s.start.has_surface) add_walls_that_hold(builder_);
+  if (s.terms.viscous.implicit) add_implicit_viscosity(builder_, walls);
 }
 
 void Physics::add_end_of_step() {
@@ -67,7 +67,7 @@ void Physics::add_end_of_step() {
   if (shifting_) shifting_->add_to(builder_);
   add_drifts(builder_);
   if (bulk_viscous(s)) add_pressures(builder_);
-  if (std::ranges::any_of(s.groups, [](const Group& g) { return g.fragments_to >= 0; }))
+  if (std::ranges::any_of(s.groups, [](const Group& g) { return g.bubbly.fragments_to >= 0; }))
     add_fragmentation(builder_);
   if (shifting_) shifting_->add_motion_to(builder_);
   if (gas_) add_heat(builder_);
@@ -80,7 +80,7 @@ double Physics::longest_look_back(const GlobalState& global) const {
   double wall2 = 0;
   for (const Group& g : scene_->groups) {
     double v2 = 0;
-    for (double v : g.wall_velocity) v2 += v * v;
+    for (double v : g.wall.velocity) v2 += v * v;
     wall2 = std::max(wall2, v2);
   }
   return 0.5 * std::max(longest_drift(global), 1.0001 * std::sqrt(wall2) * global.dt);

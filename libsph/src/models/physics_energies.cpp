@@ -14,13 +14,14 @@ double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
   const Group& g = scene.groups[p.data<Field::group>()[row]];
   const double m = p.data<Field::mass>()[row], rho = p.data<Field::density>()[row];
   const double* liquid = p.data<Field::liquid_density>();
-  double energy = m * (g.bulk_modulus / g.density) * g.eos->energy(g, liquid != nullptr ? liquid[row] : rho);
-  if (g.kind != GroupKind::solid || scene.formulation != Formulation::conservative) return energy;
+  double energy =
+      m * (g.eos.bulk_modulus / g.density) * g.eos.law->energy(g, liquid != nullptr ? liquid[row] : rho);
+  if (g.kind != GroupKind::solid || scene.terms.formulation != Formulation::conservative) return energy;
   const std::size_t n = d * (d + 1) / 2;
   const double* s = p.data<Field::stress>() + row * n;
   double product = d == 2 ? (s[0] + s[1]) * (s[0] + s[1]) : 0.0;  // of the zz component in plane strain
   for (std::size_t k = 0; k < n; ++k) product += (k < d ? 1.0 : 2.0) * (s[k] * s[k]);
-  return energy + m / rho * product / (4 * g.shear_modulus);
+  return energy + m / rho * product / (4 * g.solid.shear_modulus);
 }
 
 }  // namespace

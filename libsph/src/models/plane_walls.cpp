@@ -13,13 +13,13 @@ namespace sph {
 
 void PlaneWalls::start(GlobalState& global) const {
   global.walls.resize(count());
-  for (std::size_t w = 0; w < count(); ++w) global.walls[w].velocity = scene_->walls[w].velocity;
+  for (std::size_t w = 0; w < count(); ++w) global.walls[w].velocity = scene_->grains.walls[w].velocity;
 }
 
 PlaneWalls::Now PlaneWalls::now_of(std::size_t wall, const GlobalState& global) const {
-  const Wall& w = scene_->walls[wall];
+  const Wall& w = scene_->grains.walls[wall];
   Now now{true, w.velocity, w.force};
-  for (const WallStage& s : scene_->stages) {
+  for (const WallStage& s : scene_->grains.stages) {
     if (s.begin > global.time) break;
     for (const WallChange& c : s.walls) {
       if (c.wall != static_cast<int>(wall)) continue;
@@ -45,7 +45,7 @@ void PlaneWalls::set_stage(GlobalState& global) const {
 std::vector<PlaneNow> PlaneWalls::now(const GlobalState& global) const {
   std::vector<PlaneNow> out;
   for (std::size_t w = 0; w < count(); ++w) {
-    const Wall& wall = scene_->walls[w];
+    const Wall& wall = scene_->grains.walls[w];
     PlaneNow plane{{},
                    wall.normal,
                    global.walls[w].velocity,
@@ -62,7 +62,7 @@ std::vector<PlaneNow> PlaneWalls::now(const GlobalState& global) const {
 void PlaneWalls::move(GlobalState& global) const {
   for (std::size_t w = 0; w < count(); ++w) {
     WallState& state = global.walls[w];
-    const Double3& normal = scene_->walls[w].normal;
+    const Double3& normal = scene_->grains.walls[w].normal;
     double along = 0;
     for (std::size_t a = 0; a < 3; ++a) along += state.velocity[a] * normal[a];
     for (std::size_t a = 0; a < 3; ++a)
@@ -73,7 +73,7 @@ void PlaneWalls::move(GlobalState& global) const {
 void PlaneWalls::push(GlobalState& global, std::span<const std::int64_t> forces) const {
   for (std::size_t w = 0; w < count(); ++w) {
     WallState& state = global.walls[w];
-    const Wall& wall = scene_->walls[w];
+    const Wall& wall = scene_->grains.walls[w];
     double pressed = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       state.force[a] = forces[3 * w + a];
@@ -105,7 +105,7 @@ std::vector<std::int64_t> PlaneWalls::forces(std::span<const std::int64_t> halve
       throw GuardError(fmt::format(
           "{}the force on wall \"{}\", {:.6g} N along {}, is beyond the range of the sums, {:.6g} N; reduce "
           "time.dt, or what presses on it",
-          step_text(global.step), scene_->walls[k / 3].name,
+          step_text(global.step), scene_->grains.walls[k / 3].name,
           std::ldexp(static_cast<double>(high), 32) * force_quantum_, "xyz"[k % 3], 0x1p62 * force_quantum_));
     forces[k] = high * (std::int64_t{1} << 32) + (halves[k] & 0xffffffff);
   }

@@ -93,11 +93,11 @@ void Shifting::act(const Reduction& r, GlobalState& global) {
   MotionSums motion{{}, r[in_.unlike]};
   std::ranges::copy(r[in_.motion], motion.sums.begin());
   global.motion = common_motion(motion, global);
-  if (!constants_->scene->open) global.fluid_volume.now = r[in_.volume][0];
+  if (!constants_->scene->open()) global.fluid_volume.now = r[in_.volume][0];
 }
 
 std::int64_t Shifting::fluid_volume(const Motion& p) const {
-  if (constants_->scene->open) return 0;
+  if (constants_->scene->open()) return 0;
   const double* mass = p.get<Field::mass>();
   const double* rho = p.get<Field::density>();
   const auto* group = p.get<Field::group>();
@@ -187,13 +187,13 @@ void Shifting::shift(const View<reads, writes>& p, const Step& step) const {
   const double* spread = p.get<Field::spread>();
   const auto* id = p.get<Field::id>();
   double pull = 0;
-  for (double g : constants_->scene->gravity) pull += g * g;
-  const double rest = at_rest * at_rest * constants_->scene->smoothing_length * std::sqrt(pull);
+  for (double g : constants_->scene->domain.gravity) pull += g * g;
+  const double rest = at_rest * at_rest * constants_->scene->kernel.smoothing_length * std::sqrt(pull);
   for_movers(step.ranges, [&](std::size_t i) {
     const double reach = speed_of(p, i, step.global, rest) * step.global.dt;
     if (!(reach > 0)) return;
-    const double scale = -2 * constants_->scene->smoothing_length * reach;
-    const double share = constants_->scene->open ? body_forces_->disordered_share(p, i) : 1.0;
+    const double scale = -2 * constants_->scene->kernel.smoothing_length * reach;
+    const double share = constants_->scene->open() ? body_forces_->disordered_share(p, i) : 1.0;
     Double3 way{};
     double length2 = 0;
     for (std::size_t a = 0; a < d; ++a) {

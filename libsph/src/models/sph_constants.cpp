@@ -50,8 +50,8 @@ KernelNumbers numbers(int dim, double q) {
 }
 
 KernelNumbers numbers(const Scene& scene) {
-  const double q = scene.spacing / scene.smoothing_length;
-  switch (scene.kernel) {
+  const double q = scene.start.spacing / scene.kernel.smoothing_length;
+  switch (scene.kernel.shape) {
     case KernelShape::wendland_c2:
       return numbers<WendlandC2>(scene.dim, q);
     case KernelShape::wendland_c4:
@@ -65,7 +65,8 @@ KernelNumbers numbers(const Scene& scene) {
 /// Of the interface with tension; fragments stay on the side of what they broke from.
 double side_of(const Scene& scene, int group) {
   const auto on = [&](int of) {
-    return group == of || (of >= 0 && group == scene.groups[static_cast<std::size_t>(of)].fragments_to);
+    return group == of ||
+           (of >= 0 && group == scene.groups[static_cast<std::size_t>(of)].bubbly.fragments_to);
   };
   const std::array<int, 2>& between = scene.terms.surface_tension.between;
   return on(between[0]) ? 1 : on(between[1]) ? -1 : 0;
@@ -102,31 +103,32 @@ GroupTable group_table(const Scene& of) {
     groups.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
     groups.shears.push_back(g.kind == GroupKind::fluid ? 0.0 : 1.0);
     groups.density.push_back(g.density);
-    const std::size_t body = g.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.clamps);
+    const std::size_t body = g.wall.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.wall.clamps);
     groups.body.push_back(static_cast<double>(body));
-    groups.modulus.push_back(of.groups[body].bulk_modulus + 4.0 / 3.0 * of.groups[body].shear_modulus);
-    if (g.kind != GroupKind::grain) g.eos->check(g);
+    groups.modulus.push_back(of.groups[body].eos.bulk_modulus +
+                             4.0 / 3.0 * of.groups[body].solid.shear_modulus);
+    if (g.kind != GroupKind::grain) g.eos.law->check(g);
   }
   groups.surface_tension = of.terms.surface_tension.coefficient;
   return groups;
 }
 
 RowScale scale_of_rows(const Scene& of, const PositionScale& scale) {
-  const double h = of.smoothing_length;
+  const double h = of.kernel.smoothing_length;
   RowScale rows{};
   rows.position_shift = row_position_shift(of, scale);
   const double unit =
-      of.precision == Precision::mixed ? std::ldexp(scale.quantum, rows.position_shift) : scale.quantum;
+      of.terms.precision == Precision::mixed ? std::ldexp(scale.quantum, rows.position_shift) : scale.quantum;
   rows.position_unit = unit / h;
-  rows.inverse_volume = 1 / power(of.spacing, of.dim);
+  rows.inverse_volume = 1 / power(of.start.spacing, of.dim);
   rows.inverse_h = 1 / h;
   rows.quantum = scale.quantum;
-  rows.pull = of.central_pull;
+  rows.pull = of.domain.central_pull;
   for (std::size_t a = 0; a < 3; ++a) {
-    rows.pull_centre[a] = of.pull_centre[a];
-    rows.gravity[a] = of.gravity[a];
+    rows.pull_centre[a] = of.domain.pull_centre[a];
+    rows.gravity[a] = of.domain.gravity[a];
     // Along a periodic axis a body force drives a flow: no hydrostatic pressure balances it.
-    rows.head[a] = of.periodic[a] ? 0.0 : h;
+    rows.head[a] = of.domain.periodic[a] ? 0.0 : h;
   }
   return rows;
 }
@@ -137,8 +139,8 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
     : scene(&of), scale(position_scale), wrap(wrap_of(of, position_scale)) {
   if (of.of_grains()) return;
   const KernelNumbers kernel = numbers(of);
-  const double h = of.smoothing_length;
-  const double volume = power(of.spacing, of.dim);
+  const double h = of.kernel.smoothing_length;
+  const double volume = power(of.start.spacing, of.dim);
   const double slope = kernel.normalisation / power(h, of.dim + 1);
   gradient_factor = volume * slope;
   force_factor = volume * volume * slope;
@@ -150,35 +152,36 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   groups = group_table(of);
   const auto fluid = std::ranges::find_if(of.groups, is_matter);
   terms = {};
-  for (std::size_t a = 0; a < 3; ++a) terms.gravity[a] = of.periodic[a] ? 0.0 : of.gravity[a] * h;
+  for (std::size_t a = 0; a < 3; ++a)
+    terms.gravity[a] = of.domain.periodic[a] ? 0.0 : of.domain.gravity[a] * h;
   terms.viscous.laplacian = 1 / kernel.second;
   terms.viscous.symmetric = (of.dim + 2) / kernel.fourth;
   terms.viscous.uniform = fluid->viscosity / h * terms.viscous.laplacian;
   terms.density = fluid->density;
-  terms.inverse_sound_speed = 1 / std::sqrt(fluid->bulk_modulus / fluid->density);
+  terms.inverse_sound_speed = 1 / std::sqrt(fluid->eos.bulk_modulus / fluid->density);
   terms.artificial_viscosity = of.terms.artificial_viscosity;
-  terms.shock.quadratic_viscosity = of.terms.quadratic_viscosity;
-  terms.shock.conduction = of.terms.conduction;
+  terms.shock.quadratic_viscosity = of.terms.gas.quadratic_viscosity;
+  terms.shock.conduction = of.terms.gas.conduction;
   terms.inverse_w_spacing = 1 / kernel.w_spacing;
   terms.bonds.range = of.list_range() / h;
-  terms.bonds.hourglass = of.terms.hourglass;
-  terms.contact.range = of.spacing / h;
+  terms.bonds.hourglass = of.terms.bonds.hourglass;
+  terms.contact.range = of.start.spacing / h;
   // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor later.
-  const double contact = contact_stiffness * power(of.spacing, of.dim) / (h * h);
+  const double contact = contact_stiffness * power(of.start.spacing, of.dim) / (h * h);
   terms.contact.force = contact * h / force_factor;
   terms.contact.energy = 0.25 * contact * h * h;
   if (const InterfaceTension& t = of.terms.surface_tension;
       t.coefficient > 0 && t.form == TensionForm::jump) {
     terms.jump.damping = interface_damping;
     // At a free surface nothing would hold against it.
-    if (!of.free_surface) terms.jump.background_pressure = 2 * background * t.coefficient / h;
+    if (!of.start.has_surface) terms.jump.background_pressure = 2 * background * t.coefficient / h;
   }
 }
 
 PassContext SphConstants::context(Particles& particles, const NeighbourLists& lists,
                                   decomp::LargeVector<std::byte>& rows, double dt) const {
   TermConstants<double> now = terms;
-  now.half_step = 0.5 * dt / scene->smoothing_length;
+  now.half_step = 0.5 * dt / scene->kernel.smoothing_length;
   return {&particles,      &lists,       &groups,          row_scale, now,
           gradient_factor, force_factor, diffusion_factor, &rows};
 }

@@ -7,7 +7,7 @@
 namespace sph {
 
 SphPairs::SphPairs(std::size_t set, Physics& physics)
-    : SetPair(set), physics_(&physics), lists_(lanes_of(physics.constants().scene->precision)) {
+    : SetPair(set), physics_(&physics), lists_(lanes_of(physics.constants().scene->terms.precision)) {
   for (const Group& g : physics.constants().scene->groups) is_wall_.push_back(g.kind == GroupKind::wall);
 }
 

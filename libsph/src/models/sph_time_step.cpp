@@ -17,7 +17,7 @@ SphTimeStep::SphTimeStep(const SphConstants& constants)
 double SphTimeStep::longest(const StepMaxima& maxima) const {
   const Scene& scene = *constants_->scene;
   if (scene.time.dt) return *scene.time.dt;
-  const double h = scene.smoothing_length;
+  const double h = scene.kernel.smoothing_length;
   double fastest = maxima.sound, viscous = maxima.viscosity, bulk = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     // Of a gas that of now counts.
@@ -27,8 +27,9 @@ double SphTimeStep::longest(const StepMaxima& maxima) const {
     bulk = std::max(bulk, scene.groups[g].bulk_viscosity / scene.groups[g].density);
   }
   const bool bonds = scene.total_lagrangian();
-  if (bonds || scene.terms.viscosity == ViscosityForm::symmetric) viscous *= 3;  // nu (lap v + 2 grad div v)
-  if (scene.terms.implicit_viscosity) viscous = 0;
+  if (bonds || scene.terms.viscous.form == ViscosityForm::symmetric)
+    viscous *= 3;  // nu (lap v + 2 grad div v)
+  if (scene.terms.viscous.implicit) viscous = 0;
   viscous += bulk;
   if (!gas_) fastest += maxima.speed;  // of a gas it is in `sound`
   double dt = scene.time.cfl * h / fastest;
@@ -50,13 +51,13 @@ double SphTimeStep::resting(const std::vector<double>& sounds) const {
 }
 
 double SphTimeStep::courant_number(double dt, const std::vector<double>& sounds) const {
-  return std::ranges::max(sounds) * dt / constants_->scene->smoothing_length;
+  return std::ranges::max(sounds) * dt / constants_->scene->kernel.smoothing_length;
 }
 
 void SphTimeStep::guard(double sound, const GlobalState& global) const {
   const Scene& scene = *constants_->scene;
   if (!scene.time.dt) return;
-  const double limit = courant_limit(scene), courant = sound * *scene.time.dt / scene.smoothing_length;
+  const double limit = courant_limit(scene), courant = sound * *scene.time.dt / scene.kernel.smoothing_length;
   if (!(courant > limit)) return;
   if (gas_)
     throw GuardError(

@@ -15,7 +15,7 @@ struct FindCurvature {
   void operator()(const View<reads, writes>& p, const Step& step) const {
     const double* sums = p.get<Field::curvature_sums>();
     double* curvature = p.get<Field::curvature>();
-    const double scale = (p.dim() - 1) / scene->smoothing_length;
+    const double scale = (p.dim() - 1) / scene->kernel.smoothing_length;
     for_movers(step.ranges, [&](std::size_t i) {
       const double* s = sums + 2 * i;
       curvature[i] = s[1] > 0 ? scale * (s[0] / s[1]) : 0.0;

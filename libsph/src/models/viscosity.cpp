@@ -43,7 +43,7 @@ class ViscositySolver final : public Solver {
   static constexpr FieldSet writes{Field::direction, Field::force};
 
   ViscositySolver(const Scene& scene, const BodyForces& body_forces)
-      : scene_(&scene), body_forces_(&body_forces), tolerance_(scene.terms.viscosity_tolerance) {}
+      : scene_(&scene), body_forces_(&body_forces), tolerance_(scene.terms.viscous.tolerance) {}
 
   /// The first direction is the velocity itself, of walls that of their material.
   void begin(const View<reads, writes>& particles, const Step& step);
@@ -74,7 +74,7 @@ void ViscositySolver::begin(const View<reads, writes>& p, const Step& step) {
   const auto* group = p.get<Field::group>();
   for_movers(step.ranges, [&](std::size_t i) { std::copy_n(v + i * d, d, direction + i * d); });
   for_walls(step.ranges, [&](std::size_t i) {
-    std::copy_n(scene_->groups[group[i]].wall_velocity.begin(), d, direction + i * d);
+    std::copy_n(scene_->groups[group[i]].wall.velocity.begin(), d, direction + i * d);
   });
   iteration_ = 0;
 }
@@ -201,7 +201,7 @@ struct WallSlopes {
   void operator()(const View<reads, writes>& p, const Step& step) const {
     constexpr double nearest = 0.25, flat = 0.5, little = 0.01;
     const auto d = static_cast<std::size_t>(p.dim());
-    const double h = scene->smoothing_length;
+    const double h = scene->kernel.smoothing_length;
     const double* share = p.get<Field::wall_share>();
     double* slope = p.get<Field::wall_slope>();
     for_movers(step.ranges, [&](std::size_t i) {
@@ -211,7 +211,8 @@ struct WallSlopes {
       const double length = std::sqrt(square), away = (*distance)(h * s[d]);
       const bool normal =
           length > 0 && (h * s[d] < little || h * length >= flat * distance->gradient(h * s[d]));
-      const double factor = normal ? -1 / (std::fmax(away, nearest * scene->spacing / h) * length) : 0.0;
+      const double factor =
+          normal ? -1 / (std::fmax(away, nearest * scene->start.spacing / h) * length) : 0.0;
       for (std::size_t a = 0; a < d; ++a) slope[i * d + a] = factor * s[a];
     });
   }
@@ -223,13 +224,14 @@ void add_implicit_viscosity(Builder& b, bool walls) {
   const Scene& s = b.scene();
   if (walls) {
     b.add_fields({Field::wall_slope});
-    b.add_update("wall slopes", WallSlopes{&s, std::make_shared<const WallDistance>(
-                                                   s.kernel, s.dim, s.spacing / s.smoothing_length)});
+    b.add_update("wall slopes",
+                 WallSlopes{&s, std::make_shared<const WallDistance>(
+                                    s.kernel.shape, s.dim, s.start.spacing / s.kernel.smoothing_length)});
   }
   b.add_fields({Field::direction});
   const auto solver = std::make_shared<ViscositySolver>(s, b.body_forces());
   b.add_update("first direction", FirstDirection{solver});
-  const bool symmetric = s.terms.viscosity == ViscosityForm::symmetric;
+  const bool symmetric = s.terms.viscous.form == ViscosityForm::symmetric;
   const Term drag = symmetric ? term<SymmetricViscousOperator> : term<ViscousOperator>;
   b.add_loop({{b.sums_over_pairs("viscosity", {drag})}, solver, ViscositySolver::writes});
 }

@@ -48,9 +48,9 @@ std::vector<View> views(int dim, double spacing) {
 }  // namespace
 
 WallMirror::WallMirror(const Scene& scene) {
-  const double spacing = scene.spacing / scene.smoothing_length;
-  const std::vector<View> at = scene.kernel == KernelShape::quintic ? views<Quintic>(scene.dim, spacing)
-                               : scene.kernel == KernelShape::wendland_c2
+  const double spacing = scene.start.spacing / scene.kernel.smoothing_length;
+  const std::vector<View> at = scene.kernel.shape == KernelShape::quintic ? views<Quintic>(scene.dim, spacing)
+                               : scene.kernel.shape == KernelShape::wendland_c2
                                    ? views<WendlandC2>(scene.dim, spacing)
                                    : views<WendlandC4>(scene.dim, spacing);
   first_ = at.front().distance();

@@ -51,8 +51,8 @@ struct WallPressures {
         // small, because the continuity sum sees the wall at rest, and changes the normal viscous stress
         // alone, which the pressure balances.
         for (std::size_t a = 0; a < d; ++a) {
-          const double mean = wet ? s[2 + a] / s[0] : g.wall_velocity[a];
-          v[i * d + a] = g.slip ? mean : g.wall_velocity[a] - mirror[i] * (mean - g.wall_velocity[a]);
+          const double mean = wet ? s[2 + a] / s[0] : g.wall.velocity[a];
+          v[i * d + a] = g.wall.slip ? mean : g.wall.velocity[a] - mirror[i] * (mean - g.wall.velocity[a]);
         }
       }
     }
@@ -81,7 +81,7 @@ struct Hold {
     const Scene& scene = *constants->scene;
     const double dt = step.global.dt;
     const auto d = static_cast<std::size_t>(p.dim());
-    const double h = scene.smoothing_length, before = 0.4 * scene.spacing / h;
+    const double h = scene.kernel.smoothing_length, before = 0.4 * scene.start.spacing / h;
     const double* share = p.template get<Field::wall_share>();
     const double* mass = p.template get<Field::mass>();
     const auto* v = p.template get<Field::velocity>();
@@ -119,7 +119,8 @@ struct Hold {
 void add_walls(Builder& b, bool weighted) {
   const Scene& s = b.scene();
   WallPressures update{&s, nullptr};
-  if (std::ranges::any_of(s.groups, [](const Group& g) { return g.kind == GroupKind::wall && !g.slip; })) {
+  if (std::ranges::any_of(s.groups,
+                          [](const Group& g) { return g.kind == GroupKind::wall && !g.wall.slip; })) {
     update.of_wall = std::make_shared<const WallMirror>(s);
     b.add_fields({Field::wall_mirror});
   }
@@ -136,7 +137,8 @@ void add_wall_share(Builder& b) { b.add_sums("wall distance", {term<WallShare>})
 
 void add_walls_that_hold(Builder& b) {
   const Scene& s = b.scene();
-  const auto distance = std::make_shared<const WallDistance>(s.kernel, s.dim, s.spacing / s.smoothing_length);
+  const auto distance = std::make_shared<const WallDistance>(s.kernel.shape, s.dim,
+                                                             s.start.spacing / s.kernel.smoothing_length);
   if (has_drag(s))
     b.add_update("walls hold", Hold<true>{&b.constants(), &b.body_forces(), distance});
   else

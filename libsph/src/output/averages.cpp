@@ -9,7 +9,7 @@ namespace {
 
 /// Kernel without its normalisation, which cancels.
 double weight(const Scene& scene, double q) {
-  switch (scene.kernel) {
+  switch (scene.kernel.shape) {
     case KernelShape::wendland_c2:
       return scene.dim == 2 ? WendlandC2::value<2>(q) : WendlandC2::value<3>(q);
     case KernelShape::wendland_c4:
@@ -26,7 +26,7 @@ class Smoother {
       : scene_(s.scene()),
         particles_(s.particles(s.physics()->set())),
         d_(static_cast<std::size_t>(s.scene().dim)),
-        quanta_per_h_(s.scene().smoothing_length / s.scale().quantum) {}
+        quanta_per_h_(s.scene().kernel.smoothing_length / s.scale().quantum) {}
 
   /// Adds particle j's share in the average of particle i. Partners outside the support, which a list may
   /// hold or not, share nothing.

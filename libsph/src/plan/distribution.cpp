@@ -37,7 +37,7 @@ decomp::CellGrid cell_grid_of(const Scene& scene, const PositionScale& scale) {
   std::int64_t edge = reach_of(scene, scale);
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
     edge = std::max(edge, (length[a] - 1) / most_cells + 1);
-  return {scene.dim, scale.origin, length, scene.periodic, edge};
+  return {scene.dim, scale.origin, length, scene.domain.periodic, edge};
 }
 
 Distribution::Distribution(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale)

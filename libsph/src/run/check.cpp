@@ -165,18 +165,19 @@ std::string memory_text(const Scene& scene, const Parts& parts, const MemoryNeed
 
 std::string gas_text(const Scene& scene) {
   if (!has_eos(scene, EosKind::ideal_gas)) return {};
-  if (scene.least_growth == 1 && scene.largest_growth == 1)
+  if (scene.kernel.least_growth == 1 && scene.kernel.largest_growth == 1)
     return "gas: one smoothing length: particles that a blast parts by more than its kernel keep their heat, "
            "and\n"
            "  strong ones lose motion (kernel.least_growth and kernel.largest_growth let kernels follow the "
            "gas)\n";
   double thinner = 1;
-  for (int a = 0; a < scene.dim; ++a) thinner /= scene.largest_growth;
+  for (int a = 0; a < scene.dim; ++a) thinner /= scene.kernel.largest_growth;
   return fmt::format(
       "gas: kernels from {:.3g} to {:.3g} m wide as the gas is dense or thin; thinner than {:.2g} of its "
       "density\n"
       "  at the start it keeps its heat (kernel.largest_growth)\n",
-      scene.least_growth * scene.smoothing_length, scene.largest_growth * scene.smoothing_length, thinner);
+      scene.kernel.least_growth * scene.kernel.smoothing_length,
+      scene.kernel.largest_growth * scene.kernel.smoothing_length, thinner);
 }
 
 /// By the number of Ohnesorge of what a kernel sees: 0.37 and 1.3 in Hysing's bubbles, where the stress is
@@ -188,8 +189,8 @@ std::string tension_text(const Scene& scene) {
   double most = 0;
   for (const Group& g : scene.groups)
     if (g.kind == GroupKind::fluid)
-      most =
-          std::max(most, g.viscosity / std::sqrt(g.density * tension.coefficient * scene.smoothing_length));
+      most = std::max(
+          most, g.viscosity / std::sqrt(g.density * tension.coefficient * scene.kernel.smoothing_length));
   if (most >= thick) return {};
   return fmt::format(
       "warning: tension as a stress moves the interface of fluids as thin as these (viscosity /\n"
@@ -228,12 +229,12 @@ std::string drag_text(const Scene& scene, const Parts& parts) {
   double largest = scene.largest_diameter(), least = largest;
   for (const Group& g : scene.groups)
     if (g.grain.least_radius > 0) least = std::min(least, 2 * g.grain.least_radius);
-  const double h = scene.smoothing_length;
+  const double h = scene.kernel.smoothing_length;
   std::string out = fmt::format(
       "drag: {}, h is {:.3g} to {:.3g} diameters; in a packed bed it allows time steps up to {:.3g} s, like "
       "the "
       "first of a run\n",
-      scene.drag.law->word, h / largest, h / least, parts.drag->bed_step());
+      scene.grains.drag.law->word, h / largest, h / least, parts.drag->bed_step());
   if (h < 1.5 * largest)
     out +=
         "warning: grains as large as the kernel are seen one by one: h of two diameters or more averages "

@@ -37,7 +37,7 @@ std::int64_t pairs_within_support(const Simulation& s) {
   const std::int64_t* x = particles.data<Field::position>();
   const double* h = particles.data<Field::smoothing_length>();
   const auto radius = [&](std::size_t i, std::size_t j) {
-    return h == nullptr ? support : support * std::max(h[i], h[j]) / s.scene().smoothing_length;
+    return h == nullptr ? support : support * std::max(h[i], h[j]) / s.scene().kernel.smoothing_length;
   };
   std::int64_t pairs = 0;
   for (const RowRange& range : s.sets()[s.physics()->set()].ranges)

@@ -35,7 +35,7 @@ constexpr double bytes_of_occupied = 24;  ///< of a row instead, where cells are
 
 /// Points of a lattice within a radius of one of them, itself not counted.
 double neighbours_within(const Scene& scene, double radius) {
-  const double r = radius / scene.spacing;
+  const double r = radius / scene.start.spacing;
   return (scene.dim == 2 ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r) - 1;
 }
 

@@ -55,7 +55,6 @@ void write_perf_json(const std::filesystem::path& path, const Performance& p) {
       {"bytes_per_particle", p.bytes.per_particle},
       {"bytes_per_halo_particle", p.bytes.per_halo_particle},
       {"rebuilds", p.events.rebuilds},
-      {"late_rebuilds", p.events.late_rebuilds},
       {"migrated", p.events.migrated},
       {"refreshes", p.events.refreshes},
       {"solver_iterations", p.events.iterations},

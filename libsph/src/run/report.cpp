@@ -80,8 +80,8 @@ std::string final_table(const Performance& p) {
   if (p.events.iterations > 0)
     fmt::format_to(to, "viscosity: {:.1f} iterations a step\n",
                    static_cast<double>(p.events.iterations) / static_cast<double>(p.loop.steps));
-  fmt::format_to(to, "list rebuilds {} ({} late)  migrated {}  halo refreshes {}\n", p.events.rebuilds,
-                 p.events.late_rebuilds, p.events.migrated, p.events.refreshes);
+  fmt::format_to(to, "list rebuilds {}  migrated {}  halo refreshes {}\n", p.events.rebuilds,
+                 p.events.migrated, p.events.refreshes);
   if (p.balance.calls > 0)
     fmt::format_to(
         to, "balance asked {} times, cuts moved {} times, {:.3f} s of deciding, {:.3f} of migrating; {}\n",

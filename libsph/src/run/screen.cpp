@@ -36,11 +36,12 @@ const char* name_of(Formulation f) { return f == Formulation::ida ? "ida" : "con
 const char* name_of(Precision p) { return p == Precision::mixed ? "mixed" : "double"; }
 
 std::string method_of(const Scene& scene) {
-  if (scene.of_grains()) return fmt::format("grains, {} contacts", scene.contact.law->name);
-  const std::string pairs = fmt::format("{}, {} pairs", name_of(scene.formulation), name_of(scene.precision));
+  if (scene.of_grains()) return fmt::format("grains, {} contacts", scene.grains.contact.law->name);
+  const std::string pairs =
+      fmt::format("{}, {} pairs", name_of(scene.terms.formulation), name_of(scene.terms.precision));
   if (!scene.is_mixture()) return pairs;
-  return fmt::format("{}; grains, {} contacts, {} drag", pairs, scene.contact.law->name,
-                     scene.drag.law->word);
+  return fmt::format("{}; grains, {} contacts, {} drag", pairs, scene.grains.contact.law->name,
+                     scene.grains.drag.law->word);
 }
 
 void print(const decomp::Comm& comm, const std::string& text) {
@@ -119,8 +120,8 @@ void Screen::final_report(const std::filesystem::path& dir) {
   p.loop.steps = simulation_.global().step - first_.step;
   p.label.formulation = simulation_.scene().of_grains()    ? "grains"
                         : simulation_.scene().is_mixture() ? "grains in a fluid"
-                                                           : name_of(simulation_.scene().formulation);
-  p.label.precision = name_of(simulation_.scene().precision);
+                                                           : name_of(simulation_.scene().terms.formulation);
+  p.label.precision = name_of(simulation_.scene().terms.precision);
   const Work work = work_of(simulation_.comm(), simulation_.timers().cost());
   p.loop.cost_seconds = work.sum;
   p.loop.imbalance = work.imbalance;

@@ -24,11 +24,11 @@ Speed fastest_at_start(const Scene& scene, double file_speed) {
     if (value > fastest.value) fastest = {key, value};
   };
   if (!scene.start.file.empty()) consider("start.file", file_speed);
-  if (scene.start.velocity == InitialVelocity::uniform)
-    consider("start.velocity", length(scene.start.uniform_velocity));
-  if (scene.start.velocity == InitialVelocity::taylor_green)
-    consider("start.flow_speed", scene.start.flow_speed);
-  for (const Group& g : scene.groups) consider("group." + g.name + ".velocity", length(g.wall_velocity));
+  if (scene.start.velocity.kind == InitialVelocity::uniform)
+    consider("start.velocity", length(scene.start.velocity.uniform));
+  if (scene.start.velocity.kind == InitialVelocity::taylor_green)
+    consider("start.flow_speed", scene.start.velocity.flow_speed);
+  for (const Group& g : scene.groups) consider("group." + g.name + ".velocity", length(g.wall.velocity));
   return fastest;
 }
 
@@ -44,9 +44,9 @@ double fluid_height(const Scene& scene, const std::vector<Height>& heights) {
 }
 
 double fall_of(const Scene& scene, double height) {
-  Double3 g = scene.gravity;
+  Double3 g = scene.domain.gravity;
   for (std::size_t a = 0; a < 3; ++a)
-    if (scene.periodic[a]) g[a] = 0;
+    if (scene.domain.periodic[a]) g[a] = 0;
   return std::sqrt(length(g) * height);
 }
 
@@ -68,7 +68,7 @@ std::string speed_warnings(const Scene& scene, const std::vector<Height>& height
   const double least = stiff_enough * std::max(start.value, fall);
   for (const Group& g : scene.groups) {
     const double c = sound_at_rest(g);
-    if (g.kind != GroupKind::fluid || g.eos->kind != EosKind::barotropic || c >= least * (1 - rounding))
+    if (g.kind != GroupKind::fluid || g.eos.law->kind != EosKind::barotropic || c >= least * (1 - rounding))
       continue;
     out += fmt::format(
         "warning: group.{}: its sound speed of {:.4g} m/s is below {} times {}: set it to {:.4g} m/s or "

@@ -8,14 +8,14 @@ namespace sph {
 PositionScale position_scale(const Scene& scene) {
   double extent = 0;
   for (int a = 0; a < scene.dim; ++a)
-    extent = std::max({extent, std::abs(scene.lower[static_cast<std::size_t>(a)]),
-                       std::abs(scene.upper[static_cast<std::size_t>(a)])});
+    extent = std::max({extent, std::abs(scene.domain.lower[static_cast<std::size_t>(a)]),
+                       std::abs(scene.domain.upper[static_cast<std::size_t>(a)])});
   PositionScale scale;
   // The next power of two above both bounds. A bond of a body that turns upside down is displaced by its
   // length then and now.
   const double longest = scene.total_lagrangian() ? scene.support() + scene.list_range() : scene.list_range();
   scale.quantum = std::ldexp(1.0, std::max(std::ilogb(extent) + 1 - 60, std::ilogb(longest) + 1 - 50));
-  for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.lower[a]);
+  for (std::size_t a = 0; a < 3; ++a) scale.origin[a] = scale.quanta(scene.domain.lower[a]);
   return scale;
 }
 
@@ -29,10 +29,10 @@ std::array<std::int64_t, 3> domain_length(const Scene& scene, const PositionScal
   std::array<std::int64_t, 3> length{};
   // Whole units of the rows along a period, or a pair in single precision would depend on whose image was
   // taken.
-  const int bits = scene.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
+  const int bits = scene.terms.precision == Precision::mixed ? row_position_shift(scene, scale) : 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    length[a] = scale.quanta(scene.upper[a]) - scale.origin[a];
-    if (scene.periodic[a]) length[a] = (length[a] >> bits) << bits;
+    length[a] = scale.quanta(scene.domain.upper[a]) - scale.origin[a];
+    if (scene.domain.periodic[a]) length[a] = (length[a] >> bits) << bits;
   }
   return length;
 }
@@ -41,7 +41,7 @@ Wrap wrap_of(const Scene& scene, const PositionScale& scale) {
   Wrap wrap{scale.origin, {}};
   const std::array<std::int64_t, 3> length = domain_length(scene, scale);
   for (std::size_t a = 0; a < 3; ++a)
-    if (scene.periodic[a]) wrap.period[a] = length[a];
+    if (scene.domain.periodic[a]) wrap.period[a] = length[a];
   return wrap;
 }
 

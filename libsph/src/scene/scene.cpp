@@ -15,18 +15,18 @@ double Scene::largest_diameter() const {
 
 double Scene::kernel_radius() const {
   if (!has_matter()) return 0;
-  return kernel == KernelShape::quintic ? 3 * smoothing_length : 2 * smoothing_length;
+  return (kernel.shape == KernelShape::quintic ? 3 : 2) * kernel.smoothing_length;
 }
 
 double Scene::support() const { return std::max(kernel_radius(), largest_diameter()); }
 
 double Scene::list_range() const {
-  return support() * (total_lagrangian() ? terms.largest_stretch : largest_growth);
+  return support() * (total_lagrangian() ? terms.bonds.largest_stretch : kernel.largest_growth);
 }
 
 bool Scene::total_lagrangian() const {
   for (const Group& g : groups)
-    if (g.lagrangian == Lagrangian::total) return true;
+    if (g.solid.lagrangian == Lagrangian::total) return true;
   return false;
 }
 

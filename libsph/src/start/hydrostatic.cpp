@@ -8,12 +8,15 @@
 namespace sph {
 
 HydrostaticColumn::HydrostaticColumn(const Scene& scene)
-    : pull_(scene.gravity), surface_pressure_(scene.surface_pressure), step_(scene.spacing) {
+    : pull_(scene.domain.gravity),
+      surface_pressure_(scene.domain.surface_pressure),
+      step_(scene.start.spacing) {
   double square = 0;
   for (const double g : pull_) square += g * g;
   gravity_ = std::sqrt(square);
   Double3 corner{};
-  for (std::size_t a = 0; a < 3; ++a) corner[a] = pull_[a] > 0 ? scene.upper[a] : scene.lower[a];
+  for (std::size_t a = 0; a < 3; ++a)
+    corner[a] = pull_[a] > 0 ? scene.domain.upper[a] : scene.domain.lower[a];
   const double lowest = height(corner);
   const std::vector<Layer>& layers = scene.start.layers;
   double pressure = 0;
@@ -21,9 +24,9 @@ HydrostaticColumn::HydrostaticColumn(const Scene& scene)
     const Group& fluid = scene.groups[static_cast<std::size_t>(layers[k].group)];
     const double bottom = k + 1 < layers.size() ? layers[k + 1].top : lowest;
     Part part{&fluid, layers[k].top, pressure};
-    if (fluid.eos->pressure_below == nullptr) {
+    if (fluid.eos.law->pressure_below == nullptr) {
       part.below.push_back(pressure + surface_pressure_);
-      if (fluid.eos->needs_pressure && !(part.below.back() > 0))
+      if (fluid.eos.law->needs_pressure && !(part.below.back() > 0))
         throw InputError(scene.file + ": start.pressure: the layer \"" + fluid.name +
                          "\" begins without pressure, where it is all gas; give domain.surface_pressure");
       const auto nodes = static_cast<std::size_t>(std::max(0.0, (layers[k].top - bottom) / step_));
@@ -50,14 +53,14 @@ double HydrostaticColumn::operator()(const Double3& x) const {
 
 double HydrostaticColumn::at_depth(const Part& part, double depth) const {
   const Group& fluid = *part.fluid;
-  if (fluid.eos->pressure_below == nullptr) {
+  if (fluid.eos.law->pressure_below == nullptr) {
     const double nodes = static_cast<double>(part.below.size() - 1);
     const double node = std::clamp(std::floor(depth / step_), 0.0, nodes);
     double p = part.below[static_cast<std::size_t>(node)], rest = depth - node * step_;
     for (; rest > step_; rest -= step_) p = descend(*part.fluid, p, step_);  // below the domain
     return descend(*part.fluid, p, rest) - surface_pressure_;
   }
-  return fluid.eos->pressure_below(fluid, {part.pressure, surface_pressure_, gravity_, depth});
+  return fluid.eos.law->pressure_below(fluid, {part.pressure, surface_pressure_, gravity_, depth});
 }
 
 // Eight steps of the classical Runge-Kutta method for a way of one spacing or less: 1e-10 of the pressure,
@@ -65,7 +68,7 @@ double HydrostaticColumn::at_depth(const Part& part, double depth) const {
 double HydrostaticColumn::descend(const Group& fluid, double p, double way) const {
   constexpr int steps = 8;
   const double dd = way / steps;
-  const auto slope = [&](double pressure) { return fluid.eos->density(fluid, pressure) * gravity_; };
+  const auto slope = [&](double pressure) { return fluid.eos.law->density(fluid, pressure) * gravity_; };
   for (int k = 0; k < steps; ++k) {
     const double k1 = slope(p), k2 = slope(p + 0.5 * dd * k1), k3 = slope(p + 0.5 * dd * k2),
                  k4 = slope(p + dd * k3);

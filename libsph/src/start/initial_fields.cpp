@@ -23,9 +23,10 @@ const Group& first_fluid(const Scene& scene) {
 }  // namespace
 
 void displace_by_jitter(const Scene& scene, NewParticle& p) {
-  if (scene.start.jitter == 0) return;
+  if (scene.start.lattice.jitter == 0) return;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    p.position[a] += scene.start.jitter * scene.spacing * uniform_minus_one_to_one(scene.start.seed, p.id, a);
+    p.position[a] += scene.start.lattice.jitter * scene.start.spacing *
+                     uniform_minus_one_to_one(scene.start.seed, p.id, a);
 }
 
 double random_radius(const Scene& scene, const NewParticle& p) {
@@ -41,7 +42,8 @@ InitialFields::InitialFields(const Scene& scene) : scene_(scene) {
 double InitialFields::pressure(const Double3& x) const {
   if (hydrostatic_) return (*hydrostatic_)(x);
   if (scene_.start.pressure == InitialPressure::zero) return 0;
-  const double k = 4 * std::numbers::pi / scene_.start.flow_length, u = scene_.start.flow_speed;
+  const double k = 4 * std::numbers::pi / scene_.start.velocity.flow_length,
+               u = scene_.start.velocity.flow_speed;
   return -0.25 * first_fluid(scene_).density * u * u * (exact_cos(k * x[0]) + exact_cos(k * x[1]));
 }
 
@@ -51,29 +53,30 @@ void InitialFields::set(NewParticle& p) const {
   if (g.kind == GroupKind::grain) {
     p.mass = grain_mass(g.density, p.radius);
     if (g.grain.fixed)
-      p.velocity = g.wall_velocity;
-    else if (scene.start.velocity == InitialVelocity::uniform)
-      p.velocity = scene.start.uniform_velocity;
+      p.velocity = g.wall.velocity;
+    else if (scene.start.velocity.kind == InitialVelocity::uniform)
+      p.velocity = scene.start.velocity.uniform;
     return;
   }
   const Double3& x = p.position;
   double volume = 1;
-  for (int a = 0; a < scene.dim; ++a) volume *= scene.spacing;
+  for (int a = 0; a < scene.dim; ++a) volume *= scene.start.spacing;
 
-  if (g.kind == GroupKind::wall && scene.formulation == Formulation::conservative) {
+  if (g.kind == GroupKind::wall && scene.terms.formulation == Formulation::conservative) {
     p.density = g.density;
-    p.velocity = g.wall_velocity;
+    p.velocity = g.wall.velocity;
   } else {
-    const EosStart start = g.eos->start(g, pressure(x), scene.surface_pressure);
+    const EosStart start = g.eos.law->start(g, pressure(x), scene.domain.surface_pressure);
     p.density = start.density;
     p.energy = start.specific_energy;
     if (g.kind == GroupKind::wall) {
-      p.velocity = g.wall_velocity;
-    } else if (scene.start.velocity == InitialVelocity::uniform) {
-      p.velocity = scene.start.uniform_velocity;
-    } else if (scene.start.velocity == InitialVelocity::taylor_green) {
+      p.velocity = g.wall.velocity;
+    } else if (scene.start.velocity.kind == InitialVelocity::uniform) {
+      p.velocity = scene.start.velocity.uniform;
+    } else if (scene.start.velocity.kind == InitialVelocity::taylor_green) {
       // u = -U cos(kx) sin(ky), v = U sin(kx) cos(ky), k = 2 pi / L: decays as exp(-2 nu k^2 t)
-      const double k = 2 * std::numbers::pi / scene.start.flow_length, u = scene.start.flow_speed;
+      const double k = 2 * std::numbers::pi / scene.start.velocity.flow_length,
+                   u = scene.start.velocity.flow_speed;
       p.velocity = {-u * exact_cos(k * x[0]) * exact_sin(k * x[1]),
                     u * exact_sin(k * x[0]) * exact_cos(k * x[1]), 0};
     }
@@ -92,11 +95,11 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* density = particles.data<Field::density>()) density[i] = p.density;
   particles.data<Field::mass>()[i] = p.mass;
   particles.data<Field::group>()[i] = p.group;
-  if (auto* m = particles.data<Field::gas_content>()) m[i] = scene.groups[p.group].gas_content;
+  if (auto* m = particles.data<Field::gas_content>()) m[i] = scene.groups[p.group].bubbly.gas_content;
   if (auto* u = particles.data<Field::specific_energy>()) {
     u[i] = p.energy;
     if (p.energy > 0) particles.data<Field::density>()[i] = 0;  // not summed yet
-    particles.data<Field::smoothing_length>()[i] = scene.smoothing_length;
+    particles.data<Field::smoothing_length>()[i] = scene.kernel.smoothing_length;
   }
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;

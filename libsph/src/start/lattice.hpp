@@ -12,39 +12,38 @@ namespace sph {
 
 class Lattice {
  public:
-  explicit Lattice(const Scene& scene) : start_(scene.start), dim_(static_cast<std::size_t>(scene.dim)) {
-    step_.fill(scene.spacing);
-    if (start_.lattice == LatticeKind::hexagonal) {
+  explicit Lattice(const Scene& scene)
+      : fill_(scene.start.lattice), dim_(static_cast<std::size_t>(scene.dim)) {
+    step_.fill(scene.start.spacing);
+    if (fill_.kind == LatticeKind::hexagonal) {
       if (scene.dim != 2) throw InputError("start.lattice: \"hexagonal\" exists in 2D only; use \"square\"");
       // a^2 sqrt(3)/2 = spacing^2
-      step_[0] = scene.spacing * std::sqrt(2 / std::sqrt(3.0));
+      step_[0] = scene.start.spacing * std::sqrt(2 / std::sqrt(3.0));
       step_[1] = step_[0] * (0.5 * std::sqrt(3.0));
     }
     for (std::size_t a = 0; a < dim_; ++a) {
       // A margin of one point: whether a point is inside is decided on its coordinate.
-      first_[a] =
-          static_cast<std::int64_t>(std::floor((start_.lower[a] - start_.lattice_origin[a]) / step_[a])) - 1;
+      first_[a] = static_cast<std::int64_t>(std::floor((fill_.lower[a] - fill_.origin[a]) / step_[a])) - 1;
       count_[a] =
-          static_cast<std::int64_t>(std::ceil((start_.upper[a] - start_.lattice_origin[a]) / step_[a])) + 1 -
-          first_[a];
+          static_cast<std::int64_t>(std::ceil((fill_.upper[a] - fill_.origin[a]) / step_[a])) + 1 - first_[a];
     }
   }
   [[nodiscard]] std::int64_t first(std::size_t axis) const { return first_[axis]; }
   [[nodiscard]] std::int64_t count(std::size_t axis) const { return count_[axis]; }
   /// Lattice index just below a coordinate.
   [[nodiscard]] std::int64_t below(std::size_t axis, double x) const {
-    return static_cast<std::int64_t>(std::floor((x - start_.lattice_origin[axis]) / step_[axis])) - 1;
+    return static_cast<std::int64_t>(std::floor((x - fill_.origin[axis]) / step_[axis])) - 1;
   }
   [[nodiscard]] Double3 point(const decomp::Int3& k) const {
     Double3 x{};
     for (std::size_t a = 0; a < dim_; ++a)
-      x[a] = start_.lattice_origin[a] + (static_cast<double>(k[a]) + 0.5) * step_[a];
-    if (start_.lattice == LatticeKind::hexagonal && (k[1] & 1) != 0) x[0] += 0.5 * step_[0];
+      x[a] = fill_.origin[a] + (static_cast<double>(k[a]) + 0.5) * step_[a];
+    if (fill_.kind == LatticeKind::hexagonal && (k[1] & 1) != 0) x[0] += 0.5 * step_[0];
     return x;
   }
   [[nodiscard]] bool inside(const Double3& x) const {
     for (std::size_t a = 0; a < dim_; ++a)
-      if (x[a] < start_.lower[a] || x[a] >= start_.upper[a]) return false;
+      if (x[a] < fill_.lower[a] || x[a] >= fill_.upper[a]) return false;
     return true;
   }
   [[nodiscard]] std::uint64_t id(const decomp::Int3& k) const {
@@ -55,7 +54,7 @@ class Lattice {
   }
 
  private:
-  const Start& start_;
+  const LatticeFill& fill_;
   std::size_t dim_;
   Double3 step_{};
   decomp::Int3 first_{}, count_{1, 1, 1};

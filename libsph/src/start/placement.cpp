@@ -14,7 +14,7 @@ namespace {
 
 /// The last region that contains the point; -1 leaves it empty.
 int painted_group(const Scene& scene, const Double3& x) {
-  for (auto r = scene.start.regions.rbegin(); r != scene.start.regions.rend(); ++r)
+  for (auto r = scene.start.lattice.regions.rbegin(); r != scene.start.lattice.regions.rend(); ++r)
     if (contains(*r, x, static_cast<std::size_t>(scene.dim))) return r->group;
   return -1;
 }
@@ -78,7 +78,7 @@ void place_particles(const Scene& scene, const PositionScale& scale, Distributio
   decomp::Int3 lo{}, hi{1, 1, 1};
   for (std::size_t a = 0; a < d; ++a) {
     const int axis = static_cast<int>(a);
-    const std::int64_t margin = 2 + static_cast<std::int64_t>(std::ceil(scene.start.jitter));
+    const std::int64_t margin = 2 + static_cast<std::int64_t>(std::ceil(scene.start.lattice.jitter));
     const bool first_part = own.lo[a] == 0, last_part = own.hi[a] == grid.cells()[a];
     lo[a] = lattice.first(a);
     hi[a] = lattice.first(a) + lattice.count(a);
@@ -87,7 +87,7 @@ void place_particles(const Scene& scene, const PositionScale& scale, Distributio
     if (!last_part || grid.periodic()[a])
       hi[a] = std::min(hi[a], lattice.below(a, scale.metres(grid.line(axis, own.hi[a]))) + margin + 2);
     // A jittered particle may cross a periodic face.
-    if (grid.periodic()[a] && scene.start.jitter > 0 && (first_part || last_part)) {
+    if (grid.periodic()[a] && scene.start.lattice.jitter > 0 && (first_part || last_part)) {
       lo[a] = lattice.first(a);
       hi[a] = lattice.first(a) + lattice.count(a);
     }

@@ -40,8 +40,8 @@ void check_lengths(const Scene& scene, const StartRows& rows) {
   const Scene settled = parse_scene(Hdf5Reader(file).text("scene"), file, {});
   for (std::size_t a = 0; a < 3; ++a) {
     const auto copies = static_cast<double>(scene.start.tile.repeat[a]);
-    const double wanted = (scene.upper[a] - scene.lower[a]) / copies;
-    const double found = settled.upper[a] - settled.lower[a];
+    const double wanted = (scene.domain.upper[a] - scene.domain.lower[a]) / copies;
+    const double found = settled.domain.upper[a] - settled.domain.lower[a];
     if (copies > 1 && !(std::fabs(found - wanted) <= rounding * wanted))
       throw RowProblem(
           0, fmt::format("its domain is {} m long in {}; {} copies in the scene's domain have {} m", found,

@@ -29,7 +29,7 @@ class Row {
 
   /// The part of the row that lies in the filled extent.
   [[nodiscard]] Interval filled() const {
-    const Start& s = scene_.start;
+    const LatticeFill& s = scene_.start.lattice;
     return where([&](const Double3& x) { return lattice_.inside(x); }, 0.5 * (s.lower[0] + s.upper[0]),
                  0.5 * (s.upper[0] - s.lower[0]));
   }
@@ -125,7 +125,7 @@ void count_lattice(const decomp::Comm& comm, const Scene& scene, StartCount& cou
     const Row row(scene, lattice, y, z);
     const Interval filled = row.filled();
     painted.clear();
-    for (const Region& region : scene.start.regions) {
+    for (const Region& region : scene.start.lattice.regions) {
       const Interval all = row.within(region);
       const Interval part{std::max(all.first, filled.first), std::min(all.end, filled.end)};
       if (part.first < part.end) painted.push_back({part, region.group});
@@ -168,7 +168,8 @@ std::vector<std::int64_t> count_tiles(const decomp::Comm& comm, const Scene& sce
 void Height::add(const Scene& scene, const Double3& x) {
   double g2 = 0, height = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double g = scene.periodic[a] ? 0.0 : scene.gravity[a];  // along a period it drives a flow
+    const double g =
+        scene.domain.periodic[a] ? 0.0 : scene.domain.gravity[a];  // along a period it drives a flow
     g2 += g * g;
     height -= g * x[a];
   }

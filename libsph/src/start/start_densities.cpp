@@ -17,7 +17,7 @@ bool is_near(double value, double usual) { return value <= most * usual && value
 
 std::string advice(const Group& g, double density) {
   if (density > 0) return fmt::format("it must be within 1e-6 to 1e6 of the group's {:.6g}", g.density);
-  return std::string(g.eos->remedy);
+  return std::string(g.eos.law->remedy);
 }
 
 }  // namespace
@@ -26,13 +26,13 @@ void check_start_densities(const decomp::Comm& comm, const Scene& scene, const P
   const double* density = particles.data<Field::density>();
   const double* mass = particles.data<Field::mass>();
   double volume = 1;
-  for (int a = 0; a < scene.dim; ++a) volume *= scene.spacing;
+  for (int a = 0; a < scene.dim; ++a) volume *= scene.start.spacing;
   Findings found;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     const Group& g = scene.groups[particles.data<Field::group>()[i]];
     const std::uint64_t id = particles.data<Field::id>()[i];
     const double usual = g.density * volume;
-    const bool summed = g.eos->kind == EosKind::ideal_gas;  // the density of a gas: later
+    const bool summed = g.eos.law->kind == EosKind::ideal_gas;  // the density of a gas: later
     if ((summed || is_near(density[i], g.density)) && is_near(mass[i], usual)) continue;
     found.add(id, [&] {
       const std::string who = fmt::format("start: particle {} of group {} would have a ", id, g.name);

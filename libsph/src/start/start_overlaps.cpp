@@ -45,7 +45,7 @@ class Search {
 
  private:
   void keep(Overlap& found, const Overlap& o) const {
-    if (o.share > scene_.contact.largest_overlap && o.before(found)) found = o;
+    if (o.share > scene_.grains.contact.largest_overlap && o.before(found)) found = o;
   }
   [[nodiscard]] Overlap of_pair(std::size_t i, std::size_t j) const {
     const std::size_t low = id_[i] < id_[j] ? i : j;
@@ -111,11 +111,11 @@ bool may_overlap(const Scene& scene) {
   const Start& start = scene.start;
   if (!start.file.empty() || !start.tile.file.empty()) return true;
   // Two of the largest stand deepest in each other: R + r - limit r grows with both.
-  const double allowed = (2 - scene.contact.largest_overlap) * 0.5 * scene.largest_diameter();
+  const double allowed = (2 - scene.grains.contact.largest_overlap) * 0.5 * scene.largest_diameter();
   if (scene.is_mixture())  // a fill knows nothing of another, nor of its own image
-    return start.fills.size() > 1 || scene.periodic != std::array{false, false, false} ||
+    return start.fills.size() > 1 || scene.domain.periodic != std::array{false, false, false} ||
            start.fills.front().spacing < allowed;
-  const double nearest = scene.spacing * (1 - 2 * std::sqrt(3.0) * start.jitter);
+  const double nearest = scene.start.spacing * (1 - 2 * std::sqrt(3.0) * start.lattice.jitter);
   return nearest < allowed;
 }
 
@@ -137,11 +137,11 @@ void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const Positio
     };
     if (mine.high > largest_id)
       what = fmt::format("{} lies {:.3g} radii deep in wall \"{}\"", named(0), mine.share,
-                         scene.walls[mine.high & ~wall_key].name);
+                         scene.grains.walls[mine.high & ~wall_key].name);
     else
       what = fmt::format("{} and {} overlap by {:.3g} radii", named(0), named(1), mine.share);
-    what +=
-        fmt::format("; contact.largest_overlap allows {}: {}", scene.contact.largest_overlap, advice(scene));
+    what += fmt::format("; contact.largest_overlap allows {}: {}", scene.grains.contact.largest_overlap,
+                        advice(scene));
   }
   const std::string& file = scene.start.tile.file.empty() ? scene.start.file : scene.start.tile.file;
   throw InputError(fmt::format("{}: {}", file.empty() ? "start" : file, agree(comm, what)));

@@ -79,7 +79,7 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
     fail_row(rows, k, fmt::format("mass is {}; it must be positive", rows.matter.mass[k]));
   if (!rows.matter.gas.empty() && !(rows.matter.gas[k] >= 0 && rows.matter.gas[k] < 1))
     fail_row(rows, k, fmt::format("m is {}; it must be at least 0 and below 1", rows.matter.gas[k]));
-  if (!rows.matter.energy.empty() && scene.groups[rows.group[k]].eos->kind == EosKind::ideal_gas &&
+  if (!rows.matter.energy.empty() && scene.groups[rows.group[k]].eos.law->kind == EosKind::ideal_gas &&
       !(rows.matter.energy[k] > 0))
     fail_row(rows, k, fmt::format("u is {}; it must be positive", rows.matter.energy[k]));
   check_radius(rows, k, scene.groups[rows.group[k]]);
@@ -89,8 +89,8 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
     const double x = rows.position.quanta.empty()
                          ? rows.position.x[k * d + a]
                          : static_cast<double>(rows.position.quanta[k * d + a]) * rows.position.quantum;
-    const double margin = periods * (scene.upper[a] - scene.lower[a]);
-    if (!(x >= scene.lower[a] - margin && x <= scene.upper[a] + margin))
+    const double margin = periods * (scene.domain.upper[a] - scene.domain.lower[a]);
+    if (!(x >= scene.domain.lower[a] - margin && x <= scene.domain.upper[a] + margin))
       fail_row(rows, k, fmt::format("particle {} lies outside the domain", rows.id[k]));
   }
 }
@@ -124,7 +124,7 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
   }
   if (!rows.matter.rho.empty()) {
     double volume = 1;
-    for (std::size_t a = 0; a < d; ++a) volume *= scene.spacing;
+    for (std::size_t a = 0; a < d; ++a) volume *= scene.start.spacing;
     p.energy *= p.density / rows.matter.rho[k];  // at the same pressure
     p.density = rows.matter.rho[k];
     p.mass = p.density * volume;  // as on a lattice, to the bit

@@ -11,29 +11,30 @@ namespace {
 
 double sound_at(const Group& g, double density) {
   double pressure, sound;
-  g.eos->derive(g, {&density, nullptr, nullptr, &pressure, &sound, nullptr, 0}, 0, 1);
+  g.eos.law->derive(g, {&density, nullptr, nullptr, &pressure, &sound, nullptr, 0}, 0, 1);
   return sound;
 }
 
 /// Where the pressure of a start is largest: at this height against gravity, or between Taylor's vortices.
 Double3 most_pressed(const Scene& scene, double low) {
   if (scene.start.pressure == InitialPressure::taylor_green) {
-    const double quarter = 0.25 * scene.start.flow_length;
+    const double quarter = 0.25 * scene.start.velocity.flow_length;
     return {quarter, quarter, 0};
   }
   Double3 x{};
   double g2 = 0;
-  for (std::size_t a = 0; a < 3; ++a) g2 += scene.periodic[a] ? 0.0 : scene.gravity[a] * scene.gravity[a];
+  for (std::size_t a = 0; a < 3; ++a)
+    g2 += scene.domain.periodic[a] ? 0.0 : scene.domain.gravity[a] * scene.domain.gravity[a];
   if (g2 == 0) return x;
   for (std::size_t a = 0; a < 3; ++a)
-    x[a] = scene.periodic[a] ? 0.0 : -low * scene.gravity[a] / std::sqrt(g2);
+    x[a] = scene.domain.periodic[a] ? 0.0 : -low * scene.domain.gravity[a] / std::sqrt(g2);
   return x;
 }
 
 }  // namespace
 
 bool stiffens(const Group& g) {
-  return g.kind != GroupKind::grain && g.eos->kind == EosKind::barotropic && !g.eos->constant_sound;
+  return g.kind != GroupKind::grain && g.eos.law->kind == EosKind::barotropic && !g.eos.law->constant_sound;
 }
 
 std::vector<double> sounds_at_rest(const Scene& scene) {

@@ -111,7 +111,7 @@ void Simulation::refresh_contacts() {
     rebuild();
     stale_ = may_drift(parts_.plan);
   }
-  refresh_halo(grains()->reads(), parts_.grains->set());
+  refresh_halo(grains()->pairs().swept(), parts_.grains->set());
 }
 
 // What all ranks must know of this step. What it brings acts in the next one.

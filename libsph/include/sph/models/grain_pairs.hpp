@@ -31,6 +31,8 @@ class GrainPairs final : public SetPair {
   [[nodiscard]] ContactLists& lists() { return lists_; }
   [[nodiscard]] const ContactLists& lists() const { return lists_; }
   [[nodiscard]] std::int64_t touching() const;  ///< listed on this rank, walls not counted
+  /// Fields of the halo that a sweep over them reads and that change with every step.
+  [[nodiscard]] FieldSet swept() const;
   /// Of forces and torques on each row.
   [[nodiscard]] ContactSums& sums() { return sums_; }
   /// The longest way of this rank's grains, or of a wall, since the lists were made [m].
@@ -56,8 +58,8 @@ class GrainPairs final : public SetPair {
   const PlaneWalls* walls_;
   ContactLists lists_;
   std::vector<bool> fixed_;
+  bool spins_;  ///< grains do
   ContactSums sums_;
-  std::size_t sums_a_row_;
   ContactCensus sent_;  ///< of what travels
   struct Places {
     std::vector<std::int64_t> grains;

@@ -40,8 +40,6 @@ class Grains final : public Model {
 
   /// Its stages; it must stay where it is.
   [[nodiscard]] Plan plan();
-  /// Fields of the halo a sweep reads that change with every step.
-  [[nodiscard]] FieldSet reads() const;
   /// Of a sweep.
   [[nodiscard]] ContactContext context(Particles& particles, double dt);
 
@@ -54,7 +52,6 @@ class Grains final : public Model {
   /// Contacts of the blocks, then kick and drift of their grains. begin_step() clears what a step sums.
   void begin_step(const Particles& particles, const GlobalState& global);
   void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
-  void add_too_fast(const StepState& state, Findings& found) const;
 
   const Scene* scene_;
   PositionScale scale_;

@@ -33,8 +33,8 @@ class Physics final : public Model {
   [[nodiscard]] std::vector<Energy> energies() const override;
   void add_energies(const Particles& particles, EnergySums& sums) const override;
 
-  [[nodiscard]] FieldSet fields() const { return builder_.fields(); }
-  [[nodiscard]] const Plan& plan() const { return builder_.plan(); }
+  /// Its fields and stages.
+  [[nodiscard]] const Builder& built() const { return builder_; }
   [[nodiscard]] const SphConstants& constants() const { return constants_; }
   [[nodiscard]] const SphTimeStep& steps() const { return steps_; }
   /// Models of its own, where the scene has them.

@@ -19,7 +19,7 @@ class PlaneWalls {
   PlaneWalls(const Scene& scene, const PositionScale& scale, double force_quantum)
       : scene_(&scene), scale_(scale), force_quantum_(force_quantum) {}
 
-  [[nodiscard]] std::size_t count() const { return scene_->walls.size(); }
+  [[nodiscard]] std::size_t count() const { return scene_->grains.walls.size(); }
   /// As the scene describes them.
   void start(GlobalState& global) const;
   /// Takes the changes of the scene's stages that begin at or before the present time.

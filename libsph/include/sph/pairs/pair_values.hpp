@@ -145,7 +145,7 @@ struct RowScale {
   double inverse_volume;  ///< 1 / spacing^D
   double inverse_h;       ///< 1 / h
   double quantum = 0;     ///< of the positions [m]
-  double pull = 0;        ///< Scene::central_pull [1/s^2]
+  double pull = 0;        ///< Domain::central_pull [1/s^2]
   double pull_centre[3]{};
   double gravity[3]{};  ///< [m/s^2]
   double head[3]{};     ///< h, 0 along periods [m]

@@ -64,7 +64,7 @@ struct ByteCounts {
 };
 
 struct EventCounts {
-  std::int64_t rebuilds = 0, late_rebuilds = 0, migrated = 0, refreshes = 0, iterations = 0;
+  std::int64_t rebuilds = 0, migrated = 0, refreshes = 0, iterations = 0;
 };
 
 /// Numbers of a finished (or stopped) run. Counters are sums over ranks unless said otherwise.

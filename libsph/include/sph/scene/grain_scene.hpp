@@ -1,4 +1,5 @@
-// What a scene of grains says beyond what every scene says: materials, contact law, walls, stages.
+// What a scene of grains says beyond what every scene says: materials, contact law, drag, walls,
+// stages, and how grains are placed.
 #pragma once
 
 #include <array>
@@ -14,6 +15,8 @@ namespace sph {
 using Double3 = std::array<double, 3>;
 
 struct ContactLaw;  // laws/contact/law.hpp
+struct DragLaw;     // laws/drag/law.hpp
+[[nodiscard]] const DragLaw* no_drag();
 
 /// Of a group with kind = "grain": spheres, or only the material of walls.
 struct GrainMaterial {
@@ -22,7 +25,7 @@ struct GrainMaterial {
   double restitution = 1;                       ///< of a head-on impact, 0 < e <= 1
   double friction = 0;                          ///< mu
   double rolling_friction = 0;                  ///< mu_r
-  bool fixed = false;  ///< glued in space; Group::wall_velocity drags what touches it, as a belt does
+  bool fixed = false;  ///< glued in space; WallMaterial::velocity drags what touches it, as a belt does
   friend bool operator==(const GrainMaterial&, const GrainMaterial&) = default;
 };
 
@@ -44,6 +47,13 @@ struct ContactControl {
   double largest_overlap = 0.2;          ///< in radii of the smaller grain: beyond it the run stops
   std::vector<ContactPair> pairs;
   friend bool operator==(const ContactControl&, const ContactControl&) = default;
+};
+
+/// How a fluid and the grains in it act on each other.
+struct DragControl {
+  const DragLaw* law = no_drag();
+  bool own_disturbance = true;  ///< what a grain itself does to the fluid around it is taken out
+  friend bool operator==(const DragControl&, const DragControl&) = default;
 };
 
 /// A plane: grains stay on the side to which the normal points. It moves with the prescribed velocity, or, as
@@ -72,6 +82,22 @@ struct WallStage {
   double begin = 0;  ///< [s], ascending
   std::vector<WallChange> walls;
   friend bool operator==(const WallStage&, const WallStage&) = default;
+};
+
+struct GrainScene {
+  ContactControl contact;
+  DragControl drag;  ///< of grains in a fluid
+  std::vector<Wall> walls;
+  std::vector<WallStage> stages;
+  friend bool operator==(const GrainScene&, const GrainScene&) = default;
+};
+
+/// Grains in a fluid: a cubic lattice of its own fills a box.
+struct GrainFill {
+  int group = -1;            ///< of grains
+  Double3 lower{}, upper{};  ///< points sit at lower + (k + 1/2) spacing, below upper [m]
+  double spacing = 0;        ///< [m]
+  friend bool operator==(const GrainFill&, const GrainFill&) = default;
 };
 
 /// A settled packing that is repeated side by side.

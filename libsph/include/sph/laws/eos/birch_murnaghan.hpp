@@ -19,24 +19,24 @@ struct BirchMurnaghan : BarotropicLaw {
       .name = "bulk_modulus_derivative", .above = 3, .most = 12, .sentence = "K' = dK/dp at no pressure."}};
 
   static double pressure(const Group& g, double density) {
-    const double x = density / g.density, y = exact_pow(x, 1.0 / 3), a = 0.75 * (g.eos_constants[0] - 4);
-    return 1.5 * g.bulk_modulus * (x * y * (x - y)) * (1 + a * (y * y - 1));
+    const double x = density / g.density, y = exact_pow(x, 1.0 / 3), a = 0.75 * (g.eos.constants[0] - 4);
+    return 1.5 * g.eos.bulk_modulus * (x * y * (x - y)) * (1 + a * (y * y - 1));
   }
   static double sound_speed(const Group& g, double density) {
-    return std::sqrt(g.bulk_modulus / g.density * std::max(slope(g, density), 0.01));
+    return std::sqrt(g.eos.bulk_modulus / g.density * std::max(slope(g, density), 0.01));
   }
   static double energy(const Group& g, double density) {
     const double y = exact_pow(density / g.density, 1.0 / 3), f = 0.5 * (y * y - 1);
-    return 4.5 * (f * f) * (1 + (g.eos_constants[0] - 4) * f);
+    return 4.5 * (f * f) * (1 + (g.eos.constants[0] - 4) * f);
   }
   /// Bisection, between what is stretched but has not given way and the linear law's density, above whose
   /// pressure this one is. 0 where no density has that pressure: a start says so.
   static double density(const Group& g, double pressure) {
     constexpr double rounding = 1e-9;  // of K
-    double low = 0.9 * g.density, high = g.density * (1 + std::max(pressure, 0.0) / g.bulk_modulus);
+    double low = 0.9 * g.density, high = g.density * (1 + std::max(pressure, 0.0) / g.eos.bulk_modulus);
     while (BirchMurnaghan::pressure(g, low) > pressure && slope(g, 0.98 * low) > 0) low *= 0.98;
     if (BirchMurnaghan::pressure(g, low) > pressure ||
-        BirchMurnaghan::pressure(g, high) < pressure - rounding * g.bulk_modulus)
+        BirchMurnaghan::pressure(g, high) < pressure - rounding * g.eos.bulk_modulus)
       return 0;
     for (int k = 0; k < 64; ++k) {
       const double middle = 0.5 * (low + high);
@@ -48,7 +48,7 @@ struct BirchMurnaghan : BarotropicLaw {
  private:
   /// dp/drho over K/rho_0.
   static double slope(const Group& g, double density) {
-    const double y = exact_pow(density / g.density, 1.0 / 3), y2 = y * y, a = 0.75 * (g.eos_constants[0] - 4);
+    const double y = exact_pow(density / g.density, 1.0 / 3), y2 = y * y, a = 0.75 * (g.eos.constants[0] - 4);
     return y2 * ((7 * y2 - 5) * (1 + a * (y2 - 1)) + 2 * a * y2 * (y2 - 1)) / 2;
   }
 };

@@ -37,7 +37,8 @@ class BubblyEos {
 
 /// The equation of state of a bubbly group with this gas content m.
 [[nodiscard]] inline BubblyEos bubbly_eos(const Group& g, double gas_content) {
-  return {g.density, g.bulk_modulus, gas_content, g.gas_rt, g.solubility_pressure, g.solubility_exponent};
+  return {g.density,       g.eos.bulk_modulus,           gas_content,
+          g.bubbly.gas_rt, g.bubbly.solubility_pressure, g.bubbly.solubility_exponent};
 }
 
 struct BubblyMagma : EosLaw {
@@ -47,12 +48,12 @@ struct BubblyMagma : EosLaw {
   static constexpr std::string_view remedy =
       "without pressure bubbly magma is all gas: raise domain.surface_pressure";
 
-  static void check(const Group& g) { (void)bubbly_eos(g, g.gas_content); }
+  static void check(const Group& g) { (void)bubbly_eos(g, g.bubbly.gas_content); }
   static void derive(const Group& g, const EosRows& rows, std::size_t first, std::size_t last) {
-    const BubblyEos usual = bubbly_eos(g, g.gas_content);
+    const BubblyEos usual = bubbly_eos(g, g.bubbly.gas_content);
     for (std::size_t i = first; i < last; ++i) {
       const double gas = rows.gas_content[i];
-      const BubblyEos eos = gas == g.gas_content ? usual : bubbly_eos(g, gas);
+      const BubblyEos eos = gas == g.bubbly.gas_content ? usual : bubbly_eos(g, gas);
       const double absolute = eos.pressure(rows.density[i]);
       rows.pressure[i] = absolute - rows.surface_pressure;
       if (rows.sound_speed != nullptr) rows.sound_speed[i] = eos.sound_speed(absolute);
@@ -63,7 +64,7 @@ struct BubblyMagma : EosLaw {
     return {density(g, above_surface + surface_pressure)};
   }
   static double density(const Group& g, double pressure) {
-    return bubbly_eos(g, g.gas_content).density(pressure);
+    return bubbly_eos(g, g.bubbly.gas_content).density(pressure);
   }
   static double energy(const Group&, double /*density*/) { return 0; }  // not followed
 };

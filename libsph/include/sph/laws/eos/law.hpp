@@ -3,7 +3,7 @@
 //
 //   struct MyEos : BarotropicLaw {
 //     static constexpr std::string_view word = "my_eos";                    // of eos
-//     static constexpr std::array keys{LawKey{"my_constant", dimension::none}};  // in Group::eos_constants
+//     static constexpr std::array keys{LawKey{"my_constant", dimension::none}};  // in Group::eos.constants
 //     static double pressure(const Group&, double density);      // 0 at rho_0
 //     static double density(const Group&, double pressure);      // its inverse
 //     static double sound_speed(const Group&, double density);   // sqrt(dp/drho); at rho_0 sqrt(K/rho_0)
@@ -62,7 +62,8 @@ struct BarotropicLaw : EosLaw {
 
 /// Of a group's matter at rho_0; p-waves are the fastest in a solid [m/s].
 [[nodiscard]] inline double sound_at_rest(const Group& g) {
-  const double modulus = g.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.shear_modulus : 0.0);
+  const double modulus =
+      g.eos.bulk_modulus + (g.kind == GroupKind::solid ? 4.0 / 3.0 * g.solid.shear_modulus : 0.0);
   return std::sqrt(modulus / g.density);
 }
 

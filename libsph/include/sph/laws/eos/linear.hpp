@@ -13,13 +13,13 @@ struct LinearEos : BarotropicLaw {
   static constexpr bool constant_sound = true;
 
   static double pressure(const Group& g, double density) {
-    return g.bulk_modulus * ((density - g.density) / g.density);
+    return g.eos.bulk_modulus * ((density - g.density) / g.density);
   }
   static double density(const Group& g, double pressure) {
-    return g.density * (1 + pressure / g.bulk_modulus);
+    return g.density * (1 + pressure / g.eos.bulk_modulus);
   }
   static double sound_speed(const Group& g, double /*density*/) {
-    return std::sqrt(g.bulk_modulus / g.density);
+    return std::sqrt(g.eos.bulk_modulus / g.density);
   }
 
   /// ln(1+s) - s/(1+s), s = rho/rho_0 - 1. The closed form cancels for small s, where its series
@@ -36,8 +36,8 @@ struct LinearEos : BarotropicLaw {
 
   /// p = (K + p_top) (exp(rho_0 g d / K) - 1) + p_top
   static double pressure_below(const Group& g, const StillLayer& at) {
-    return at.pressure + (g.bulk_modulus + at.surface_pressure + at.pressure) *
-                             (exact_exp(g.density * at.gravity * at.depth / g.bulk_modulus) - 1);
+    return at.pressure + (g.eos.bulk_modulus + at.surface_pressure + at.pressure) *
+                             (exact_exp(g.density * at.gravity * at.depth / g.eos.bulk_modulus) - 1);
   }
 };
 

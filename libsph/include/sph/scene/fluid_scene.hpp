@@ -1,0 +1,45 @@
+// What a scene says of its fluids: the volatiles of a bubbly one, the forms of viscous and pressure forces, the
+// tension of interfaces.
+#pragma once
+
+#include <array>
+#include <optional>
+
+namespace sph {
+
+/// Of a group with eos = "bubbly": Ida eqs. (12) to (15), and when it breaks.
+struct BubblyMaterial {
+  double gas_content = 0;                             ///< m, Ida eq. (14) [1]
+  double gas_rt = 0;                                  ///< R T, Ida eq. (13) [m^2/s^2]
+  double solubility_pressure = 0;                     ///< p_s [Pa]
+  double solubility_exponent = 1;                     ///< gamma [1]
+  std::optional<double> fragmentation_void_fraction;  ///< psi_f: above it a particle joins fragments_to
+  int fragments_to = -1;                              ///< index of the spray group, -1 if none
+  friend bool operator==(const BubblyMaterial&, const BubblyMaterial&) = default;
+};
+
+/// How the pressures of a pair are summed: p_i + p_j, or each weighted by the other's density.
+enum class PressureWeights { volume, density };
+/// See sph/terms/viscosity.hpp.
+enum class ViscosityForm { laplacian, symmetric };
+
+struct ViscousForces {
+  ViscosityForm form = ViscosityForm::laplacian;
+  bool implicit = false;    ///< those of the end of the step: they limit no time step
+  double tolerance = 1e-4;  ///< of implicit viscosity, see models/viscosity.cpp
+  friend bool operator==(const ViscousForces&, const ViscousForces&) = default;
+};
+
+/// A stress in a layer as thick as the kernel, or the jump of the pressure (terms/surface_tension.hpp,
+/// terms/tension_jump.hpp).
+enum class TensionForm { stress, jump };
+
+/// Between the particles of two groups of fluid.
+struct InterfaceTension {
+  std::array<int, 2> between{-1, -1};  ///< groups; -1: there is none
+  double coefficient = 0;              ///< sigma [N/m]
+  TensionForm form = TensionForm::stress;
+  friend bool operator==(const InterfaceTension&, const InterfaceTension&) = default;
+};
+
+}  // namespace sph

@@ -1,0 +1,42 @@
+// Where and how long a scene lasts, and how its matter is smoothed: [domain], [kernel] and [time].
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "sph/scene/grain_scene.hpp"
+
+namespace sph {
+
+/// The box that holds everything, and what acts on all of it.
+struct Domain {
+  Double3 lower{}, upper{};  ///< [m]
+  std::array<bool, 3> periodic{};
+  Double3 gravity{};            ///< [m/s^2]
+  double central_pull = 0;      ///< acceleration towards pull_centre over the distance from it [1/s^2]
+  Double3 pull_centre{};        ///< [m]
+  double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
+  friend bool operator==(const Domain&, const Domain&) = default;
+};
+
+enum class KernelShape { quintic, wendland_c2, wendland_c4 };
+
+/// Of fluids and solids.
+struct KernelControl {
+  KernelShape shape = KernelShape::quintic;
+  double smoothing_length = 0;  ///< h [m]; quintic support 3h, Wendland 2h
+  // Of the smoothing length of a particle of an ideal gas, over h.
+  double least_growth = 1, largest_growth = 1;
+  friend bool operator==(const KernelControl&, const KernelControl&) = default;
+};
+
+struct TimeControl {
+  std::optional<double> dt;     ///< fixed step [s]; otherwise from cfl
+  double cfl = 0.8;             ///< dt = cfl h / (c + u)
+  std::optional<double> until;  ///< stop at the first step with t >= until [s]
+  std::optional<std::int64_t> steps;
+  friend bool operator==(const TimeControl&, const TimeControl&) = default;
+};
+
+}  // namespace sph

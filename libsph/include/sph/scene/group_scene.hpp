@@ -1,0 +1,56 @@
+// A material of a scene, and what is one only for some kinds of matter.
+#pragma once
+
+#include <string>
+
+#include "sph/scene/fluid_scene.hpp"
+#include "sph/scene/gas_scene.hpp"
+#include "sph/scene/grain_scene.hpp"
+#include "sph/scene/solid_scene.hpp"
+
+namespace sph {
+
+enum class GroupKind { fluid, solid, wall, grain };
+/// What the pressure depends on besides the density: nothing, the gas content, the internal energy.
+enum class EosKind { barotropic, bubbly, ideal_gas };
+struct EquationOfState;  // laws/eos/law.hpp
+[[nodiscard]] const EquationOfState* linear_eos();
+
+/// How the pressure follows from the density.
+struct Compressibility {
+  const EquationOfState* law = linear_eos();
+  double bulk_modulus = 0;   ///< K, or K_l of the liquid [Pa]
+  LawConstants constants{};  ///< of the law, in the order of its keys
+  friend bool operator==(const Compressibility&, const Compressibility&) = default;
+};
+
+/// Of matter that stays where it is: walls, and as to the velocity fixed grains.
+struct WallMaterial {
+  Double3 velocity{};  ///< of the material, with which it drags what touches it [m/s]
+  bool slip = false;   ///< no shear on what flows past
+  int clamps = -1;     ///< index of the total-Lagrangian solid that is bonded to it, -1 if none
+  friend bool operator==(const WallMaterial&, const WallMaterial&) = default;
+};
+
+/// One material. Particles name it by its index in Scene::groups.
+struct Group {
+  std::string name;
+  GroupKind kind = GroupKind::fluid;
+  double density = 0;         ///< rho_0 at zero pressure [kg/m^3]
+  Compressibility eos;        ///< all but grains
+  double viscosity = 0;       ///< eta [Pa s]
+  double bulk_viscosity = 0;  ///< zeta, Ida eq. (9) [Pa s]
+  BubblyMaterial bubbly;
+  GasMaterial gas;
+  SolidMaterial solid;
+  WallMaterial wall;
+  GrainMaterial grain;  ///< besides it grains have name, density and wall.velocity
+  friend bool operator==(const Group&, const Group&) = default;
+};
+
+/// Moves as a fluid or a solid, not as grains.
+[[nodiscard]] inline bool is_matter(const Group& g) {
+  return g.kind == GroupKind::fluid || g.kind == GroupKind::solid;
+}
+
+}  // namespace sph

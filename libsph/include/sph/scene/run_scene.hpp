@@ -1,0 +1,60 @@
+// [decomposition], [output] and [[monitor]]: what may change the speed and the files of a run, never a bit of its
+// particles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sph/scene/grain_scene.hpp"
+
+namespace sph {
+
+enum class CutRule { fixed, literal, quasi_newton, hybrid, chaos, replay };
+enum class CostSource { time, counts };
+
+struct Decomposition {
+  std::array<int, 2> cut_axes{0, 1};  ///< row axis, column axis
+  double skin = 0.2;                  ///< of the kernel's radius
+  int rebuild_every = 0;              ///< 0: when a particle may leave the skin; n: also every n steps
+  bool overlap = true;                ///< compute the interior while halo messages travel
+  CutRule cuts = CutRule::quasi_newton;
+  CostSource cost = CostSource::time;
+  std::uint64_t chaos_seed = 1;
+  int slow_rank = 0;    ///< for tests of the balance: this rank ...
+  double slowness = 1;  ///< ... takes so many times as long
+  std::string record;   ///< file to write the cuts of each rebuild to, or empty
+  std::string replay;
+  friend bool operator==(const Decomposition&, const Decomposition&) = default;
+};
+
+enum class MonitorKind { particle, group, energy, momentum, wall, contacts };
+
+struct Monitor {
+  std::string name;
+  MonitorKind kind = MonitorKind::particle;
+  std::optional<std::uint64_t> id;  ///< particle: this id ...
+  std::optional<Double3>
+      nearest_to;  ///< ... or the one nearest this point at the start, lowest id on ties [m]
+  int group = -1;  ///< group: averages over it
+  int wall = -1;   ///< wall: its place, velocity and the force of the grains on it
+  friend bool operator==(const Monitor&, const Monitor&) = default;
+};
+
+struct OutputControl {
+  double snapshot_interval = 0;           ///< [s] of scene time; 0: only the last state
+  double series_interval = 0;             ///< [s] of scene time; 0: every step
+  double checkpoint_interval = 600;       ///< [s] of wall time; 0: none but the last
+  double status_interval = 2;             ///< [s] of wall time
+  double average_time = 0;                ///< window of the running time averages in snapshots [s]; 0: none
+  bool average_space = false;             ///< kernel averages over same-group neighbours in snapshots
+  bool contacts = false;                  ///< grains: snapshots hold the contacts with their forces
+  std::int64_t sort_limit = 100'000'000;  ///< rows up to which snapshots are sorted by id
+  int checkpoint_files = 0;               ///< 0: one per 512 ranks
+  std::vector<Monitor> monitors;
+  friend bool operator==(const OutputControl&, const OutputControl&) = default;
+};
+
+}  // namespace sph

@@ -1,0 +1,23 @@
+// What a scene of solids says beyond what every scene says.
+#pragma once
+
+namespace sph {
+
+/// updated: stress follows the rate of strain; total: it is a function of the deformation since the start.
+enum class Lagrangian { updated, total };
+
+/// Of a group with kind = "solid".
+struct SolidMaterial {
+  double shear_modulus = 0;  ///< mu [Pa]; lambda = K - 2/3 mu
+  Lagrangian lagrangian = Lagrangian::updated;
+  friend bool operator==(const SolidMaterial&, const SolidMaterial&) = default;
+};
+
+/// Between the particles of a total-Lagrangian solid.
+struct BondTerms {
+  double hourglass = 0.3;        ///< stiffness against hourglass modes / modulus
+  double largest_stretch = 1.2;  ///< of a bond, as far as the lists reach
+  friend bool operator==(const BondTerms&, const BondTerms&) = default;
+};
+
+}  // namespace sph

@@ -1,0 +1,74 @@
+// The first state of a scene: [start] and the tables in it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sph/scene/grain_scene.hpp"
+
+namespace sph {
+
+enum class RegionShape { everywhere, box, ball };
+
+/// Painter's rule: a lattice point belongs to the last region that contains it. group -1 leaves it empty.
+struct Region {
+  int group = -1;
+  RegionShape shape = RegionShape::everywhere;
+  Double3 lower{}, upper{};  ///< box: lower <= x < upper [m]
+  Double3 centre{};          ///< ball: |x - centre| < radius [m]
+  double radius = 0;
+  friend bool operator==(const Region&, const Region&) = default;
+};
+
+enum class LatticeKind { square, hexagonal };
+
+/// A lattice that regions paint.
+struct LatticeFill {
+  LatticeKind kind = LatticeKind::square;
+  Double3 origin{};          ///< a corner of a lattice cell: points sit at origin + (k + 1/2) spacing [m]
+  Double3 lower{}, upper{};  ///< extent that is filled [m]
+  std::vector<Region> regions;
+  double jitter = 0;  ///< amplitude of a uniform displacement of movers, in spacings
+  friend bool operator==(const LatticeFill&, const LatticeFill&) = default;
+};
+
+enum class InitialVelocity { rest, uniform, taylor_green };
+enum class InitialPressure { zero, hydrostatic, taylor_green };
+
+/// Of all movers.
+struct StartVelocity {
+  InitialVelocity kind = InitialVelocity::rest;
+  Double3 uniform{};       ///< [m/s]
+  double flow_speed = 1;   ///< U of the Taylor-Green flow [m/s]
+  double flow_length = 1;  ///< its period [m]
+  friend bool operator==(const StartVelocity&, const StartVelocity&) = default;
+};
+
+/// One of the still fluids on top of each other under which a hydrostatic pressure builds up.
+struct Layer {
+  int group = -1;
+  double top = 0;  ///< height against gravity [m]; of the first that of zero pressure
+  friend bool operator==(const Layer&, const Layer&) = default;
+};
+
+struct Start {
+  double spacing = 0;  ///< dx [m]
+  // Either a lattice painted by regions ...
+  LatticeFill lattice;
+  // ... or a file with columns id, x, v, group, rho, m (HDF5 or CSV).
+  std::string file;
+  std::optional<bool> free_surface;  ///< file: is there one? Default: unless all axes are periodic
+  std::vector<GrainFill> fills;      ///< of grains beside fluids
+  Tile tile;                         ///< ... or, grains only, a packing repeated side by side
+  std::uint64_t seed = 0;            ///< of the jitter, and of the radii of grains
+
+  StartVelocity velocity;
+  InitialPressure pressure = InitialPressure::zero;
+  std::vector<Layer> layers;  ///< hydrostatic: from the surface downwards
+  bool has_surface = false;   ///< resolved: fluids and solids have a free surface, as far as the start shows
+  friend bool operator==(const Start&, const Start&) = default;
+};
+
+}  // namespace sph
