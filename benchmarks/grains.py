@@ -4,6 +4,7 @@
 grains.py BUILD           speed and memory; peers come from Debian's lammps and liggghts
 grains.py --peers-only    the same without Peperite
 grains.py BUILD --check   kinetic energy of a pushed bed against LAMMPS, step by step
+... --page                writes the table of README.md, a row for each bed, law and number of ranks
 
 Each code runs at the skin that is best for it in a short scan. Beds are made once, in the work directory: LAMMPS
 settles 12,800 spheres (minutes; on one rank, so that everybody gets the same bed), which are laid side by side.
@@ -22,6 +23,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import tables
 from peers import bed
 from speed import environment
 
@@ -180,9 +182,11 @@ def compare(codes, beds, tile, options):
              for name, measure in codes.items()}
     print("\nbytes per grain: growth of the peak memory from the tile of 12,800 to the bed, one rank")
     print("bed   law    ranks code             M/s  ours/its  B/grain  skin/d  rebuilds/1000")
+    rows = []
     for size, law, ranks in itertools.product(options.beds, options.laws, options.ranks):
         files = beds[size]
         timings = repeat(codes, files, steps[size], law, ranks, skins, options.repeats)
+        rows.append([f"{files.grains:,}, {law}, {ranks}"])
         for name, runs in timings.items():
             speed = files.grains / statistics.median(t.seconds for t in runs) / 1e6
             ratio = memory = "-"
@@ -192,6 +196,8 @@ def compare(codes, beds, tile, options):
                 memory = f"{(runs[0].memory - small[name]) / (files.grains - tile.grains):.0f}"
             print(f"{size:5} {law:6} {ranks:5} {name:14} {speed:6.2f} {ratio:>8} {memory:>8} {skins[name, law]:7g} "
                   f"{1000 * statistics.mean(t.rebuilds for t in runs):10.1f}", flush=True)
+            rows[-1].append(f"{speed:.2f}" + (f" ({ratio}x)" if name != "Peperite" and ratio != "-" else ""))
+    return tables.markdown(("grains, law, ranks; M grain-steps/s (ours over its)", *codes), rows)
 
 
 # Check
@@ -242,6 +248,7 @@ def main():
     arguments.add_argument("--repeats", type=int, default=3)
     arguments.add_argument("--skin", type=float, help="in largest diameters; no scan")
     arguments.add_argument("--steps", type=int, help="timed steps, instead of each bed's own number")
+    arguments.add_argument("--page", action="store_true")
     options = arguments.parse_args()
     work = options.work.resolve()
     work.mkdir(parents=True, exist_ok=True)
@@ -258,7 +265,9 @@ def main():
         codes["LAMMPS native"] = lammps(program(options.native))
     codes["LIGGGHTS"] = liggghts(program(options.liggghts))
     beds = {name: files_of(work, name, bed.repeated(tile, *BEDS[name][:2])) for name in {*options.beds, "12k"}}
-    compare(codes, beds, beds["12k"], options)
+    lines = compare(codes, beds, beds["12k"], options)
+    if options.page:
+        tables.write(here / "README.md", "grains", tables.origin(tables.commit_of(build)), lines)
 
 
 if __name__ == "__main__":

@@ -2,11 +2,11 @@
 """Who owns which particles as they move, and how unequal the work is, for each balancer; after figure 3 of
 Furuichi & Nishiura (2017).
 
-    partitions.py [BUILD] [--ranks 8] [--scenes dam heap sandbox] [--slow] [--work DIR] [--pictures DIR]
+    partitions.py [BUILD] [--ranks 8] [--scenes dam heap sandbox] [--slow] [--page] [--work DIR] [--pictures DIR]
 
 Runs each scene with each balancer, prints the mean imbalance over the second half of the time, and draws
 partition_SCENE.png and imbalance.png. With --slow, rank 3 takes twice as long, in a work folder and pictures of
-their own. Runs that have come to their end in the work folder are not repeated. Exit code 1 if the balancers of one
+their own. With --page it writes the table partitions-RANKS of README.md. Runs that have come to their end in the work folder are not repeated. Exit code 1 if the balancers of one
 scene do not end in the same bits.
 """
 
@@ -30,6 +30,7 @@ from matplotlib.collections import EllipseCollection  # noqa: E402
 from matplotlib.colors import to_rgb  # noqa: E402
 from PIL import Image  # noqa: E402
 
+import tables  # noqa: E402
 from speed import environment, finished  # noqa: E402
 
 here = Path(__file__).resolve().parent
@@ -245,6 +246,7 @@ def main():
     arguments.add_argument("--ranks", type=int, default=8)
     arguments.add_argument("--scenes", nargs="+", choices=CASES, default=list(CASES))
     arguments.add_argument("--slow", action="store_true")
+    arguments.add_argument("--page", action="store_true")
     arguments.add_argument("--work", type=Path, default=here.parent / "build/partitions")
     arguments.add_argument("--pictures", type=Path, default=here)
     given = arguments.parse_args()
@@ -255,15 +257,17 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
     plt.rcParams.update(STYLE)
 
-    agree, all_runs = True, {}
+    agree, all_runs, rows = True, {}, []
     print(f"{'scene':10}{'balancer':14}{'imbalance, 2nd half':>20}{'seconds':>10}")
     for scene in given.scenes:
         runs = all_runs[scene] = {}
+        rows.append([scene])
         for name in BALANCERS:
             runs[name] = run(given.build.resolve(), work / f"{scene}_{name}", given.ranks, CASES[scene],
                              (f"decomposition.balance={name}", *slow))
             late = runs[name].imbalance(runs[name].time[-1] * np.array([0.5, 1]))[0]
             print(f"{scene:10}{name:14}{late:20.2f}{runs[name].perf['wall_seconds']:10.1f}", flush=True)
+            rows[-1].append(f"{late:.2f}")
         prints = {r.perf["fingerprint"] for r in runs.values()}
         print(f"{scene}: " + ("all fingerprints agree" if len(prints) == 1 else "FINGERPRINTS DIFFER"), flush=True)
         agree = agree and len(prints) == 1
@@ -274,6 +278,9 @@ def main():
     save(draw_imbalance(all_runs), drawn)
     manifest.record([drawn], [r.folder for runs in all_runs.values() for r in runs.values()],
                     [CASES[scene].scene for scene in given.scenes])
+    if given.page:
+        tables.write(here / "README.md", f"partitions-{given.ranks}{suffix}", tables.origin(tables.commit_of(given.build)),
+                     tables.markdown(("scene", *BALANCERS), rows))
     return 0 if agree else 1
 
 

@@ -5,6 +5,7 @@
     scaling.py SCENE --ranks 1 2 4 8 --steps 500 --weak x     weak: domain, start and tiles grow along x with the ranks
     ... --print               only the commands, for a batch job; what they leave in --out is taken when run again
     ... --launcher "srun -n"  instead of "mpirun -np"
+    ... --table NAME          writes the table NAME of README.md
 
 Writes scaling.png and scaling.csv into --out. Runs that are there already are not repeated. Exit code 1 if
 fingerprints of one scene differ.
@@ -25,6 +26,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
+import tables  # noqa: E402
 from speed import environment, finished  # noqa: E402
 
 here = Path(__file__).resolve().parent
@@ -133,6 +135,7 @@ def main():
     arguments.add_argument("--out", type=Path, default=Path("out/scaling"))
     arguments.add_argument("--launcher", default="mpirun -np")
     arguments.add_argument("--print", action="store_true")
+    arguments.add_argument("--table", metavar="NAME")
     given = arguments.parse_args()
     given.scene, given.ranks = given.scene.resolve(), sorted(given.ranks)
     if given.weak and any(n % given.ranks[0] for n in given.ranks):
@@ -158,6 +161,12 @@ def main():
         print(f"{r['ranks']:5} ranks {r['particles']:10} particles {r['seconds']:8.2f} s {r['speed'] / 1e6:8.2f} M/s  "
               f"efficiency {e:.2f}  imbalance {r['imbalance']:.2f}  waiting {r['waiting']:.0%}  "
               f"deciding {r['deciding']:.1%}  migrating {r['migrating']:.1%}")
+    if given.table:
+        tables.write(here / "README.md", given.table, tables.origin(
+            tables.commit_of(given.build), f"{given.scene.name}, {'weak' if given.weak else 'strong'}, {given.steps} steps"),
+            tables.markdown(("ranks", "particles", "M particle-steps/s", "efficiency", "imbalance", "waiting", "halo copies"),
+                            [(r["ranks"], r["particles"], f"{r['speed'] / 1e6:.2f}", f"{e:.2f}", f"{r['imbalance']:.2f}",
+                              f"{r['waiting']:.1%}", f"{r['halo']:.3f}") for r, e in zip(best, efficiency)]))
     print("all fingerprints agree" if agree else "FINGERPRINTS DIFFER")
     return 0 if agree else 1
 

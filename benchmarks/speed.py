@@ -3,6 +3,7 @@
 
 speed.py BUILD                two ranks against one on a balanced scene of 200,000 particles
 speed.py BUILD --lammps LMP   also LAMMPS's sph/taitwater on the 3D dam break (peers/build_lammps.sh makes LMP)
+speed.py BUILD ... --page     and writes the table of README.md
 """
 import argparse
 import json
@@ -15,6 +16,8 @@ import sys
 import tempfile
 import tomllib
 from pathlib import Path
+
+import tables
 
 here = Path(__file__).resolve().parent
 environment = dict(
@@ -89,15 +92,22 @@ def main():
     arguments.add_argument("build", type=Path)
     arguments.add_argument("--lammps", type=Path)
     arguments.add_argument("--repeats", type=int, default=5)
+    arguments.add_argument("--page", action="store_true")
     options = arguments.parse_args()
     build = options.build.resolve()
 
-    ratios = []
+    rows, ratios = [], []
+
+    def report(what, speeds):
+        spread = f"{min(ratios):.2f} to {max(ratios):.2f}"
+        rows.append((what, speeds, f"{statistics.median(ratios):.2f}x", spread))
+        print(f"{what}: {speeds} {statistics.median(ratios):.2f}x, {spread} in {options.repeats}")
+
     for _ in range(options.repeats):
         one = loop_seconds(ours(build, "vortices_200k.toml", 1, 300))
         two = loop_seconds(ours(build, "vortices_200k.toml", 2, 300))
         ratios.append(one / two)
-    print(f"two ranks / one rank, 200,704 particles: {statistics.median(ratios):.2f}x  {sorted(round(r, 2) for r in ratios)}")
+    report("two ranks over one, 200,704 particles", "")
 
     if options.lammps:
         for precision in ("mixed", "double"):
@@ -109,8 +119,10 @@ def main():
                 speeds.append((mine, theirs))
                 ratios.append(mine / theirs)
             mine, theirs = (statistics.median(column) / 1e6 for column in zip(*speeds))
-            print(f"3D dam break, {precision}: {mine:.0f} M directed pairs/s, LAMMPS sph/taitwater {theirs:.0f}: "
-                  f"{statistics.median(ratios):.2f}x  {sorted(round(r, 2) for r in ratios)}")
+            report(f"3D dam break over LAMMPS's sph/taitwater, {precision}", f"{mine:.0f}, {theirs:.0f} M directed pairs/s")
+    if options.page:
+        tables.write(here / "README.md", "speed", tables.origin(tables.commit_of(build)),
+                     tables.markdown(("", "speeds", "median of ratios", "all"), rows))
 
 
 if __name__ == "__main__":

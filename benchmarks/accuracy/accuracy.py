@@ -2,6 +2,7 @@
 """Speed against error: each case at several resolutions and with several formulations.
 
     accuracy.py [BUILD] [--cases taylor_green ...] [--sizes 25 50] [--formulations default ida] [--work DIR] [--out DIR]
+    ... --page [--busy]     enters the results into results.json and the table of README.md, CPU seconds too unless busy
 
 Prints a table for each case; writes report.md and a chart of CPU seconds against error for each case to OUT. One rank;
 CPU seconds are those of computation. Runs that have come to their end in the work folder are only measured again.
@@ -18,6 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
+import page  # noqa: E402
 from runs import Runner, source, write_start  # noqa: E402
 
 CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "poiseuille", "couette", "cavity", "cavity_1000",
@@ -119,6 +121,8 @@ def main():
     arguments.add_argument("--work", type=Path, default=source / "build/accuracy")
     arguments.add_argument("--out", type=Path, default=source / "build/accuracy")
     arguments.add_argument("--jobs", type=int, default=2)
+    arguments.add_argument("--page", action="store_true")
+    arguments.add_argument("--busy", action="store_true", help="others use the machine: CPU seconds of before stay")
     given = arguments.parse_args()
     for folder in (given.work, given.out):
         folder.mkdir(parents=True, exist_ok=True)
@@ -131,6 +135,9 @@ def main():
         print("\n".join(lines), flush=True)
         table.draw(given.out / f"{name}.png")
         report += [*lines, f"![{name}]({name}.png)\n"]
+        if given.page:
+            page.keep(name, table.runs, table.values, given.busy)
+            page.write()
     (given.out / "report.md").write_text("\n".join(report))
 
 

@@ -12,6 +12,7 @@ import numpy as np
 here = Path(__file__).resolve().parent
 source = here.parent.parent
 sys.path.append(str(source / "benchmarks"))
+import tables  # noqa: E402, F401
 from speed import environment, log_of, run_scene  # noqa: E402, F401
 
 

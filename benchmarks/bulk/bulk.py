@@ -2,6 +2,7 @@
 """Bulk behaviour of grains against experiments and published simulations; numbers, and pictures in PICTURES.
 
     bulk.py [BUILD] [--cases column repose incline stable_wedge quiet sandbox] [--work DIR] [--jobs 2] [--pictures DIR]
+    ... --page              writes the tables of README.md, one a case
 
 Each run takes one core, a minute or several; all of `sandbox` takes an hour of them. Runs that have come to
 their end in the work folder are only measured again.
@@ -18,6 +19,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from runs import Runner, here, source  # noqa: E402
 import manifest  # noqa: E402
+import tables  # noqa: E402
 
 CASES = {"column": 2, "repose": 1, "incline": 2, "stable_wedge": 2, "quiet": 1, "sandbox": 1}  # and the panels of its picture
 
@@ -29,6 +31,7 @@ def main():
     arguments.add_argument("--work", type=Path, default=source / "build/bulk")
     arguments.add_argument("--jobs", type=int, default=2)
     arguments.add_argument("--pictures", type=Path, default=here)
+    arguments.add_argument("--page", action="store_true")
     given = arguments.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
     runner = Runner(given.build.resolve(), given.work.resolve(), given.jobs)
@@ -38,6 +41,8 @@ def main():
         runner.asked.clear()
         lines, result = case.measure(runner)
         print(f"{case.__doc__}\n" + "\n".join(lines) + "\n", flush=True)
+        if given.page:
+            tables.write(here / "README.md", name, tables.origin(tables.commit_of(given.build)), ["```", *lines, "```"])
         figure, axes = plt.subplots(1, CASES[name], figsize=(4 * max(CASES[name], 1.5), 3), layout="constrained")
         case.draw(axes, result)
         figure.savefig(given.pictures / f"{name}.png")
