@@ -3,6 +3,7 @@ each size and what else SHOWN names, with the commit of the run."""
 
 import importlib
 import json
+import re
 import time
 from pathlib import Path
 
@@ -54,7 +55,7 @@ def lines():
     rows = []
     for case, formulations in read().items():
         module = importlib.import_module(case)
-        title = module.__doc__.strip().splitlines()[0].split(":")[0].rstrip(".")
+        title = re.split(r"(?<! ): |\.?$", module.__doc__.strip().splitlines()[0])[0]
         for k, (name, by_size) in enumerate(formulations.items()):
             sizes = sorted(by_size, key=int)
             entries = [by_size[n] for n in sizes]
