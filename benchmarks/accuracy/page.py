@@ -51,6 +51,13 @@ def several(entries, key):
     return ", ".join(found) if set(found) != {"-"} else ""
 
 
+def order(sizes, entries, key):
+    """Of convergence, between the two finest."""
+    if len(sizes) < 2 or not min(e.get(key, 0) for e in entries[-2:]) > 0:
+        return ""
+    return f"{np.log(entries[-2][key] / entries[-1][key]) / np.log(int(sizes[-1]) / int(sizes[-2])):.1f}"
+
+
 def lines():
     rows = []
     for case, formulations in read().items():
@@ -60,13 +67,13 @@ def lines():
             sizes = sorted(by_size, key=int)
             entries = [by_size[n] for n in sizes]
             if all("stopped" in e for e in entries):
-                rows.append((title if k == 0 else "", name, ", ".join(sizes), "stopped by a guard", "", "", ""))
+                rows.append((title if k == 0 else "", name, ", ".join(sizes), "stopped by a guard", "", "", "", ""))
                 continue
             also = [f"{key} {several(entries, key)}" for key in SHOWN.get(case, ()) if several(entries, key)]
             rows.append((f"{title}; {module.ERROR}" if k == 0 else "", name, ", ".join(sizes),
-                         several(entries, module.ERROR), "; ".join(also).replace("|", "/"), several(entries, "cpu"),
-                         ", ".join(sorted({e["commit"] for e in entries if "commit" in e}))))
-    return tables.markdown(("case; error", "formulation", "sizes", "errors", "also", "CPU s", "commit"), rows)
+                         several(entries, module.ERROR), order(sizes, entries, module.ERROR), "; ".join(also),
+                         several(entries, "cpu"), ", ".join(sorted({e["commit"] for e in entries if "commit" in e}))))
+    return tables.markdown(("case; error", "formulation", "sizes", "errors", "order", "also", "CPU s", "commit"), rows)
 
 
 def write():
