@@ -45,9 +45,9 @@ def keep(case, runs, values, busy):
     RESULTS.write_text(json.dumps(results, indent=1) + "\n")
 
 
-def several(entries, key):
+def several(entries, key, digits=2):
     """Of all sizes; nothing where none has it."""
-    found = [f"{e[key]:.2g}" if key in e else "-" for e in entries]
+    found = [f"{e[key]:.{digits}g}" if key in e else "-" for e in entries]
     return ", ".join(found) if set(found) != {"-"} else ""
 
 
@@ -69,7 +69,7 @@ def lines():
             if all("stopped" in e for e in entries):
                 rows.append((title if k == 0 else "", name, ", ".join(sizes), "stopped by a guard", "", "", "", ""))
                 continue
-            also = [f"{key} {several(entries, key)}" for key in SHOWN.get(case, ()) if several(entries, key)]
+            also = [f"{key} {several(entries, key, 3)}" for key in SHOWN.get(case, ()) if several(entries, key)]
             rows.append((f"{title}; {module.ERROR}" if k == 0 else "", name, ", ".join(sizes),
                          several(entries, module.ERROR), order(sizes, entries, module.ERROR), "; ".join(also),
                          several(entries, "cpu"), ", ".join(sorted({e["commit"] for e in entries if "commit" in e}))))
