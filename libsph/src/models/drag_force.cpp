@@ -32,6 +32,16 @@ double unscreened(double solid) {
   return e2 * e2 / (a * a + solid * solid * solid * (solid - 4));
 }
 
+/// Of a grain at random among others the averages see its own share whole and, where it keeps them out, less of the
+/// others: solid = c + unscreened(c) own, c that of them all far and wide; 0 if it is alone.
+double solid_around(double solid, double own) {
+  constexpr int rounds = 8;
+  constexpr double most = 0.74;
+  double c = 0;
+  for (int round = 0; round < rounds; ++round) c = std::clamp(solid - unscreened(c) * own, 0.0, most);
+  return c;
+}
+
 }  // namespace
 
 DragForce::DragForce(const Scene& scene)
@@ -51,7 +61,7 @@ Push DragForce::operator()(const FluidAround& around, const GrainInFluid& grain,
   constexpr double most = 0.8;  // of a zeta: beyond that the grain is too large for h
   const double volume = volume_of(0.5 * grain.diameter), mass_over_dt = grain.mass / dt;
   const double h = scene_->kernel.smoothing_length, solid = 1 - around.porosity;
-  const double screen = scene_->grains.drag.own_disturbance ? unscreened(std::clamp(solid, 0.0, 0.74)) : 0;
+  const double screen = scene_->grains.drag.own_disturbance ? unscreened(solid_around(solid, around.own)) : 0;
   DragState state{std::min(1.0, around.porosity + screen * around.own), 0, around.density, around.viscosity,
                   grain.diameter};
   Double3 moved{}, relative{};
