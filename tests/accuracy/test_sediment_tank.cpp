@@ -1,104 +1,28 @@
 // Grains in a tank of fluid with walls and a surface: beds that stay at rest, melts whose viscosity is implicit, grains
 // that float, grains lighter than the fluid.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "measure.hpp"
 #include "pinned.hpp"
 #include "sph/models/drag_force.hpp"
 #include "sph/output/monitors.hpp"
+#include "tank.hpp"
 
 namespace {
 
 using namespace sph;
+using namespace tank;
 
-const decomp::Comm& self() {
-  static const decomp::Comm comm(MPI_COMM_SELF);
-  return comm;
-}
-
-struct Tank {
-  double width, depth, viscosity, jitter;
-  std::string terms, grain, fill;
-};
-
-/// Spacings of 1 m, g = 1 m/s^2, c = 50 m/s, rho = 1000 kg/m^3.
-Simulation filled(const Tank& tank, const std::vector<std::string>& options = {}) {
-  return {self(), parse_scene(fmt::format(R"(
-[domain]
-lower = [0, 0, -4]
-upper = [{0}, {0}, {1}]
-periodic = [true, true, false]
-gravity = [0, 0, -1]
-[contact]
-law = "linear"
-[drag]
-law = "stokes"
-{3}
-[[group]]
-name = "water"
-kind = "fluid"
-density = 1000
-sound_speed = 50
-viscosity = {4}
-[[group]]
-name = "wall"
-kind = "wall"
-[[group]]
-name = "grains"
-kind = "grain"
-normal_stiffness = 1e4
-restitution = 0.5
-{5}
-[start]
-spacing = 1
-jitter = {7}
-pressure = "hydrostatic"
-surface_height = {2}
-[[start.region]]
-group = "wall"
-[[start.region]]
-group = "none"
-shape = "box"
-lower = [0, 0, 0]
-upper = [{0}, {0}, {1}]
-[[start.region]]
-group = "water"
-shape = "box"
-lower = [0, 0, 0]
-upper = [{0}, {0}, {2}]
-[[start.grains]]
-group = "grains"
-{6}
-[time]
-steps = 1
-)",
-                                          tank.width, tank.depth + 4, tank.depth, tank.terms, tank.viscosity,
-                                          tank.grain, tank.fill, tank.jitter),
-                              "tank", options)};
-}
-
-double mean_height(const Simulation& s, std::size_t set) {
-  const Particles& p = s.particles(set);
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < p.owned(); ++i) {
-    const double z = s.scale().metres(p.data<Field::position>()[i * 3 + 2]);
-    if (set == 0 && p.data<Field::group>()[i] != 0) continue;
-    sum += z;
-    count += 1;
-  }
-  return sum / count;
-}
-
-void go_on(Simulation& s, double until) {
-  while (s.global().time < until) s.step();
-}
-
-const std::string bed = "density = 2500\ndiameter = 0.49\nfixed = true", fine = "[kernel]\nh_over_dx = 1";
+const std::string bed = "density = 2500\ndiameter = 0.49\nfixed = true";
 
 // Porosity, reaction and the pressure of walls that do not belong together feed a flow through the bed for ever.
 TEST(Sediment, ABedOnAWallStaysAtRest) {
-  const Tank tank{11, 10, 50, 0.05, fine, bed, "lower = [0, 0, 0]\nupper = [11, 11, 5]\nspacing = 0.5"};
+  const Tank tank{.width = 11,
+                  .depth = 10,
+                  .viscosity = 50,
+                  .grain = bed,
+                  .fill = "lower = [0, 0, 0]\nupper = [11, 11, 5]\nspacing = 0.5",
+                  .h_over_dx = 1,
+                  .jitter = 0.05};
   Simulation s = filled(tank);
   go_on(s, 1);
   const double early = kinetic_energy(s);
@@ -109,7 +33,12 @@ TEST(Sediment, ABedOnAWallStaysAtRest) {
 // Density diffusion knows what the pressure of a fluid that grains take up room in is at rest: with the weight of the
 // fluid alone it sinks.
 TEST(Sediment, ABedInMidWaterDoesNotMakeItSink) {
-  const Tank tank{11, 10, 50, 0, fine, bed, "lower = [0, 0, 3]\nupper = [11, 11, 7]\nspacing = 0.5"};
+  const Tank tank{.width = 11,
+                  .depth = 10,
+                  .viscosity = 50,
+                  .grain = bed,
+                  .fill = "lower = [0, 0, 3]\nupper = [11, 11, 7]\nspacing = 0.5",
+                  .h_over_dx = 1};
   Simulation s = filled(tank);
   go_on(s, 2);
   const double before = mean_height(s, 0);
@@ -119,15 +48,12 @@ TEST(Sediment, ABedInMidWaterDoesNotMakeItSink) {
 
 // Implicit viscosity must spread what grains do to the fluid, whatever the time step: here nu dt / h^2 = 1.3, 0.16.
 TEST(Sediment, GrainsSettleAlikeWithImplicitViscosity) {
-  const std::string terms =
-      "[terms]\nimplicit_viscosity = true\nviscosity_tolerance = 1e-7\n[kernel]\nh_over_dx = 1.2";
-  const Tank tank{13,
-                  12,
-                  1e5,
-                  0,
-                  terms,
-                  "density = 10000\ndiameter = 0.6",
-                  "lower = [6.1, 6.2, 5.4]\nupper = [7.1, 7.2, 6.4]\nspacing = 1"};
+  const Tank tank{.width = 13,
+                  .depth = 12,
+                  .viscosity = 1e5,
+                  .grain = "density = 10000\ndiameter = 0.6",
+                  .fill = "lower = [6.1, 6.2, 5.4]\nupper = [7.1, 7.2, 6.4]\nspacing = 1",
+                  .more = "[terms]\nimplicit_viscosity = true\nviscosity_tolerance = 1e-7"};
   const auto speed = [&](const std::string& cfl) {
     Simulation s = filled(tank, {"time.cfl=" + cfl});
     go_on(s, 1);
@@ -143,13 +69,12 @@ TEST(Sediment, GrainsSettleAlikeWithImplicitViscosity) {
 
 // Half as heavy as the fluid: half of it is below the surface.
 TEST(Sediment, CorkFloatsHalfImmersed) {
-  const Tank tank{11,
-                  9,
-                  20,
-                  0,
-                  fine,
-                  "density = 500\ndiameter = 0.5",
-                  "lower = [5, 5, 7.5]\nupper = [6, 6, 8.5]\nspacing = 1"};
+  const Tank tank{.width = 11,
+                  .depth = 9,
+                  .viscosity = 20,
+                  .grain = "density = 500\ndiameter = 0.5",
+                  .fill = "lower = [5, 5, 7.5]\nupper = [6, 6, 8.5]\nspacing = 1",
+                  .h_over_dx = 1};
   Simulation s = filled(tank, {"contact.largest_overlap=0.5"});
   go_on(s, 12);
   EXPECT_NEAR(PINNED(mean_height(s, 1)), 9, 0.1);
@@ -157,19 +82,53 @@ TEST(Sediment, CorkFloatsHalfImmersed) {
 
 // Where grains are light the pressure moves them, too, and sound is faster: sqrt(1 + phi rho / (e rho_s)) = 6.6 times.
 TEST(Sediment, LightGrainsMakeStepsShorter) {
-  const Tank tank{11,
-                  8,
-                  10,
-                  0.05,
-                  fine,
-                  "density = 10\ndiameter = 0.5",
-                  "lower = [0, 0, 2]\nupper = [11, 11, 6]\nspacing = 0.6"};
+  const Tank tank{.width = 11,
+                  .depth = 8,
+                  .viscosity = 10,
+                  .grain = "density = 10\ndiameter = 0.5",
+                  .fill = "lower = [0, 0, 2]\nupper = [11, 11, 6]\nspacing = 0.6",
+                  .h_over_dx = 1,
+                  .jitter = 0.05};
   Simulation s = filled(tank, {"group.grains.normal_stiffness=2"});
   for (int k = 0; k < 40; ++k) s.step();
   EXPECT_LT(s.global().dt * 50, 0.2);
   // They rise, which gives no more than the weight of the fluid in their place.
   const double buoyant = 990 * volume_of(0.25) * static_cast<double>(s.particles(1).owned());
   EXPECT_LT(kinetic_energy(s), buoyant * 4);
+}
+
+// A plane that is in them, and moves: of no grain that stays is there a contact, a mass or a longest way.
+TEST(Sediment, GluedGrainsBesidePlanesStayFinite) {
+  const Tank tank{.width = 11,
+                  .depth = 8,
+                  .viscosity = 50,
+                  .grain = bed,
+                  .fill = "lower = [0, 0, 1]\nupper = [11, 11, 3]\nspacing = 0.5",
+                  .h_over_dx = 1,
+                  .more = R"(
+[[wall]]
+name = "floor"
+material = "grains"
+point = [0, 0, 1.1]
+normal = [0, 0, 1]
+velocity = [0.1, 0, 0.01])"};
+  for (const char* law : {"linear", "hertz"}) {
+    std::vector<std::string> options{fmt::format("contact.law={}", law)};
+    if (law == std::string("hertz"))
+      options.insert(options.end(), {"group.grains.normal_stiffness=", "group.grains.young_modulus=1e6",
+                                     "group.grains.poisson_ratio=0.25"});
+    Simulation s = filled(tank, options);
+    const double start = mean_height(s, 1);
+    for (int k = 0; k < 20; ++k) s.step();
+    EXPECT_GT(s.global().dt, 1e-3) << law;
+    EXPECT_TRUE(std::isfinite(kinetic_energy(s))) << law;
+    EXPECT_EQ(mean_height(s, 1), start) << law;
+    const Particles& grains = s.particles(1);
+    for (std::size_t k = 0; k < grains.owned() * 3; ++k) {
+      ASSERT_TRUE(std::isfinite(grains.data<Field::fluid_force>()[k])) << law;
+      ASSERT_EQ(grains.data<Field::velocity>()[k], 0) << law;
+    }
+  }
 }
 
 }  // namespace
