@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "grain_fixture.hpp"
+#include "models/stability.hpp"
 #include "output/extra_columns.hpp"
 #include "sph/core/error.hpp"
 #include "sph/laws/drag/di_felice.hpp"
@@ -266,6 +267,23 @@ TEST(Drag, LimitsTheTimeStep) {
   fixed.push_back("time.dt=2e-5");
   Simulation given(world(), parse_scene(bed, "bed", fixed));
   EXPECT_THROW(given.step(), GuardError);
+}
+
+// Where no grain moves the step of contacts is infinite, and a plane at rest goes 0 times that.
+TEST(Drag, GluedGrainsRefuseNoPlane) {
+  const std::string plane =
+      "[[wall]]\nname = \"floor\"\nmaterial = \"sand\"\npoint = [0, 0, 0.001]\nnormal = [0, 0, 1]\n";
+  const std::string lattice = "lower = [0, 0, 0.001]\nupper = [0.013, 0.012, 0.003]\nspacing = 0.0005\n";
+  for (const std::string speed : {"0", "-1e4"}) {
+    const std::vector<std::string> options{"domain.periodic=[true, true, false]",
+                                           "wall.floor.velocity=[0, 0, " + speed + "]"};
+    const auto check = [&](const std::string& grains) {
+      check_time_step(parse_scene(box("diameter = 0.0004\n" + grains, lattice, plane), "glued", options));
+    };
+    EXPECT_NO_THROW(check("fixed = true\n")) << speed;
+    if (speed == "0") continue;
+    EXPECT_THROW(check(""), InputError);
+  }
 }
 
 }  // namespace
