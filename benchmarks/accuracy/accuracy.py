@@ -27,7 +27,7 @@ CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "pois
          "drop_at_rest", "drop_mode", "elliptic_drop", "oscillating_drop", "rotating_patch", "dam_break", "dam_break_3d",
          "sloshing", "kelvin_helmholtz", "kelvin_helmholtz_2", "added_mass", "rayleigh_wave", "standing_wave", "standing_wave_2500", "acoustic", "shock_tube", "shock_tube_10", "sod", "sod_equal", "sedov", "sedov_3d",
          "gaussian_blast", "noh", "cantilever", "rings", "spinning_plate",
-         "bar_wave", "gravity_patch", "cylinder", "fragmentation")
+         "bar_wave", "gravity_patch", "cylinder", "fragmentation", "held_grain", "sinking_layer")
 
 
 def order(sizes, errors):

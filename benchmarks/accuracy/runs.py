@@ -26,11 +26,11 @@ class Snapshot:
             names = ("position", "velocity", "density", "pressure", "mass", "group")
             position, velocity, density, pressure, mass, group = (particles[name][()] for name in names)
             kinds = [g["kind"] for g in tomllib.loads(file.attrs["scene"])["group"]]
-            stress = particles["stress"][()] if "stress" in particles else None
+            stress, force = (particles[name][()] if name in particles else None for name in ("stress", "fluid_force"))
         moves = np.array([kind != "wall" for kind in kinds])[group]
         self.position, self.velocity, self.density = position[moves], velocity[moves], density[moves]
         self.pressure, self.mass, self.group = pressure[moves], mass[moves], group[moves]
-        self.stress = None if stress is None else stress[moves]
+        self.stress, self.fluid_force = (None if values is None else values[moves] for values in (stress, force))
 
     @property
     def kinetic(self):
