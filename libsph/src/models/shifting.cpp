@@ -69,9 +69,9 @@ double Shifting::start(const decomp::Comm& comm, Particles& particles, GlobalSta
   for (int k = 0; k < 3; ++k) {
     MotionSums motion = motion_sums(moving, global);
     comm.sum(std::span<std::int64_t>(motion.sums));
-    std::array<double, 1> most{motion.largest};
-    comm.max(most);
-    motion.largest = most[0];
+    std::array<double, 1> largest{motion.largest};
+    comm.max(largest);
+    motion.largest = largest[0];
     global.motion = common_motion(motion, global);
   }
   return Model::start(comm, particles, global);
