@@ -201,6 +201,13 @@ TEST(GrainGuards, NoTimeStepIsRefused) {
   EXPECT_SAYS(text, "leaves no time step (0 s)");
 }
 
+TEST(GrainGuards, SoEndlessATimeStepIsRefused) {
+  const std::string text = message_of<InputError>([] {
+    check_time_step(parse_scene(bare, "bare", {"group.sand.normal_stiffness=1e-320", "time.dt="}));
+  });
+  EXPECT_SAYS(text, "leaves no time step (inf s)");
+}
+
 TEST(Findings, LowestIdSpeaks) {
   Findings mine;
   EXPECT_EQ(mine.agree(world()), "");

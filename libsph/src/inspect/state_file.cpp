@@ -1,5 +1,7 @@
 #include "inspect/state_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "checkpoint/checkpoint_files.hpp"
@@ -85,7 +87,10 @@ class SnapshotFile : public StateFile {
     s.kind = "snapshot";
     s.path = path;
     s.dim = static_cast<int>(file.integer("dim"));
-    s.rows = static_cast<std::uint64_t>(file.integer("particles"));
+    s.rows = file.rows("particles/id");
+    if (file.integer("particles") != static_cast<std::int64_t>(s.rows))
+      throw InputError(fmt::format("{}: says that it has {} particles, but has {} ids; it is damaged",
+                                   path.string(), file.integer("particles"), s.rows));
     s.global = {file.integer("step"),
                 file.real("time"),
                 file.real("dt"),

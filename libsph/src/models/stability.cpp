@@ -16,21 +16,22 @@ namespace {
 constexpr double rounded = 0.99;  // what is below a limit is so with three digits too
 
 void check_contact_step(const Scene& scene) {
-  check_wall_speeds(scene);
   const bool move = std::ranges::any_of(
       scene.groups, [](const Group& g) { return g.grain.largest_radius > 0 && !g.grain.fixed; });
-  if (!move) return;
+  if (!move) return check_wall_speeds(scene);
   const GrainTimeSteps steps = grain_time_steps(scene);
   if (scene.time.dt && *scene.time.dt > steps.limit)
     throw InputError(
         fmt::format("{}: time.dt: {:.6g} s is above the limit of a stable contact, {:.6g} s; set it "
                     "to {:.6g} s or less",
                     scene.file, *scene.time.dt, steps.limit, steps.advised));
-  if (!(steps.limit > 0 && std::isfinite(steps.advised) && grain_step(scene) > 0))
+  const double dt = grain_step(scene);
+  if (!(steps.limit > 0 && std::isfinite(steps.advised) && dt > 0 && std::isfinite(dt)))
     throw InputError(
         fmt::format("{}: group: the stiffness of grains, over the square of their restitution where that "
                     "makes it, leaves no time step ({:.6g} s); check its unit",
                     scene.file, steps.limit));
+  check_wall_speeds(scene);
 }
 
 }  // namespace

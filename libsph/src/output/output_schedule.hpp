@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace sph {
 
@@ -10,17 +11,20 @@ class OutputSchedule {
  public:
   /// A new run, which begins with output. An interval of 0 is never due.
   explicit OutputSchedule(double interval) : interval_(interval) {}
-  [[nodiscard]] bool due(double time) const { return interval_ > 0 && time >= next_ * interval_; }
+  [[nodiscard]] bool due(double time) const { return interval_ > 0 && time >= wanted_; }
   /// Output at `time` is done: the next multiple beyond it is wanted.
   void done(double time) {
     if (interval_ <= 0) return;
-    next_ = std::floor(time / interval_);
-    while (next_ * interval_ <= time) ++next_;  // the quotient may have been rounded
+    double k = std::floor(time / interval_);
+    wanted_ = k * interval_;
+    for (int more = 0; more < 3 && wanted_ <= time; ++more) wanted_ = ++k * interval_;  // both may be rounded
+    // Multiples that cannot be told apart: every step is beyond one.
+    if (wanted_ <= time || !std::isfinite(wanted_))
+      wanted_ = std::nextafter(time, std::numeric_limits<double>::infinity());
   }
 
  private:
-  double interval_;
-  double next_ = 0;  ///< a whole number
+  double interval_, wanted_ = 0;
 };
 
 }  // namespace sph
