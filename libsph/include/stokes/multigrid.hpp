@@ -1,0 +1,45 @@
+// One V-cycle for the viscous operator of a staggered grid: linear transfers, restriction their transpose over 2^dim,
+// coarse viscosities means of finer ones (arithmetic; harmonic at the finest edges), and on the coarsest grid, which every
+// rank has, a dense Cholesky factor. Coarse grids go to fewer ranks when tiles cannot be halved any more.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "stokes/level.hpp"
+
+namespace stokes {
+
+class Multigrid {
+ public:
+  /// `boxes`: of the finest grid (even_boxes). Throws decomp::InputError for a number of cells that is not m 2^k with
+  /// m <= 7 along each axis.
+  Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes);
+
+  [[nodiscard]] Level& finest() { return *levels_.front(); }
+  [[nodiscard]] std::size_t depth() const { return levels_.size(); }
+
+  /// Of the finest cells, over its patch; copies need not be up to date. Collective.
+  void set_viscosity(Field cells);
+  /// u = about A^-1 f. Collective.
+  void cycle(const Velocity& f, Velocity& u);
+
+ private:
+  /// Between a grid and the next coarser one, whose cells are at first where their finer ones are.
+  struct Transfer {
+    Patch half;
+    decomp::BoxExchange down, up;
+  };
+  void cycle(std::size_t k, const Velocity& f, Velocity& u);
+  /// The values of a finer grid's coarse cells go to those who have them.
+  void restrict_to(std::size_t coarse, std::vector<Field*> halves, std::vector<Field*> values);
+  void factorise();
+  void solve_coarsest(const Velocity& f, Velocity& u) const;
+
+  decomp::Comm alone_;
+  std::vector<std::unique_ptr<Level>> levels_;
+  std::vector<std::unique_ptr<Transfer>> transfers_;  ///< of level k to k + 1
+  std::vector<double> factor_;                        ///< of the coarsest operator, lower triangle by rows
+};
+
+}  // namespace stokes

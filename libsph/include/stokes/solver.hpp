@@ -1,0 +1,54 @@
+// Slow flow of a fluid of variable viscosity: -div 2 eta eps(u) + grad p = f, div u = 0, on a staggered grid.
+// FGMRES (Saad 1993), preconditioned from the right by the block triangle [A G; 0 -S], S = 1 / eta the pressure's mass
+// and A^-1 one V-cycle. Dot products are exact sums of terms that are rounded once, updates read old values only, and the
+// grid's cuts meet no arithmetic: the same bits on any number of ranks.
+#pragma once
+
+#include <vector>
+
+#include "stokes/multigrid.hpp"
+
+namespace stokes {
+
+/// Velocities on faces and pressures in cells, over the finest patch.
+struct Flow {
+  Velocity u;
+  Field p;
+};
+
+struct Effort {
+  int iterations = 0;
+  double residual = 0;  ///< |r| / |right-hand side| at the end
+  bool converged = false;
+};
+
+class Solver {
+ public:
+  /// `boxes`: who has which cells (even_boxes).
+  Solver(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes);
+
+  [[nodiscard]] const Patch& patch() { return multigrid_.finest().patch(); }
+  [[nodiscard]] Flow make_flow();
+  /// [Pa s], over the patch; copies need not be up to date. Collective.
+  void set_viscosity(Field cells);
+  /// Improves `x` until |r| <= tolerance |f|. Where a mean velocity or pressure is free it is 0 then; where no wall holds
+  /// a component of the force its mean is taken off. Collective.
+  [[nodiscard]] Effort solve(Velocity force, Flow& x, double tolerance, int most_iterations = 200);
+
+ private:
+  /// y = K x; refreshes x.
+  void apply_all(Flow& x, Flow& y);
+  void precondition(const Flow& r, Flow& z);
+  /// Of w with each of `others`, over all ranks.
+  [[nodiscard]] std::vector<double> dots(const Flow& w, const std::vector<const Flow*>& others);
+  [[nodiscard]] double norm(const Flow& w);
+  void take_off_mean(Field& values);
+  void take_off_free_means(Velocity& u);
+  /// One cycle of the Krylov method from `r`; true: it ended because of the tolerance.
+  void improve(Flow& x, Flow r, double beta, double wanted, int most, Effort& effort);
+
+  const decomp::Comm* comm_;
+  Multigrid multigrid_;
+};
+
+}  // namespace stokes

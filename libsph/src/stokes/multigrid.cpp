@@ -1,0 +1,202 @@
+#include "stokes/multigrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "stokes/partition.hpp"
+#include "transfers.hpp"
+
+namespace stokes {
+namespace {
+
+constexpr std::int64_t coarsest = 4;         // cells along the shortest axis, at least
+constexpr std::int64_t most_coarsest = 7;    // ... along any, at most
+constexpr std::int64_t on_all_ranks = 4096;  // as few cells every rank has
+
+std::int64_t count(const Grid& g) { return g.cells[0] * g.cells[1] * g.cells[2]; }
+
+bool can_be_halved(const Grid& g) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(g.dim); ++a)
+    if (g.cells[a] % 2 != 0 || g.cells[a] / 2 < coarsest) return false;
+  return true;
+}
+
+bool are_even(const std::vector<Box>& boxes, int dim) {
+  return std::ranges::all_of(boxes, [&](const Box& b) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
+      if (b.lo[a] % 2 != 0 || b.hi[a] % 2 != 0) return false;
+    return true;
+  });
+}
+
+std::vector<Box> halves_of(std::vector<Box> boxes, int dim) {
+  for (Box& b : boxes)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) b.lo[a] /= 2, b.hi[a] /= 2;
+  return boxes;
+}
+
+void check(const Grid& g) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(g.dim); ++a)
+    if (g.cells[a] > most_coarsest)
+      throw decomp::InputError("a grid whose coarsest one has " + std::to_string(g.cells[a]) +
+                               " cells along " + "xyz"[a] + "; take m 2^k cells along each axis, m at most " +
+                               std::to_string(most_coarsest) + ", with the same k");
+}
+
+}  // namespace
+
+Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes)
+    : alone_(MPI_COMM_SELF) {
+  levels_.push_back(std::make_unique<Level>(comm, grid, std::move(boxes)));
+  while (can_be_halved(levels_.back()->grid())) {
+    const Level& fine = *levels_.back();
+    const Grid coarse = fine.grid().halved();
+    const bool everywhere = count(coarse) <= on_all_ranks;
+    const std::vector<Box> halves = halves_of(fine.boxes(), coarse.dim);
+    std::vector<Box> next{coarse.box()};
+    if (!everywhere)
+      next = are_even(halves, coarse.dim) ? halves
+                                          : even_boxes(coarse, fine.comm().size() / (1 << coarse.dim) + 1);
+    if (!everywhere) next.resize(static_cast<std::size_t>(fine.comm().size()));
+    const decomp::Comm& whose = everywhere ? alone_ : fine.comm();
+    // Each rank gets what it needs of the coarser grid around its own cells.
+    const auto me = static_cast<std::size_t>(fine.comm().rank());
+    std::vector<Box> wanted_down = next, wanted_up;
+    if (everywhere) wanted_down.assign(static_cast<std::size_t>(fine.comm().size()), coarse.box());
+    for (const Box& b : halves) wanted_up.push_back(frame_inside(coarse, b));
+    if (everywhere) wanted_up = {wanted_up[me]};
+    transfers_.push_back(std::make_unique<Transfer>(
+        Patch(coarse, halves[me]),
+        decomp::BoxExchange(fine.comm(), coarse.cells, coarse.periodic_axes(), halves, wanted_down),
+        decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up)));
+    levels_.push_back(std::make_unique<Level>(whose, coarse, next));
+  }
+  check(levels_.back()->grid());
+}
+
+void Multigrid::restrict_to(std::size_t coarse, std::vector<Field*> halves, std::vector<Field*> values) {
+  Transfer& t = *transfers_[coarse - 1];
+  std::vector<decomp::CellValues> from, to;
+  for (Field* f : halves) from.push_back(decomp::cell_values(std::span(*f), t.half.frame));
+  for (Field* f : values) to.push_back(decomp::cell_values(std::span(*f), levels_[coarse]->patch().frame));
+  t.down.copy(from, to);
+}
+
+void Multigrid::set_viscosity(Field cells) {
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    Level& level = *levels_[k];
+    level.refresh_cells(cells);
+    Field coarse;
+    if (k + 1 < levels_.size()) {
+      Field means(transfers_[k]->half.size);
+      mean_of_cells(level.patch(), cells, transfers_[k]->half, means);
+      coarse.assign(levels_[k + 1]->patch().size, 1.0);
+      restrict_to(k + 1, {&means}, {&coarse});
+    }
+    level.set_viscosity(std::move(cells), k == 0 ? EdgeMean::harmonic : EdgeMean::arithmetic);
+    cells = std::move(coarse);
+  }
+  factorise();
+}
+
+void Multigrid::cycle(const Velocity& f, Velocity& u) { cycle(0, f, u); }
+
+void Multigrid::cycle(std::size_t k, const Velocity& f, Velocity& u) {
+  Level& level = *levels_[k];
+  if (k + 1 == levels_.size()) return solve_coarsest(f, u);
+  level.smooth(f, u, true);
+  Transfer& t = *transfers_[k];
+  Level& coarse = *levels_[k + 1];
+  Velocity r = level.make_velocity(), f_coarse = coarse.make_velocity(), u_coarse = coarse.make_velocity();
+  level.residual(f, u, r);
+  level.refresh(r);
+  Velocity halves;
+  std::vector<Field*> from, to;
+  for (int a = 0; a < level.grid().dim; ++a) {
+    const auto axis = static_cast<std::size_t>(a);
+    halves[axis].assign(t.half.size, 0.0);
+    restrict_faces(level.patch(), a, r[axis], t.half, halves[axis]);
+    from.push_back(&halves[axis]);
+    to.push_back(&f_coarse[axis]);
+  }
+  restrict_to(k + 1, from, to);
+  cycle(k + 1, f_coarse, u_coarse);
+  std::vector<decomp::CellValues> owned, around;
+  for (std::size_t a = 0; a < from.size(); ++a) {
+    owned.push_back(decomp::cell_values(std::span(u_coarse[a]), coarse.patch().frame));
+    around.push_back(decomp::cell_values(std::span(halves[a]), t.half.frame));
+  }
+  t.up.copy(owned, around);
+  mirror_velocity(t.half, halves);
+  for (int a = 0; a < level.grid().dim; ++a)
+    add_prolonged(t.half, a, halves[static_cast<std::size_t>(a)], level.patch(),
+                  u[static_cast<std::size_t>(a)]);
+  level.smooth(f, u, false);
+}
+
+// Column by column, A of a unit vector. Where a constant velocity meets no resistance, its square is added: what a
+// force without a mean asks for then has none either.
+void Multigrid::factorise() {
+  Level& level = *levels_.back();
+  const Patch& p = level.patch();
+  const auto dim = static_cast<std::size_t>(p.grid.dim);
+  const auto cells = static_cast<std::size_t>(count(p.grid)), n = dim * cells;
+  const auto row = [&](std::size_t r) {
+    const auto c = static_cast<std::int64_t>(r / dim);
+    return p.at(c % p.grid.cells[0], c / p.grid.cells[0] % p.grid.cells[1],
+                c / (p.grid.cells[0] * p.grid.cells[1]));
+  };
+  factor_.assign(n * n, 0.0);
+  Velocity u = level.make_velocity(), y = level.make_velocity();
+  for (std::size_t c = 0; c < n; ++c) {
+    u[c % dim][row(c)] = 1;
+    level.refresh(u);
+    const bool wall = u[c % dim][row(c)] == 0;
+    apply(p, level.viscosity(), u, y);
+    for (std::size_t r = 0; r < n; ++r) factor_[r * n + c] = y[r % dim][row(r)];
+    if (wall) factor_[c * n + c] = 1;
+    for (Field& f : u) std::ranges::fill(f, 0.0);
+  }
+  for (std::size_t a = 0; a < dim; ++a)
+    if (p.grid.slides(static_cast<int>(a))) {
+      const double share = factor_[a * n + a] / static_cast<double>(cells);
+      for (std::size_t r = a; r < n; r += dim)
+        for (std::size_t c = a; c < n; c += dim) factor_[r * n + c] += share;
+    }
+  for (std::size_t r = 0; r < n; ++r)
+    for (std::size_t c = 0; c <= r; ++c) {
+      double s = factor_[r * n + c];
+      for (std::size_t k = 0; k < c; ++k) s -= factor_[r * n + k] * factor_[c * n + k];
+      if (r == c && !(s > 0)) throw decomp::GuardError("the coarsest viscous operator is not positive");
+      factor_[r * n + c] = r == c ? std::sqrt(s) : s / factor_[c * n + c];
+    }
+}
+
+void Multigrid::solve_coarsest(const Velocity& f, Velocity& u) const {
+  const Patch& p = levels_.back()->patch();
+  const auto dim = static_cast<std::size_t>(p.grid.dim);
+  const std::size_t n = dim * static_cast<std::size_t>(count(p.grid));
+  std::vector<double> x(n);
+  std::size_t r = 0;
+  for_lines(p, [&](std::ptrdiff_t first, std::int64_t cells, std::int64_t, std::int64_t) {
+    for (std::ptrdiff_t k = first; k < first + cells; ++k)
+      for (std::size_t a = 0; a < dim; ++a) x[r++] = f[a][k];
+  });
+  for (r = 0; r < n; ++r) {
+    for (std::size_t k = 0; k < r; ++k) x[r] -= factor_[r * n + k] * x[k];
+    x[r] /= factor_[r * n + r];
+  }
+  for (r = n; r-- > 0;) {
+    for (std::size_t k = r + 1; k < n; ++k) x[r] -= factor_[k * n + r] * x[k];
+    x[r] /= factor_[r * n + r];
+  }
+  r = 0;
+  for_lines(p, [&](std::ptrdiff_t first, std::int64_t cells, std::int64_t, std::int64_t) {
+    for (std::ptrdiff_t k = first; k < first + cells; ++k)
+      for (std::size_t a = 0; a < dim; ++a) u[a][k] = x[r++];
+  });
+}
+
+}  // namespace stokes

@@ -1,0 +1,181 @@
+#include "stokes/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "decomp/exact_sum.hpp"
+
+namespace stokes {
+namespace {
+
+constexpr int restart = 40;
+
+/// work(k) for the rank's own cells.
+template <class Work>
+void for_own(const Patch& p, Work work) {
+  for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
+    for (std::ptrdiff_t k = first; k < first + n; ++k) work(k);
+  });
+}
+
+void add(const Patch& p, double factor, const Flow& x, Flow& y) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(p.grid.dim); ++a)
+    for_own(p, [&](std::ptrdiff_t k) { y.u[a][k] += factor * x.u[a][k]; });
+  for_own(p, [&](std::ptrdiff_t k) { y.p[k] += factor * x.p[k]; });
+}
+
+void scale(const Patch& p, double factor, Flow& y) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(p.grid.dim); ++a)
+    for_own(p, [&](std::ptrdiff_t k) { y.u[a][k] *= factor; });
+  for_own(p, [&](std::ptrdiff_t k) { y.p[k] *= factor; });
+}
+
+/// Hessenberg's matrix of the Krylov vectors made triangular by rotations as it grows (Saad 2003, 6.5.3).
+class LeastSquares {
+ public:
+  explicit LeastSquares(double beta) : g_{beta} {}
+  /// `column`: products with the vectors so far, and the norm of what is left. Returns the norm of the residual.
+  double add(std::vector<double> column) {
+    const std::size_t j = columns_.size();
+    for (std::size_t i = 0; i < j; ++i) {
+      const double t = cos_[i] * column[i] + sin_[i] * column[i + 1];
+      column[i + 1] = cos_[i] * column[i + 1] - sin_[i] * column[i];
+      column[i] = t;
+    }
+    const double length = std::sqrt(column[j] * column[j] + column[j + 1] * column[j + 1]);
+    cos_.push_back(column[j] / length);
+    sin_.push_back(column[j + 1] / length);
+    column[j] = length;
+    g_.push_back(-sin_[j] * g_[j]);
+    g_[j] *= cos_[j];
+    columns_.push_back(std::move(column));
+    return std::fabs(g_[j + 1]);
+  }
+  [[nodiscard]] std::vector<double> solve() const {
+    const std::size_t n = columns_.size();
+    std::vector<double> y(n);
+    for (std::size_t i = n; i-- > 0;) {
+      double s = g_[i];
+      for (std::size_t k = i + 1; k < n; ++k) s -= columns_[k][i] * y[k];
+      y[i] = s / columns_[i][i];
+    }
+    return y;
+  }
+
+ private:
+  std::vector<double> g_, cos_, sin_;
+  std::vector<std::vector<double>> columns_;
+};
+
+}  // namespace
+
+Solver::Solver(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes)
+    : comm_(&comm), multigrid_(comm, grid, std::move(boxes)) {}
+
+Flow Solver::make_flow() { return {multigrid_.finest().make_velocity(), Field(patch().size, 0.0)}; }
+
+void Solver::set_viscosity(Field cells) { multigrid_.set_viscosity(std::move(cells)); }
+
+void Solver::apply_all(Flow& x, Flow& y) {
+  Level& level = multigrid_.finest();
+  level.refresh(x.u);
+  level.refresh_cells(x.p);
+  apply(level.patch(), level.viscosity(), x.u, y.u);
+  add_gradient(level.patch(), x.p, 1, y.u);
+  minus_divergence(level.patch(), x.u, y.p);
+}
+
+void Solver::precondition(const Flow& r, Flow& z) {
+  Level& level = multigrid_.finest();
+  const Field& eta = level.viscosity().cells;
+  for_own(patch(), [&](std::ptrdiff_t k) { z.p[k] = -eta[k] * r.p[k]; });
+  level.refresh_cells(z.p);
+  Velocity f = r.u;
+  add_gradient(patch(), z.p, -1, f);
+  multigrid_.cycle(f, z.u);
+}
+
+std::vector<double> Solver::dots(const Flow& w, const std::vector<const Flow*>& others) {
+  std::vector<decomp::ExactSum> sums(others.size());
+  const auto dim = static_cast<std::size_t>(patch().grid.dim);
+  for (std::size_t q = 0; q < others.size(); ++q)
+    for_own(patch(), [&](std::ptrdiff_t k) {
+      double cell = w.p[k] * others[q]->p[k];
+      for (std::size_t a = 0; a < dim; ++a) cell += w.u[a][k] * others[q]->u[a][k];
+      sums[q].add(cell);
+    });
+  decomp::ExactSum::all_reduce(*comm_, sums);
+  std::vector<double> out;
+  for (const decomp::ExactSum& s : sums) out.push_back(s.value());
+  return out;
+}
+
+double Solver::norm(const Flow& w) { return std::sqrt(dots(w, {&w})[0]); }
+
+void Solver::take_off_mean(Field& values) {
+  decomp::ExactSum sum;
+  for_own(patch(), [&](std::ptrdiff_t k) { sum.add(values[k]); });
+  decomp::ExactSum::all_reduce(*comm_, std::span(&sum, 1));
+  const Int3& n = patch().grid.cells;
+  const double mean = sum.value() / static_cast<double>(n[0] * n[1] * n[2]);
+  for_own(patch(), [&](std::ptrdiff_t k) { values[k] -= mean; });
+}
+
+void Solver::take_off_free_means(Velocity& u) {
+  for (int a = 0; a < patch().grid.dim; ++a)
+    if (patch().grid.slides(a)) take_off_mean(u[static_cast<std::size_t>(a)]);
+}
+
+Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterations) {
+  const Patch& p = patch();
+  Flow f{std::move(force), Field(p.size, 0.0)};
+  take_off_free_means(f.u);
+  add_gradient(p, f.p, 0, f.u);  // nothing drives a wall
+  const double wanted = tolerance * norm(f);
+  Effort effort;
+  while (true) {
+    Flow r = make_flow();
+    apply_all(x, r);
+    scale(p, -1, r);
+    add(p, 1, f, r);
+    const double beta = norm(r);
+    effort.residual = wanted > 0 ? beta * tolerance / wanted : 0;
+    effort.converged = beta <= wanted;
+    if (effort.converged || effort.iterations >= most_iterations) break;
+    improve(x, std::move(r), beta, wanted, most_iterations, effort);
+  }
+  take_off_free_means(x.u);
+  take_off_mean(x.p);
+  return effort;
+}
+
+void Solver::improve(Flow& x, Flow r, double beta, double wanted, int most, Effort& effort) {
+  const Patch& p = patch();
+  scale(p, 1 / beta, r);
+  std::vector<Flow> v, z;
+  v.push_back(std::move(r));
+  LeastSquares least(beta);
+  double left = beta;
+  while (z.size() < restart && effort.iterations < most && left > 0.9 * wanted) {
+    z.push_back(make_flow());
+    precondition(v.back(), z.back());
+    Flow w = make_flow();
+    apply_all(z.back(), w);
+    std::vector<const Flow*> all;
+    for (const Flow& q : v) all.push_back(&q);
+    std::vector<double> column = dots(w, all);
+    for (std::size_t i = 0; i < v.size(); ++i) add(p, -column[i], v[i], w);
+    column.push_back(norm(w));
+    const double length = column.back();
+    left = least.add(std::move(column));
+    ++effort.iterations;
+    if (!(length > 0)) break;
+    scale(p, 1 / length, w);
+    v.push_back(std::move(w));
+  }
+  const std::vector<double> y = least.solve();
+  for (std::size_t i = 0; i < y.size(); ++i) add(p, y[i], z[i], x);
+}
+
+}  // namespace stokes
