@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Peperite)
 
-install(TARGETS peperite_fp decomp sph EXPORT Peperite FILE_SET HEADERS)
+install(TARGETS peperite_fp decomp stokes sph EXPORT Peperite FILE_SET HEADERS)
 if(PEPERITE_METIS)
   install(TARGETS metis_partition EXPORT Peperite FILE_SET HEADERS)
 endif()

@@ -48,6 +48,7 @@ LAYERS = [
     (r"libsph/include/sph/laws/drag/", r"sph/core/exact_math\.hpp|sph/laws/drag/\w+\.hpp"),
     *((rf"libsph/{tree}/{folder}/", rf"decomp/.*|(sph/)?({'|'.join([folder, *below.split()])})/.*")
       for folder, below in FOLDERS.items() for tree in ("include/sph", "src")),
+    *((f"libsph/{tree}/stokes/", r"(decomp|stokes)/.*") for tree in ("include", "src")),
     (r"libdecomp/", r"decomp/.*"),
     (r"apps/", r"(decomp|sph)/.*"),
     (r"benchmarks/", r"(decomp|sph)/.*"),

@@ -37,12 +37,18 @@ std::vector<Box> halves_of(std::vector<Box> boxes, int dim) {
   return boxes;
 }
 
-void check(const Grid& g) {
-  for (std::size_t a = 0; a < static_cast<std::size_t>(g.dim); ++a)
-    if (g.cells[a] > most_coarsest)
-      throw decomp::InputError("a grid whose coarsest one has " + std::to_string(g.cells[a]) +
-                               " cells along " + "xyz"[a] + "; take m 2^k cells along each axis, m at most " +
-                               std::to_string(most_coarsest) + ", with the same k");
+std::string cells_text(const Grid& g) {
+  std::string text = std::to_string(g.cells[0]);
+  for (std::size_t a = 1; a < static_cast<std::size_t>(g.dim); ++a)
+    text += " x " + std::to_string(g.cells[a]);
+  return text;
+}
+
+void check(const Grid& finest, const Grid& last) {
+  if (*std::ranges::max_element(last.cells) <= most_coarsest) return;
+  throw decomp::InputError("a grid of " + cells_text(finest) + " cells can be halved to " + cells_text(last) +
+                           " only; take m 2^k cells along each axis with the same k, m from " +
+                           std::to_string(coarsest) + " to " + std::to_string(most_coarsest));
 }
 
 }  // namespace
@@ -73,7 +79,7 @@ Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box
         decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up)));
     levels_.push_back(std::make_unique<Level>(whose, coarse, next));
   }
-  check(levels_.back()->grid());
+  check(grid, levels_.back()->grid());
 }
 
 void Multigrid::restrict_to(std::size_t coarse, std::vector<Field*> halves, std::vector<Field*> values) {
