@@ -74,9 +74,9 @@ Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box
     for (const Box& b : halves) wanted_up.push_back(frame_inside(coarse, b));
     if (everywhere) wanted_up = {wanted_up[me]};
     transfers_.push_back(std::make_unique<Transfer>(
-        Patch(coarse, halves[me]),
-        decomp::BoxExchange(fine.comm(), coarse.cells, coarse.periodic_axes(), halves, wanted_down),
-        decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up)));
+        Transfer{Patch(coarse, halves[me]),
+                 decomp::BoxExchange(fine.comm(), coarse.cells, coarse.periodic_axes(), halves, wanted_down),
+                 decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up)}));
     levels_.push_back(std::make_unique<Level>(whose, coarse, next));
   }
   check(grid, levels_.back()->grid());
