@@ -97,43 +97,4 @@ TEST(Sediment, LightGrainsMakeStepsShorter) {
   EXPECT_LT(kinetic_energy(s), buoyant * 4);
 }
 
-// Planes that are in them, one at rest, one faster than grains could bear: none has a contact or a speed of its own.
-TEST(Sediment, GluedGrainsBesidePlanesStayFinite) {
-  const Tank tank{.width = 11,
-                  .depth = 8,
-                  .viscosity = 50,
-                  .grain = bed,
-                  .fill = "lower = [0, 0, 1]\nupper = [11, 11, 3]\nspacing = 0.5",
-                  .h_over_dx = 1,
-                  .more = R"(
-[[wall]]
-name = "floor"
-material = "grains"
-point = [0, 0, 1.1]
-normal = [0, 0, 1]
-[[wall]]
-name = "plate"
-material = "grains"
-point = [0, 0, 1.4]
-normal = [0, 0, 1]
-velocity = [0.1, 0, 20])"};
-  for (const char* law : {"linear", "hertz"}) {
-    std::vector<std::string> options{fmt::format("contact.law={}", law)};
-    if (law == std::string("hertz"))
-      options.insert(options.end(), {"group.grains.normal_stiffness=", "group.grains.young_modulus=1e6",
-                                     "group.grains.poisson_ratio=0.25"});
-    Simulation s = filled(tank, options);
-    const double start = mean_height(s, 1);
-    for (int k = 0; k < 20; ++k) s.step();
-    EXPECT_GT(s.global().dt, 1e-3) << law;
-    EXPECT_TRUE(std::isfinite(kinetic_energy(s))) << law;
-    EXPECT_EQ(mean_height(s, 1), start) << law;
-    const Particles& grains = s.particles(1);
-    for (std::size_t k = 0; k < grains.owned() * 3; ++k) {
-      ASSERT_TRUE(std::isfinite(grains.data<Field::fluid_force>()[k])) << law;
-      ASSERT_EQ(grains.data<Field::velocity>()[k], 0) << law;
-    }
-  }
-}
-
 }  // namespace
