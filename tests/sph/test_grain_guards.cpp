@@ -219,6 +219,9 @@ TEST(Findings, LowestIdSpeaks) {
   EXPECT_EQ(mine.agree(world()), last);
   if (rank == 0) mine.add(3, [] { return std::string("three"); });
   EXPECT_EQ(mine.agree(world()), "three");
+  mine.begin_stage();
+  mine.add(1, [] { return std::string("what follows"); });
+  EXPECT_EQ(mine.agree(world()), "three");
   EXPECT_EQ(message_of<GuardError>([&] { mine.stop(world(), step_text(5)); }), "step 5: three");
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <limits>
 
 #include "sph/core/error.hpp"
@@ -12,13 +11,15 @@ namespace sph {
 
 std::string Findings::agree(const decomp::Comm& comm) const {
   constexpr std::uint64_t sign = std::uint64_t{1} << 63;
-  // Descending, as signed numbers that a maximum can be taken of.
-  const auto mine = any() ? static_cast<std::int64_t>(~id_ ^ sign) : std::numeric_limits<std::int64_t>::min();
-  std::array<std::int64_t, 2> most{any() ? 1 : 0, mine};
-  comm.max(std::span<std::int64_t>(most));
-  if (most[0] == 0) return {};
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::min();
+  const std::int64_t earliest = comm.max(any() ? -found_in_ : none);
+  if (earliest == none) return {};
+  const bool speaks = any() && found_in_ == -earliest;
+  // Descending, as signed numbers that a maximum can be taken of: they may be `none` too.
+  const auto mine = speaks ? static_cast<std::int64_t>(~id_ ^ sign) : none;
+  const std::int64_t most = comm.max(mine);
   const std::int64_t nobody = -comm.size();
-  const std::int64_t speaker = comm.max(any() && mine == most[1] ? std::int64_t{-comm.rank()} : nobody);
+  const std::int64_t speaker = comm.max(speaks && mine == most ? std::int64_t{-comm.rank()} : nobody);
   return comm.broadcast(text_, static_cast<decomp::Rank>(-speaker));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sph/laws/neo_hooke.hpp"
+#include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/body_contact.hpp"
 
@@ -56,8 +57,7 @@ struct BondSums {
 };
 
 struct Stresses {
-  static constexpr FieldSet reads{Field::id,   Field::position,       Field::group,
-                                  Field::mass, Field::contact_energy, Field::deformation};
+  static constexpr FieldSet reads = RangeView::reads | FieldSet{Field::contact_energy, Field::deformation};
   static constexpr FieldSet writes{Field::bond_stress, Field::stress,  Field::strain_energy,
                                    Field::bonds,       Field::density, Field::pressure};
   const SphConstants* constants;
@@ -105,6 +105,7 @@ struct Stresses {
       for (int a = 0; a < D; ++a)
         for (int b = a; b < D; ++b)
           stress[symmetric_index(a, b, D)] = 0.5 * (cauchy(a, b) + cauchy(b, a)) + (a == b ? pressure : 0.0);
+      find_out_of_range(*constants, p, i, i + 1, step);
     }
   }
 

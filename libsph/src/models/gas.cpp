@@ -10,6 +10,7 @@
 #include "models/trace.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/laws/eos/ideal_gas.hpp"
+#include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/gas.hpp"
 #include "sph/terms/shock.hpp"
@@ -30,8 +31,7 @@ std::size_t width_of_moments(std::size_t d) { return 2 + d * (d + 1) / 2 + d * d
 // is what the volume is taken from.
 struct Compression {
   static constexpr FieldSet reads =
-      Materials::reads |
-      FieldSet{Field::id, Field::position, Field::number_density, Field::gas_moments, Field::mass};
+      Materials::reads | RangeView::reads | FieldSet{Field::number_density, Field::gas_moments};
   static constexpr FieldSet writes =
       Materials::writes | FieldSet{Field::density, Field::specific_energy, Field::smoothing_length,
                                    Field::kernel_correction, Field::velocity_gradient};
@@ -73,6 +73,7 @@ struct Compression {
       else
         solve_gradient<3>(more + i * moments + 2, constants->row_scale.inverse_h, gradient + 9 * i);
       materials->derive(p, i, i + 1);
+      find_out_of_range(*constants, p, i, i + 1, step);
     });
   }
 };
@@ -83,9 +84,8 @@ struct Compression {
 // after it at its end: heat belongs to its middle, and is what it would have been there. So energy is
 // conserved to second order.
 struct Heat {
-  static constexpr FieldSet reads =
-      GasView::reads | Materials::reads | FieldSet{Field::id,    Field::position, Field::heating,
-                                                   Field::force, Field::mass,     Field::velocity_gradient};
+  static constexpr FieldSet reads = GasView::reads | Materials::reads | RangeView::reads |
+                                    FieldSet{Field::heating, Field::force, Field::velocity_gradient};
   static constexpr FieldSet writes = Materials::writes | FieldSet{Field::specific_energy};
   const SphConstants* constants;
   const Materials* materials;
@@ -116,6 +116,7 @@ struct Heat {
           find_fault(*constants, p, i, step, "has no energy left; reduce time.cfl or time.dt");
       }
       materials->derive(p, r.first, r.last);
+      find_out_of_range(*constants, p, r.first, r.last, step);
       look_at_gas(*constants, p, r.first, r.last, step.maxima);
     }
   }

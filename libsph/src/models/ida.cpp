@@ -3,6 +3,7 @@
 #include "sph/terms/ida.hpp"
 
 #include "models/trace.hpp"
+#include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/stress_update.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
@@ -11,13 +12,16 @@ namespace sph {
 namespace {
 
 struct DensitiesAndStresses {
-  static constexpr FieldSet reads = Materials::reads | FieldSet{Field::velocity_gradient};
+  static constexpr FieldSet reads = Materials::reads | RangeView::reads | FieldSet{Field::velocity_gradient};
   static constexpr FieldSet writes = Materials::writes | FieldSet{Field::density, Field::stress};
-  const Scene* scene;
+  const SphConstants* constants;
   const Materials* materials;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
-    for (const RowRange& r : step.ranges) update(p, r.first, r.last, step.global.dt);
+    for (const RowRange& r : step.ranges) {
+      update(p, r.first, r.last, step.global.dt);
+      find_out_of_range(*constants, p, r.first, r.last, step);
+    }
   }
 
   void update(const View<reads, writes>& p, std::size_t first, std::size_t last, double dt) const {
@@ -29,7 +33,7 @@ struct DensitiesAndStresses {
     for (std::size_t i = first; i < last; ++i) rho[i] -= dt * rho[i] * trace_of(gradient + i * d * d, d);
     materials->derive(p, first, last);
     for (std::size_t i = first; i < last; ++i) {
-      const Group& g = scene->groups[group[i]];
+      const Group& g = constants->scene->groups[group[i]];
       double* s = stress + i * n;
       const double* grad = gradient + i * d * d;
       if (g.kind == GroupKind::solid) {
@@ -54,7 +58,7 @@ struct DensitiesAndStresses {
 
 void add_ida(Builder& b) {
   b.add_sums("gradient", {term<IdaGradient>}, Builder::Rows::all);
-  b.add_update("densities and stresses", DensitiesAndStresses{&b.scene(), &b.materials()});
+  b.add_update("densities and stresses", DensitiesAndStresses{&b.constants(), &b.materials()});
   std::vector<Term> forces{term<IdaStress>};
   if (b.scene().terms.artificial_viscosity > 0) forces.push_back(term<ArtificialViscosity>);
   b.add_sums("forces", forces);

@@ -4,6 +4,7 @@
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/fixed_point.hpp"
+#include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 
 namespace sph {
@@ -33,9 +34,9 @@ struct Drift {
 
 struct Kick {
   static constexpr FieldSet reads =
-      BodyForces::reads | FieldSet{Field::force, Field::mass, Field::smoothing_length};
+      BodyForces::reads | FaultView::reads | FieldSet{Field::force, Field::mass, Field::smoothing_length};
   static constexpr FieldSet writes{Field::velocity};
-  const Scene* scene;
+  const SphConstants* constants;
   const BodyForces* body_forces;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
@@ -56,8 +57,10 @@ struct Kick {
         a2 += acceleration * acceleration;
         v2 += v[i * d + a] * v[i * d + a];
       }
+      if (!std::isfinite(v2))  // too fast to be squared is too fast
+        find_fault(*constants, p, i, step, "has no finite speed; reduce time.dt or time.cfl");
       // How far it takes a particle is counted in its own h.
-      const double finer = h != nullptr ? scene->kernel.smoothing_length / h[i] : 1.0;
+      const double finer = h != nullptr ? constants->scene->kernel.smoothing_length / h[i] : 1.0;
       speed2 = larger(v2, speed2);
       acceleration2 = larger(a2 * (finer * finer), acceleration2);
     });
@@ -149,7 +152,7 @@ double longest_drift(const GlobalState& global) { return 1.0001 * global.max_spe
 void add_drift(Builder& b) { b.add_drift("drift", Drift{b.constants().scale}, longest_drift); }
 
 void add_kick(Builder& b) {
-  b.add_kick("kick", Kick{&b.scene(), &b.body_forces()});
+  b.add_kick("kick", Kick{&b.constants(), &b.body_forces()});
   if (b.has_walls()) b.add_kick("walls' own velocity", WallVelocities{&b.scene()});
 }
 

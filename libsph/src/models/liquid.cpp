@@ -6,6 +6,7 @@
 
 #include "models/trace.hpp"
 #include "pairs/for_rows.hpp"
+#include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/stress_update.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
@@ -30,10 +31,10 @@ double filling(const GlobalState& global) {
 }
 
 struct Densities {
-  static constexpr FieldSet reads =
-      Materials::reads | FieldSet{Field::diffusion, Field::divergence, Field::velocity_gradient};
+  static constexpr FieldSet reads = Materials::reads | RangeView::reads |
+                                    FieldSet{Field::diffusion, Field::divergence, Field::velocity_gradient};
   static constexpr FieldSet writes = Materials::writes | FieldSet{Field::density, Field::stress};
-  const Scene* scene;
+  const SphConstants* constants;
   const Materials* materials;
   bool bulk_viscous;
 
@@ -41,11 +42,13 @@ struct Densities {
     for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
       const RowRange& r = range_of(step.ranges, c);
       update(p, r.first, r.last, step.global);
+      find_out_of_range(*constants, p, r.first, r.last, step);
     }
   }
 
   void update(const View<reads, writes>& p, std::size_t first, std::size_t last,
               const GlobalState& global) const {
+    const Scene* scene = constants->scene;
     const double dt = global.dt, fill = filling(global);
     double* rho = p.get<Field::density>();
     const double* diffusion = p.get<Field::diffusion>();
@@ -109,7 +112,7 @@ void add_kinematics(Builder& b) {
   if (s.terms.shifting) terms.push_back(term<Concentration>);
   if (tension(s)) terms.push_back(term<ColourGradient>);
   b.add_sums("kinematics", terms);
-  b.add_update("densities", Densities{&s, &b.materials(), bulk_viscous(s)});
+  b.add_update("densities", Densities{&b.constants(), &b.materials(), bulk_viscous(s)});
   if (weighted(s)) b.add_fields({Field::wall_pressures});
 }
 

@@ -28,6 +28,7 @@ void PlanRunner::run(const std::vector<Entry>& entries, GlobalState& global) {
 }
 
 void PlanRunner::run(const Stage& stage, StepState& state) {
+  findings_.begin_stage();
   ParticleSet& set = sets_[stage.set];
   const auto work = [&](Side side) {
     const auto timing = timers_.time(stage.region);

@@ -69,19 +69,4 @@ class Builder {
   Plan plan_;
 };
 
-/// Text for a particle that is what none may be.
-template <class View>
-void find_fault(const SphConstants& k, const View& p, std::size_t i, const Step& step,
-                const std::string& what) {
-  const auto d = static_cast<std::size_t>(p.dim());
-  const std::uint64_t id = p.template get<Field::id>()[i];
-  step.findings.add(id, [&] {
-    std::vector<double> at;
-    for (std::size_t a = 0; a < d; ++a)
-      at.push_back(k.scale.metres(k.wrap(static_cast<int>(a), p.template get<Field::position>()[i * d + a])));
-    return step_text(step.global.step) + "particle " + std::to_string(id) + " of \"" +
-           k.scene->groups[p.template get<Field::group>()[i]].name + "\" " + place_text(at) + " " + what;
-  });
-}
-
 }  // namespace sph
