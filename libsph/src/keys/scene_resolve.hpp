@@ -70,6 +70,9 @@ void read_start(const StartReader& table, Scene& scene);
 /// [terms], once the groups are known.
 void read_terms(const TermsReader& table, Scene& scene);
 void check_implicit_viscosity(const TermsReader& terms, const Scene& scene);
+/// Refuses constants that pairs cannot multiply, once all is read.
+void check_ranges(const TopReader& top, const DomainReader& domain, const TermsReader& terms,
+                  const Scene& scene);
 
 /// [decomposition], once dimension and gravity are known.
 [[nodiscard]] Decomposition read_decomposition(const Reader<keys::decomposition>& table, const Scene& scene);
