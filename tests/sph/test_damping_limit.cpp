@@ -79,5 +79,15 @@ TEST(DampingLimit, IsWhereRunsBlowUp) {
   }
 }
 
+TEST(DampingLimit, IsNotNoneHoweverShort) {
+  Scene scene = flow("terms.artificial_viscosity", 0);
+  scene.groups.front().viscosity = 1e21;
+  const double longest = damping_limit(scene, sounds_at_rest(scene), step).step;
+  // nu dt / h^2 of the Laplacian on the lattice is of order one there.
+  const double h2 = 1.2 * 1.2 * 0.03125 * 0.03125;
+  EXPECT_GT(longest * 1e18 / h2, 0.05);
+  EXPECT_LT(longest * 1e18 / h2, 2);
+}
+
 }  // namespace
 }  // namespace sph::test

@@ -185,12 +185,17 @@ bool stable(const Modes& modes, const Scene& scene, const std::vector<double>& s
   return std::all_of(all.begin(), all.end(), [&](const Rates& r) { return modes.stable(r, step); });
 }
 
-/// The largest x, up to `most`, for which holds(x).
+/// The largest x, up to `most`, for which holds(x), however small that is.
 template <class Holds>
 double largest(double most, Holds&& holds) {
   if (holds(most)) return most;
+  if (!holds(0)) return 0;
   double lo = 0, hi = most;
-  for (int k = 0; k < 40; ++k) (holds(0.5 * (lo + hi)) ? lo : hi) = 0.5 * (lo + hi);
+  for (int bits = 0; bits < 40 && hi > 0;) {
+    const double x = 0.5 * (lo + hi);
+    (holds(x) ? lo : hi) = x;
+    if (lo > 0) ++bits;
+  }
   return lo;
 }
 
