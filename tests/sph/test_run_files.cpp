@@ -13,6 +13,7 @@
 #include "files/memory_file.hpp"
 #include "inspect/trial.hpp"
 #include "run/run_directory.hpp"
+#include "run/run_files.hpp"
 #include "run/run_lock.hpp"
 #include "state_fixture.hpp"
 
@@ -90,6 +91,15 @@ TEST(RunDirectory, SnapshotsHaveOneNameEach) {
        {"snapshot_7.h5", "snapshot_0000000007.h5", "snapshot_keep_for_paper.h5", "snapshot_.h5",
         "snapshot_000000007.h5.tmp", "snapshot_-00000007.h5", "000000007", ""})
     EXPECT_FALSE(step_of_snapshot(name)) << name;
+}
+
+TEST(RunMemory, OfAnOlderCheckpointHasNoHashOfTheSeries) {
+  RunMemory memory;
+  memory.series_bytes = 12;
+  EXPECT_FALSE(memory_from_json(to_json(memory)).series_hash);
+  memory.series_hash = ~std::uint64_t{0};
+  EXPECT_EQ(memory_from_json(to_json(memory)).series_hash, memory.series_hash);
+  EXPECT_FALSE(memory_from_json(R"({"monitor_ids": [], "series_bytes": 5, "snapshots": []})").series_hash);
 }
 
 TEST(MemoryFile, HoldsWhatWasWrittenAndZerosElsewhere) {

@@ -68,30 +68,60 @@ TEST_F(SeriesTest, EveryRowIsOnDiskWhenAddReturns) {
 
 TEST_F(SeriesTest, ResumedRunEndsWithTheSameFile) {
   std::string whole;
+  std::uint64_t hash_of_whole = 0;
   {
     Series series(file(), {"x"});
     for (int step = 0; step < 20; ++step) series.add(step, 0.1 * step, {1.0 / (step + 1)});
     whole = contents(file());
+    hash_of_whole = series.hash();
   }
-  std::uint64_t at_checkpoint = 0;
+  std::uint64_t at_checkpoint = 0, hash_at_checkpoint = 0;
   {
     Series series(file(), {"x"});
     for (int step = 0; step < 15; ++step) {
       series.add(step, 0.1 * step, {1.0 / (step + 1)});
-      if (step == 11) at_checkpoint = series.bytes();
+      if (step != 11) continue;
+      at_checkpoint = series.bytes();
+      hash_at_checkpoint = series.hash();
     }
   }
-  Series series(file(), at_checkpoint);
+  Series series(file(), at_checkpoint, hash_at_checkpoint);
   EXPECT_EQ(series.bytes(), at_checkpoint);
   for (int step = 12; step < 20; ++step) series.add(step, 0.1 * step, {1.0 / (step + 1)});
   EXPECT_EQ(contents(file()), whole);
+  EXPECT_EQ(series.hash(), hash_of_whole);
+}
+
+TEST_F(SeriesTest, RefusesAnotherContentOfTheSameLength) {
+  std::uint64_t bytes = 0, hash = 0;
+  {
+    Series series(file(), {"x"});
+    series.add(1, 0.5, {2});
+    series.add(2, 1.0, {3});
+    bytes = series.bytes();
+    hash = series.hash();
+  }
+  const std::string right = contents(file());
+  std::string digit = right, swapped = right, merged = right;
+  digit[digit.size() - 2] = '4';
+  std::swap(swapped[0], swapped[1]);
+  merged[merged.find('\n')] = ',';
+  for (const std::string& wrong : {digit, swapped, merged, std::string(right.size(), 'x')}) {
+    std::ofstream(file(), std::ios::binary) << wrong;
+    EXPECT_THROW(Series(file(), bytes, hash), InputError) << wrong;
+    EXPECT_EQ(contents(file()), wrong) << "it is left as it was";
+    EXPECT_NO_THROW(Series(file(), bytes, {})) << "older checkpoints have no hash";
+  }
+  std::ofstream(file(), std::ios::binary) << right << "3,1.5,4\n";
+  EXPECT_EQ(Series(file(), bytes, hash).hash(), hash);
+  EXPECT_EQ(contents(file()), right);
 }
 
 TEST_F(SeriesTest, RefusesAFileThatIsMissingOrTooShort) {
-  EXPECT_THROW(Series(file(), 10), InputError);
+  EXPECT_THROW(Series(file(), 10, {}), InputError);
   { const Series series(file(), {"x"}); }
-  EXPECT_THROW(Series(file(), 10), InputError);
-  EXPECT_NO_THROW(Series(file(), 9));
+  EXPECT_THROW(Series(file(), 10, {}), InputError);
+  EXPECT_NO_THROW(Series(file(), 9, {}));
 }
 
 TEST_F(SeriesTest, SaysWhyItCannotWrite) {

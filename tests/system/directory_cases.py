@@ -89,6 +89,18 @@ class Cases:
         self.run.refused(1, "peperite", "resume", out, "--steps", 12, says="snapshot_000000012.h5 is not of this run")
         assert (out / "snapshot_000000012.h5").read_bytes() == content and (out / "series.csv").read_bytes() == series
 
+    def test_resume_with_another_series(self):
+        """Rows of the same length are not those that the checkpoint knows."""
+        out = self.folder("series")
+        self.go(out)
+        series, right = out / "series.csv", (out / "series.csv").read_bytes()
+        wrong = right[:-2] + (b"1" if right[-2:-1] != b"1" else b"2") + b"\n"
+        series.write_bytes(wrong)
+        self.run.refused(1, "peperite", "resume", out, "--steps", 9, says="are not those of when the checkpoint was written")
+        assert series.read_bytes() == wrong
+        series.write_bytes(right)
+        self.run.run(1, "peperite", "resume", out, "--steps", 9)
+
     def test_record(self):
         """Cuts are recorded in a file of their own, or not at all."""
         scene = self.folder("mine.toml")

@@ -8,8 +8,8 @@
 
 namespace sph {
 
-std::uint64_t content_hash(std::span<const std::byte> bytes) {
-  return XXH3_64bits(bytes.data(), bytes.size());
+std::uint64_t content_hash(std::span<const std::byte> bytes, std::uint64_t seed) {
+  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
 }
 
 std::string to_hex(std::uint64_t value) { return fmt::format("{:016x}", value); }

@@ -8,7 +8,8 @@
 
 namespace sph {
 
-[[nodiscard]] std::uint64_t content_hash(std::span<const std::byte> bytes);
+/// `seed`: the hash of what is before, of a text that grows.
+[[nodiscard]] std::uint64_t content_hash(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 [[nodiscard]] std::string to_hex(std::uint64_t value);            ///< 16 digits
 [[nodiscard]] std::uint64_t from_hex(const std::string& digits);  ///< throws unless it is 16 digits
 

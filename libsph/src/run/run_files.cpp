@@ -48,9 +48,10 @@ std::string to_json(const RunMemory& memory) {
                          {"step", s.step},
                          {"time_bits", std::bit_cast<std::uint64_t>(s.time)},
                          {"rows", s.rows}});
-  return Json{
-      {"monitor_ids", memory.monitor_ids}, {"series_bytes", memory.series_bytes}, {"snapshots", snapshots}}
-      .dump();
+  Json json{
+      {"monitor_ids", memory.monitor_ids}, {"series_bytes", memory.series_bytes}, {"snapshots", snapshots}};
+  if (memory.series_hash) json["series_hash"] = *memory.series_hash;
+  return json.dump();
 }
 
 RunMemory memory_from_json(const std::string& text) {
@@ -59,6 +60,7 @@ RunMemory memory_from_json(const std::string& text) {
     RunMemory memory;
     memory.monitor_ids = json.at("monitor_ids").get<std::vector<std::uint64_t>>();
     memory.series_bytes = json.at("series_bytes").get<std::uint64_t>();
+    if (json.contains("series_hash")) memory.series_hash = json["series_hash"].get<std::uint64_t>();
     for (const Json& s : json.at("snapshots"))
       memory.snapshots.push_back({s.at("file").get<std::string>(), s.at("step").get<std::int64_t>(),
                                   std::bit_cast<double>(s.at("time_bits").get<std::uint64_t>()),
@@ -93,7 +95,7 @@ RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_sce
                       write_scene(s);
                       fs::remove(dir_ / "particles.xdmf");
                       series_.emplace(dir_ / "series.csv", monitors_.names());
-                      series_bytes_ = series_->bytes();
+                      look_at_series();
                     });
 }
 
@@ -110,12 +112,18 @@ RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_sce
     remove_leftovers(dir_);
     remove_snapshots(dir_, first_snapshot, listed, {old_scene, to_toml(s.scene())});
     write_scene(s);
-    series_.emplace(dir_ / "series.csv", memory.series_bytes);
+    series_.emplace(dir_ / "series.csv", memory.series_bytes, memory.series_hash);
+    look_at_series();
     if (snapshots_.empty())
       fs::remove(dir_ / "particles.xdmf");
     else
       write_xdmf(dir_ / "particles.xdmf", snapshots_, s.particles(), extra);
   });
+}
+
+void RunFiles::look_at_series() {
+  series_bytes_ = series_->bytes();
+  series_hash_ = series_->hash();
 }
 
 void RunFiles::write_scene(const Simulation& s) const {
@@ -130,7 +138,7 @@ void RunFiles::add_series_row(Simulation& s) {
   const std::vector<double> values = monitors_.values(s);
   if (s.comm().rank() != 0 || failed()) return;
   failure_ = attempt([&] { series_->add(s.global().step, s.global().time, values); });
-  series_bytes_ = series_->bytes();
+  look_at_series();
 }
 
 void RunFiles::check(const Simulation& s) const {
@@ -163,7 +171,7 @@ void RunFiles::write_checkpoint(const Simulation& s) {
   check(s);
   on_root(s.comm(), "series.csv", [&] { sync_to_disk(dir_ / "series.csv"); });
   const RunRecord record{s.global(), s.scale(), to_toml(s.scene()),
-                         to_json({monitors_.ids(), series_bytes_, snapshots_})};
+                         to_json({monitors_.ids(), series_bytes_, series_hash_, snapshots_})};
   const Provenance from = provenance(s);  // before the contacts: it packs them too
   const decomp::Payload contacts = s.contacts();
   sph::write_checkpoint(s.comm(), dir_, s.particles(), s.has_history() ? &contacts : nullptr, record,

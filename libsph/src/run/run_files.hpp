@@ -19,6 +19,7 @@ namespace sph {
 struct RunMemory {
   std::vector<std::uint64_t> monitor_ids;
   std::uint64_t series_bytes = 0;
+  std::optional<std::uint64_t> series_hash;  ///< older checkpoints lack it
   std::vector<SnapshotEntry> snapshots;
 };
 [[nodiscard]] std::string to_json(const RunMemory& memory);
@@ -54,11 +55,12 @@ class RunFiles {
  private:
   [[nodiscard]] Provenance provenance(const Simulation& simulation) const;
   void write_scene(const Simulation& simulation) const;
+  void look_at_series();
 
   std::filesystem::path dir_;
   Monitors monitors_;
   std::optional<Series> series_;  ///< on rank 0
-  std::uint64_t series_bytes_ = 0;
+  std::uint64_t series_bytes_ = 0, series_hash_ = 0;
   std::string failure_;
   std::vector<SnapshotEntry> snapshots_;
 };
