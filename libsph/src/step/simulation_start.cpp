@@ -24,6 +24,12 @@ void forget_sums(Particles& particles) {
                   particles.owned() * width(f, particles.dim()));
 }
 
+/// Of a start: it is the scene that is wrong.
+void refuse_faults(const decomp::Comm& comm, const Scene& scene, const Findings& findings) {
+  if (const std::string text = findings.agree(comm); !text.empty())
+    throw InputError(scene.file + ": start: " + text);
+}
+
 }  // namespace
 
 // For tests of the balance: this rank's cores are slower by scene.decomposition.slowness.
@@ -52,6 +58,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
     throw InputError(scene_.file + ": start: " + error.what());
   }
   begin();
+  refuse_faults(comm_, scene_, runner_.findings());
   for (const Model* m : parts_.models) m->check_start(comm_, runner_.state_of(m->set(), global_));
   settle();
 }
@@ -67,6 +74,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
   }
   global_ = checkpoint.record.global;
   begin();
+  runner_.findings().stop(comm_);
 }
 
 void Simulation::begin() {
@@ -81,10 +89,8 @@ void Simulation::begin() {
   rebuild();
   Findings outside;
   for (const ParticleSet& set : sets_) outside.add(distribution_.outside(set.particles));
-  if (const std::string text = outside.agree(comm_); !text.empty())
-    throw InputError(scene_.file + ": start: " + text);
+  refuse_faults(comm_, scene_, outside);
   runner_.run(parts_.plan.start, global_);
-  runner_.findings().stop(comm_);
   stale_ = may_drift(parts_.plan);
 }
 
@@ -133,8 +139,7 @@ void Simulation::settle() {
     return;
   }
   runner_.run(plan.settle, global_);
-  if (const std::string text = runner_.findings().agree(comm_); !text.empty())
-    throw InputError(scene_.file + ": start: " + text);
+  refuse_faults(comm_, scene_, runner_.findings());
   for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
   runner_.run(plan.start, global_);
 }

@@ -1,0 +1,112 @@
+// What stops a run says what is wrong, whatever the skin: as a fault of the scene at its start, as what was
+// found first later on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sph/core/error.hpp"
+#include "sph/step/simulation.hpp"
+#include "state_fixture.hpp"
+
+namespace sph::test {
+namespace {
+
+constexpr const char* clump = R"(
+dimension = 2
+[domain]
+lower = [-4, -4]
+upper = [44, 36]
+[kernel]
+h_over_dx = 1
+[[group]]
+name = "a"
+density = 1000
+sound_speed = 100
+MATERIAL
+[start]
+spacing = 1
+file = "FILE"
+[time]
+steps = 10
+dt = 1.15e-2
+)";
+
+struct Row {
+  double x, y, vx, vy, mass;
+};
+
+/// `row(i, j)` for 12 x 12 particles, those of j < `width`.
+class FaultTest : public ::testing::Test {
+ protected:
+  Scene scene(const std::string& material, const std::function<Row(int, int)>& row, int width = 12,
+              const std::vector<std::string>& overrides = {}) {
+    const std::filesystem::path path = scratch_.path() / "start.csv";
+    if (comm_.rank() == 0) {
+      std::ofstream out(path);
+      out.precision(17);
+      out << "id,x,y,vx,vy,group,rho,mass\n";
+      for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < width; ++j) {
+          const Row r = row(i, j);
+          out << 12 * i + j << ',' << r.x << ',' << r.y << ',' << r.vx << ',' << r.vy << ",a,1000," << r.mass
+              << '\n';
+        }
+    }
+    comm_.barrier();
+    std::string text = clump;
+    text.replace(text.find("MATERIAL"), 8, material);
+    text.replace(text.find("FILE"), 4, path.string());
+    return parse_scene(text, "clump", overrides);
+  }
+
+  /// What stops it within a few steps, with the state that it leaves.
+  struct End {
+    std::string text, fingerprint;
+  };
+  End end_of(const Scene& scene) {
+    Simulation s(comm_, scene);
+    try {
+      for (int k = 0; k < 10; ++k) s.step();
+    } catch (const GuardError& error) {
+      return {error.what(), s.fingerprint()};
+    }
+    return {"(went on)", {}};
+  }
+  std::string refusal(const Scene& scene) {
+    try {
+      const Simulation s(comm_, scene);
+    } catch (const InputError& error) {
+      return error.what();
+    } catch (const GuardError& error) {
+      return std::string("no InputError: ") + error.what();
+    }
+    return "(accepted)";
+  }
+
+  decomp::Comm comm_{MPI_COMM_WORLD};
+  ScratchDirectory scratch_{comm_};
+};
+
+const auto says = [](const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+};
+
+constexpr const char* body = "kind = \"solid\"\nlagrangian = \"total\"\npoisson_ratio = 0.3";
+
+TEST_F(FaultTest, OfAStartIsOneOfItsScene) {
+  const std::string text = refusal(scene(
+      body,
+      [](int i, int) {
+        return Row{10.0 + i, 10, 0, 0, 1e3};
+      },
+      1));
+  EXPECT_EQ(text.rfind("clump: start: ", 0), 0U) << text;
+  EXPECT_TRUE(says(text, "neighbours in one line")) << text;
+}
+
+}  // namespace
+}  // namespace sph::test
