@@ -91,9 +91,23 @@ class FaultTest : public ::testing::Test {
   ScratchDirectory scratch_{comm_};
 };
 
+/// Towards the centre at 60 m/s, one in nine 30 times as heavy.
+Row falling(int i, int j) {
+  const int k = 12 * i + j;
+  const double x = 10.5 + i + 0.04 * (k * 21 % 11 - 5), y = 10.5 + j + 0.04 * (k * 34 % 11 - 5);
+  const double length = std::sqrt((x - 16) * (x - 16) + (y - 16) * (y - 16));
+  return {x, y, -60 * (x - 16) / length, -60 * (y - 16) / length, k % 9 == 0 ? 3e4 : 1e3};
+}
+
 const auto says = [](const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 };
+
+TEST_F(FaultTest, IsToldBeforeTheSolverGivesUpOverIt) {
+  const std::string text =
+      end_of(scene("kind = \"fluid\"\nviscosity = 1e6", falling, 12, {"terms.implicit_viscosity=true"})).text;
+  EXPECT_TRUE(says(text, "particle ") && says(text, "out of all range")) << text;
+}
 
 constexpr const char* body = "kind = \"solid\"\nlagrangian = \"total\"\npoisson_ratio = 0.3";
 

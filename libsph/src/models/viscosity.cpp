@@ -120,8 +120,10 @@ bool ViscositySolver::improve(StepState& s) {
   const double along = first ? curvature : curvature - old * product / length_;
   if (iteration_ > most_iterations || !(along > 0))
     throw GuardError("step " + std::to_string(s.global.step) +
-                     ": the implicit viscous step did not converge; reduce time.dt, raise "
-                     "terms.viscosity_tolerance or set precision = \"double\"");
+                     ": the implicit viscous step did not converge; reduce time.dt" +
+                     (scene_->terms.precision == Precision::mixed
+                          ? ", raise terms.viscosity_tolerance or set precision = \"double\""
+                          : " or raise terms.viscosity_tolerance"));
   length_ = product / along;
   product_ = product;
   double* direction = p.get<Field::direction>();

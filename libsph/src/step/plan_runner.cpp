@@ -1,5 +1,7 @@
 #include "sph/step/plan_runner.hpp"
 
+#include "sph/core/error.hpp"
+
 namespace sph {
 
 StepState PlanRunner::state_of(std::size_t set, GlobalState& global, std::optional<std::size_t> other) {
@@ -49,7 +51,8 @@ void PlanRunner::run(const Stage& stage, StepState& state) {
   set.changed(stage.writes);
 }
 
-// Are the stages of the loop to be run once more?
+// Are the stages of the loop to be run once more? Where a solver gives up, which all ranks do alike, what
+// earlier stages have found is the reason.
 bool PlanRunner::improve(const Entry& loop, GlobalState& global) {
   const std::size_t set = loop.stages.front().set;
   StepState state = state_of(set, global);
@@ -62,7 +65,14 @@ bool PlanRunner::improve(const Entry& loop, GlobalState& global) {
     decomp::ExactSum::all_reduce(comm_, products);
   }
   const auto timing = timers_.time(decomp::Region::update);
-  const bool again = loop.solver->improve(state);
+  const bool again = [&] {
+    try {
+      return loop.solver->improve(state);
+    } catch (const GuardError&) {
+      findings_.stop(comm_);
+      throw;
+    }
+  }();
   sets_[set].changed(loop.improves);
   if (again) ++counters_.repeats;
   if (again && !products.empty()) ++counters_.iterations;
