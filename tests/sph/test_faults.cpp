@@ -109,6 +109,24 @@ TEST_F(FaultTest, IsToldBeforeTheSolverGivesUpOverIt) {
   EXPECT_TRUE(says(text, "particle ") && says(text, "out of all range")) << text;
 }
 
+TEST_F(FaultTest, HasNoNumberThatIsNone) {
+  const auto apart = [](int i, int j) {
+    Row r = falling(i, j);
+    r.vx = -r.vx;
+    r.vy = -r.vy;
+    return r;
+  };
+  const std::string pressure =
+      end_of(scene("kind = \"fluid\"\neos = \"birch_murnaghan\"\nbulk_modulus_derivative = 12", apart, 12,
+                   {"time.dt=", "time.cfl=0.8"}))
+          .text;
+  EXPECT_TRUE(says(pressure, "has no finite pressure and a density of -")) << pressure;
+  const std::string speed = refusal(scene("kind = \"fluid\"", [](int i, int j) {
+    return Row{10.0 + i, 10.0 + j, i == 3 && j == 4 ? 1e200 : 0, 0, 1e3};
+  }));
+  EXPECT_TRUE(says(speed, "40 at (13, 14) m, has no finite speed: it might move any distance")) << speed;
+}
+
 constexpr const char* body = "kind = \"solid\"\nlagrangian = \"total\"\npoisson_ratio = 0.3";
 
 TEST_F(FaultTest, OfAStartIsOneOfItsScene) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "pairs/for_rows.hpp"
@@ -14,6 +15,11 @@ namespace {
 // V_i V_j (p_i + p_j) of two such particles is a number of single precision, and so is what else pairs have of them.
 constexpr double most_pressure = 1e24;  // [Pa]
 constexpr double most_expansion = 1e6;  // of a volume, and of its inverse, in cells of the start's lattice
+
+std::string quantity_text(std::string_view name, double value, std::string_view unit) {
+  return std::isfinite(value) ? fmt::format("a {} of {:.3g} {}", name, value, unit)
+                              : fmt::format("no finite {}", name);
+}
 
 }  // namespace
 
@@ -43,11 +49,10 @@ void find_out_of_range(const SphConstants& k, const RangeView& p, std::size_t fi
     double most = std::abs(pressure[i]);
     for (std::size_t c = 0; stress != nullptr && c < n; ++c) most = larger(std::abs(stress[i * n + c]), most);
     if (most < most_pressure && rho[i] > mass[i] * thinnest && rho[i] < mass[i] * densest) continue;
-    find_fault(
-        k, p, i, step,
-        fmt::format("has a pressure of {:.3g} Pa and a density of {:.3g} kg/m^3, out of all range; reduce "
-                    "time.dt or time.cfl",
-                    pressure[i], rho[i]));
+    find_fault(k, p, i, step,
+               fmt::format("has {} and {}, out of all range; reduce time.dt or time.cfl",
+                           quantity_text("pressure", pressure[i], "Pa"),
+                           quantity_text("density", rho[i], "kg/m^3")));
   }
 }
 

@@ -53,8 +53,10 @@ Findings find_infinite(const State& s, const Particles& particles, Field f) {
       if (!(speed_of(set.particles, i) >= largest[0])) continue;
       const std::uint64_t id = set.particles.data<Field::id>()[i];
       found.add(id, [&] {
-        return fmt::format("the fastest particle, {} {}, has a speed of {:.6g} m/s: {}", id,
-                           place_of(s, set.particles, i), largest[0], what);
+        const std::string speed =
+            std::isfinite(largest[0]) ? fmt::format("a speed of {:.6g} m/s", largest[0]) : "no finite speed";
+        return fmt::format("the fastest particle, {} {}, has {}: {}", id, place_of(s, set.particles, i),
+                           speed, what);
       });
     }
   found.stop(s.comm(), step_text(s.global().step));
@@ -80,9 +82,9 @@ void stop_at_fault(const State& s, const Findings& findings) {
 void guard_motion(const State& s, double way) {
   if (way > 0.5 * s.scene().support())
     stop_at_fastest(
-        s, fmt::format("it might move {:.6g} m in a step, more than half the kernel's radius; reduce "
-                       "time.dt or time.cfl",
-                       way));
+        s, fmt::format("it might move {} in a step, more than half the kernel's radius; reduce time.dt or "
+                       "time.cfl",
+                       std::isfinite(way) ? fmt::format("{:.6g} m", way) : "any distance"));
   for (const Model* m : s.models())
     if (!(s.global().max_speed <= m->speed_limit()))
       stop_at_fastest(
