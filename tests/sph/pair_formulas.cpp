@@ -207,7 +207,9 @@ void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {
     X(static_cast<Eigen::Index>(a)) = static_cast<double>(then) * of_.quantum();
     u(static_cast<Eigen::Index>(a)) = static_cast<double>(j.x[a] - i.x[a] - then) * of_.quantum();
   }
-  const double R = X.norm(), weight = -dw(R, h_) / R, both = i.rest_volume * j.rest_volume;
+  // Beyond the range of lists a bond is lost.
+  const double R = X.norm(), weight = r < scene_.list_range() ? -dw(R, h_) / R : 0.0,
+               both = i.rest_volume * j.rest_volume;
   const auto one = [&](Field f, int k, double value) {
     sums.of[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)].add(value);
   };

@@ -140,5 +140,24 @@ TEST_F(FaultTest, OfAStartIsOneOfItsScene) {
   EXPECT_TRUE(says(text, "neighbours in one line")) << text;
 }
 
+// A bond beyond the range of lists counts no longer, however wide their skin is.
+TEST_F(FaultTest, LeavesTheSameStateWithAnySkin) {
+  const auto halves = [](int i, int j) {
+    return Row{10.0 + i, 10.0 + j, i < 6 ? -400.0 : 400.0, 13.0 * (i + j), 1e3};
+  };
+  for (const std::string precision : {"precision=double", "precision=mixed"}) {
+    const auto end = [&](const std::string& skin) {
+      return end_of(scene(body, halves, 12, {precision, "time.dt=1e-3", "decomposition.skin=" + skin}));
+    };
+    const End wanted = end("1");
+    EXPECT_TRUE(says(wanted.text, "of its ")) << wanted.text;
+    for (const std::string skin : {"0", "0.1", "0.5"}) {
+      const End found = end(skin);
+      EXPECT_EQ(found.text, wanted.text) << skin;
+      EXPECT_EQ(found.fingerprint, wanted.fingerprint) << skin << ", " << precision;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sph::test

@@ -218,8 +218,8 @@ struct PairPass {
     const V found = where_less(pair.r, range, V(static_cast<T>(1)));
     const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found * near);
     pair.bond.intact = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
-    pair.bond.weight = where_equal(own[body], other[body],
-                                   -(near * Kernel::template slope<D>(distance) / max(distance, tiny)));
+    pair.bond.weight = where_equal(
+        own[body], other[body], -(found * near * Kernel::template slope<D>(distance) / max(distance, tiny)));
   }
 
   /// 1 where the reference positions are less than three cells of 2^29 units apart along each axis, else 0.
