@@ -4,18 +4,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <string>
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/fixed_point.hpp"
+#include "sph/core/simd.hpp"
 #include "sph/models/drag.hpp"
 
 namespace sph {
 namespace {
 
+using V = Simd<double>;
+
 constexpr double porosity_quantum = 0x1p-50;
 constexpr double least_porosity = 0.1;
 constexpr double least_open = 0.25;      // of the kernel beside walls: less is in a corner, or behind a face
 constexpr double largest_part = 0x1p50;  // [quanta]: 8192 of them fit a sum
+
+std::string too_strong_text(std::int64_t step, std::uint64_t grain, double force, double largest) {
+  return fmt::format(
+      "{}grain {}: the force of the fluid on it, {:.6g} N, is beyond the range of the sums, {:.6g} N; reduce "
+      "time.dt",
+      step_text(step), grain, force, largest);
+}
 
 }  // namespace
 
@@ -36,8 +48,9 @@ void Drag::deposit_porosity(StepState& s, Side side) {
     near_.find_kernel(grains, i, fluid);
     const double volume = volume_of(radius[i]) / porosity_quantum;
     const std::span<const std::uint32_t> rows = near_.rows(i);
+    const std::span<const double> kernel = near_.kernel(i);
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (rows[k] < fluid.owned()) deposits_[rows[k]] += round_to_quanta(volume * near_.kernel()[k]);
+      if (rows[k] < fluid.owned()) deposits_[rows[k]] += round_to_quanta(volume * kernel[k]);
   });
   if (side == Side::interior) return;
   double* porosity = s.particles.data<Field::porosity>();
@@ -89,12 +102,12 @@ void Drag::push_grains(StepState& s, Side side) {
   double* force = grains.data<Field::fluid_force>();
   double* drag = grains.data<Field::fluid_drag>();
   double* share = grains.data<Field::fluid_share>();
-  const double dt = s.global.dt;
+  const double dt = s.global.dt, largest = largest_part * force_quantum_;
   double speed2 = 0;
   const auto push_one = [&](std::size_t i) {
     const bool fixed = scene_->groups[group[i]].grain.fixed;
     Double3 f{}, d{};
-    near_.find_weights(grains, i, fluid);
+    near_.find_weights(i);
     const FluidNear::Share in = near_.share_of(i, radius[i], fluid);
     share[i] = in.per_weight;
     if (in.immersed > 0) {
@@ -110,13 +123,9 @@ void Drag::push_grains(StepState& s, Side side) {
     for (std::size_t a = 0; a < 3; ++a) {
       force[i * 3 + a] = f[a];
       drag[i * 3 + a] = d[a];
-      if (!(std::fabs(f[a]) < largest_part * force_quantum_)) {
-        s.findings.add(grains.data<Field::id>()[i], [&] {
-          return fmt::format(
-              "{}grain {}: the force of the fluid on it, {:.6g} N, is beyond the range of the sums, "
-              "{:.6g} N; reduce time.dt",
-              step_text(s.global.step), grains.data<Field::id>()[i], f[a], largest_part * force_quantum_);
-        });
+      if (!(std::fabs(f[a]) < largest)) {
+        const std::uint64_t id = grains.data<Field::id>()[i];
+        s.findings.add(id, [&] { return too_strong_text(s.global.step, id, f[a], largest); });
         force[i * 3 + a] = drag[i * 3 + a] = 0;
         continue;
       }
@@ -133,31 +142,39 @@ void Drag::push_grains(StepState& s, Side side) {
   };
   using enum RowClass;
   if (side != Side::boundary) for_rows(s.ranges, {interior_movers, interior_walls}, push_one);
-  if (side != Side::interior) for_rows(s.ranges, {boundary_movers, boundary_walls}, push_one);
+  if (side != Side::interior)
+    for_rows(s.ranges, {boundary_movers, boundary_walls}, [&](std::size_t i) {
+      near_.find_kernel(grains, i, fluid);  // again: fluid of the halo has arrived since
+      push_one(i);
+    });
   s.maxima.speed = larger(std::sqrt(speed2), s.maxima.speed);
 }
 
 void Drag::push_fluid(StepState& s, Side side) {
   Particles& fluid = s.particles;
   const Particles& grains = *s.other;
-  if (side != Side::boundary) deposits_.assign(fluid.owned() * 6, 0);
+  if (side != Side::boundary) deposits_.assign(fluid.owned() * V::lanes, 0);
   const double* mass = fluid.data<Field::mass>();
   const double* force = grains.data<Field::fluid_force>();
   const double* on_grain = grains.data<Field::fluid_drag>();
   const double* share = grains.data<Field::fluid_share>();
   for_grains(grains, side, [&](std::size_t i) {
     if (share[i] == 0) return;
-    near_.find_weights(grains, i, fluid);
+    near_.find_weights(i);
     const std::span<const std::uint32_t> rows = near_.rows(i);
-    std::array<double, 6> quanta{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      quanta[a] = quanta_a_weight(force[i * 3 + a], share[i]);
-      quanta[3 + a] = quanta_a_weight(on_grain[i * 3 + a], share[i]);
+    V quanta = V::zero();
+    for (int a = 0; a < 3; ++a) {
+      const std::size_t component = i * 3 + static_cast<std::size_t>(a);
+      quanta.v[a] = quanta_a_weight(force[component], share[i]);
+      quanta.v[3 + a] = quanta_a_weight(on_grain[component], share[i]);
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (rows[k] >= fluid.owned()) continue;
-      std::int64_t* sum = deposits_.data() + std::size_t{rows[k]} * 6;
-      for (std::size_t a = 0; a < 6; ++a) sum[a] -= round_to_quanta(quanta[a] * near_.weights()[k]);
+      std::int64_t* at = deposits_.data() + std::size_t{rows[k]} * V::lanes;
+      Int64x8 sum;
+      std::memcpy(&sum, at, sizeof sum);
+      sum -= to_integers(quanta * V(near_.weights()[k]));
+      std::memcpy(at, &sum, sizeof sum);
     }
   });
   if (side == Side::interior) return;
@@ -169,8 +186,8 @@ void Drag::push_fluid(StepState& s, Side side) {
     double v2 = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       const double before = pull[i * 3 + a];
-      pull[i * 3 + a] = static_cast<double>(deposits_[i * 6 + a]) * force_quantum_ / mass[i];
-      drag[i * 3 + a] = static_cast<double>(deposits_[i * 6 + 3 + a]) * force_quantum_ / mass[i];
+      pull[i * 3 + a] = static_cast<double>(deposits_[i * V::lanes + a]) * force_quantum_ / mass[i];
+      drag[i * 3 + a] = static_cast<double>(deposits_[i * V::lanes + 3 + a]) * force_quantum_ / mass[i];
       v[i * 3 + a] += s.global.dt * (pull[i * 3 + a] - before);
       v2 += v[i * 3 + a] * v[i * 3 + a];
     }

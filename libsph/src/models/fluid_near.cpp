@@ -1,18 +1,60 @@
 #include "sph/models/fluid_near.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "pairs/candidates.hpp"
 #include "pairs/id_rank.hpp"
 #include "sph/core/kernels.hpp"
+#include "sph/core/simd.hpp"
 
 namespace sph {
 namespace {
 
+using V = Simd<double>;
+
+/// Appends lanes [0, count) whose value is above 0, and their indices. Returns how many.
+[[gnu::always_inline]] inline std::size_t append_positive(V value, const std::uint32_t* index,
+                                                          std::size_t count, double* values,
+                                                          std::uint32_t* indices) {
+  const unsigned inside = count >= V::lanes ? 0xffu : (1u << count) - 1;
+  const unsigned wanted = positive_lanes(value) & inside;
+  const auto n = static_cast<std::size_t>(std::popcount(wanted));
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  const auto mask = static_cast<__mmask8>(wanted), out = static_cast<__mmask8>((1u << n) - 1);
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index));
+  _mm512_mask_storeu_pd(values, out, _mm512_maskz_compress_pd(mask, std::bit_cast<__m512d>(value.v)));
+  _mm256_mask_storeu_epi32(indices, out, _mm256_maskz_compress_epi32(mask, all));
+#else
+  std::size_t k = 0;
+  for (unsigned left = wanted; left != 0; left &= left - 1, ++k) {
+    const int lane = std::countr_zero(left);
+    values[k] = value[lane];
+    indices[k] = index[lane];
+  }
+#endif
+  return n;
+}
+
+/// Of rows listed near `at`, to be read in whole vectors, those within the support, and factor times the kernel there.
 template <class Kernel>
-void kernel_values(double factor, std::span<double> q_to_value) {
-  for (double& q : q_to_value) q = factor * Kernel::template value<3>(q);
+std::size_t find_within(std::span<const std::uint32_t> listed, const std::int64_t* x, const std::int64_t* at,
+                        double unit, double factor, double* kernel, std::uint32_t* rows) {
+  V own[3];
+  for (int a = 0; a < 3; ++a) own[a] = V(std::bit_cast<V::Native>(Int64x8{} + at[a]));
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < listed.size(); k += V::lanes) {
+    const std::uint32_t* index = listed.data() + k;
+    V of[4], square = V::zero();
+    load_vectors(reinterpret_cast<const double*>(x), index, of);
+    for (int a = 0; a < 3; ++a) {
+      const V d = coordinate_difference(own[a], of[a]) * V(unit);
+      square += d * d;
+    }
+    const V value = V(factor) * Kernel::template value<3>(sqrt(square));
+    n += append_positive(value, index, listed.size() - k, kernel + n, rows + n);
+  }
+  return n;
 }
 
 /// How the share of the kernel that is below a surface grows with the depth of its centre, there: the integral
@@ -58,30 +100,24 @@ void FluidNear::rebuild(const Particles& grains, const ListSetting& setting) {
     }
     first_.push_back(entries_.size());
   }
+  entries_.insert(entries_.end(), V::lanes, 0);
+  found_.assign(grains.rows(), 0);
+  rows_.resize(entries_.size());
+  kernel_.resize(entries_.size());
 }
 
 void FluidNear::find_kernel(const Particles& grains, std::size_t i, const Particles& fluid) {
-  const std::int64_t* at = grains.data<Field::position>() + i * 3;
-  const std::int64_t* x = fluid.data<Field::position>();
-  const std::span<const std::uint32_t> near = rows(i);
-  const double h = scene_->kernel.smoothing_length, unit = scale_.quantum / h;
-  kernel_.resize(near.size());
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    const std::int64_t* of = x + std::size_t{near[k]} * 3;
-    double square = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double d = static_cast<double>(of[a] - at[a]) * unit;
-      square += d * d;
-    }
-    kernel_[k] = std::sqrt(square);
-  }
-  const double h3 = h * h * h;
-  if (scene_->kernel.shape == KernelShape::quintic)
-    kernel_values<Quintic>(Quintic::normalisation<3> / h3, kernel_);
-  else if (scene_->kernel.shape == KernelShape::wendland_c2)
-    kernel_values<WendlandC2>(WendlandC2::normalisation<3> / h3, kernel_);
-  else
-    kernel_values<WendlandC4>(WendlandC4::normalisation<3> / h3, kernel_);
+  const auto near = std::span(entries_).subspan(first_[i], listed(i));
+  const double h = scene_->kernel.smoothing_length, h3 = h * h * h;
+  const auto find = [&]<class Kernel>(Kernel) {
+    return find_within<Kernel>(near, fluid.data<Field::position>(), grains.data<Field::position>() + i * 3,
+                               scale_.quantum / h, Kernel::template normalisation<3> / h3,
+                               kernel_.data() + first_[i], rows_.data() + first_[i]);
+  };
+  const KernelShape shape = scene_->kernel.shape;
+  found_[i] = static_cast<std::uint32_t>(shape == KernelShape::quintic       ? find(Quintic{})
+                                         : shape == KernelShape::wendland_c2 ? find(WendlandC2{})
+                                                                             : find(WendlandC4{}));
 }
 
 // How much of a grain is below the surface follows from how much of the kernel around it is fluid, walls aside: half
@@ -90,11 +126,12 @@ FluidNear::Share FluidNear::share_of(std::size_t i, double radius, const Particl
   constexpr double least = 0.02;  // of the kernel: what is beside a wall and dry
   const auto* group = fluid.data<Field::group>();
   const std::span<const std::uint32_t> near = rows(i);
+  const std::span<const double> w = kernel(i);
   const double wall_volume = scene_->start.spacing * scene_->start.spacing * scene_->start.spacing;
   double wet = 0, walls = 0;
   for (std::size_t k = 0; k < near.size(); ++k) {
     wet += weights_[k];
-    if (constants_->is_wall(group[near[k]])) walls += wall_volume * kernel_[k];
+    if (constants_->is_wall(group[near[k]])) walls += wall_volume * w[k];
   }
   const double open = 1 - walls;
   const double depth = (wet / open - 0.5) / surface_slope_ * scene_->kernel.smoothing_length / radius;
@@ -111,16 +148,17 @@ void FluidNear::find_volumes(const Particles& fluid, std::size_t first, std::siz
     volumes_[j] = constants_->is_wall(group[j]) ? 0.0 : mass[j] / density[j];
 }
 
-void FluidNear::find_weights(const Particles& grains, std::size_t i, const Particles& fluid) {
-  find_kernel(grains, i, fluid);
+void FluidNear::find_weights(std::size_t i) {
   const std::span<const std::uint32_t> near = rows(i);
+  const std::span<const double> w = kernel(i);
   weights_.resize(near.size());
-  for (std::size_t k = 0; k < near.size(); ++k) weights_[k] = volumes_[near[k]] * kernel_[k];
+  for (std::size_t k = 0; k < near.size(); ++k) weights_[k] = volumes_[near[k]] * w[k];
 }
 
 // Sums in the order of ids; find_weights() has been asked.
 FluidAround FluidNear::look_around(const Particles& grains, std::size_t i, const Particles& fluid) const {
   const std::span<const std::uint32_t> near = rows(i);
+  const std::span<const double> values = kernel(i);
   const double* v = fluid.data<Field::velocity>();
   const double* force = fluid.data<Field::force>();
   const double* porosity = fluid.data<Field::porosity>();
@@ -131,7 +169,7 @@ FluidAround FluidNear::look_around(const Particles& grains, std::size_t i, const
   double weight = 0, square = 0, e = 0, rho = 0, eta = 0;
   Double3 u{}, stress{};
   for (std::size_t k = 0; k < near.size(); ++k) {
-    const double w = kernel_[k], vw = weights_[k];
+    const double w = values[k], vw = weights_[k];
     if (!(vw > 0)) continue;
     const std::size_t j = near[k];
     weight += vw;

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "decomp/memory.hpp"
 #include "sph/models/drag_force.hpp"
 #include "sph/models/fluid_near.hpp"
 #include "sph/models/model.hpp"
@@ -64,7 +65,7 @@ class Drag final : public Model, public SetPair {
   }
   void count(const RowRanges&, std::span<std::uint32_t> entries) const override {
     for (std::size_t i = 0; i < entries.size(); ++i)
-      entries[i] += static_cast<std::uint32_t>(near_.rows(i).size());
+      entries[i] += static_cast<std::uint32_t>(near_.listed(i));
   }
 
  private:
@@ -85,8 +86,8 @@ class Drag final : public Model, public SetPair {
   double force_quantum_;
   double first_step_;
   Reduction::Maximum rate_{}, sound_{};
-  PushLimits limits_;                   ///< of this step
-  std::vector<std::int64_t> deposits_;  ///< of each fluid particle
+  PushLimits limits_;                           ///< of this step
+  decomp::LargeVector<std::int64_t> deposits_;  ///< of each fluid particle
 };
 
 }  // namespace sph
