@@ -173,7 +173,7 @@ TEST(HaloPlan, poisons_rows_under_way) {
 TEST(HaloPlan, subset_refreshes_the_kept_rows_alone) {
   on_all_scenes([](Fixture& f) {
     f.plan.refresh(f.table, all_columns(f.table));
-    const auto kept = [](Gid id) { return splitmix64(id) % 3 == 0; };
+    const auto kept = [](Gid id) { return splitmix(id) % 3 == 0; };
     std::vector<std::uint8_t> keep(f.table.rows());
     for (std::size_t r = 0; r < f.table.rows(); ++r) keep[r] = kept(f.id(r)) ? 1 : 0;
     HaloPlan part = f.plan.subset(keep);

@@ -10,7 +10,7 @@ namespace {
 using namespace decomp_test;
 
 /// Some rows have no payload; the bytes spell the id.
-std::vector<std::byte> payload_of(Gid id) { return expected_value(id, 99, splitmix64(id) % 23, 0); }
+std::vector<std::byte> payload_of(Gid id) { return expected_value(id, 99, splitmix(id) % 23, 0); }
 
 Payload make_payload(const Table& table) {
   Payload payload;

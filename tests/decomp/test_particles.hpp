@@ -13,22 +13,16 @@
 
 #include "decomp/grid.hpp"
 #include "decomp/partition.hpp"
+#include "decomp/splitmix.hpp"
 #include "decomp/table.hpp"
 
 namespace decomp_test {
 
 using namespace decomp;
 
-inline std::uint64_t splitmix64(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15U;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31);
-}
-
 /// Draw number `draw` of stream `stream`, in [0, below).
 inline std::int64_t draw(std::uint64_t stream, std::uint64_t draw, std::int64_t below) {
-  return static_cast<std::int64_t>(splitmix64(splitmix64(stream) + draw) % static_cast<std::uint64_t>(below));
+  return static_cast<std::int64_t>(splitmix(splitmix(stream) + draw) % static_cast<std::uint64_t>(below));
 }
 
 struct Scene {
@@ -173,7 +167,7 @@ inline Table fill_table(const Scene& scene, const JaggedPartition& partition, Ra
   std::vector<Gid> ids;
   for (Gid id = 0; id < scene.particles; ++id)
     if (owner_of(partition, position_of(scene, id)) == me) ids.push_back(id);
-  std::sort(ids.begin(), ids.end(), [](Gid a, Gid b) { return splitmix64(a) < splitmix64(b); });
+  std::sort(ids.begin(), ids.end(), [](Gid a, Gid b) { return splitmix(a) < splitmix(b); });
   table.resize(ids.size(), 0);
   for (std::size_t r = 0; r < ids.size(); ++r) {
     table.as<Gid>(0)[r] = ids[r];

@@ -102,7 +102,7 @@ TEST(Table, reorder_moves_every_column_and_may_drop_rows) {
     std::vector<std::uint32_t> order(ids.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(),
-              [&](auto a, auto b) { return splitmix64(a + 1000 * round) < splitmix64(b + 1000 * round); });
+              [&](auto a, auto b) { return splitmix(a + 1000 * round) < splitmix(b + 1000 * round); });
     order.resize(order.size() - std::min<std::size_t>(order.size(), 9));
     std::vector<std::uint32_t> moved;
     for (const std::uint32_t r : order) moved.push_back(ids[r]);

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "decomp/comm.hpp"
+#include "decomp/splitmix.hpp"
 #include "decomp/table.hpp"
 #include "sph/core/particles.hpp"
 
@@ -61,23 +62,16 @@ inline const FieldSet fluid_fields{Field::id,     Field::position, Field::veloci
                                    Field::mass,   Field::group,    Field::stress,   Field::pressure,
                                    Field::volume, Field::force};
 
-inline std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
-
 inline double awkward(std::uint64_t key) {
-  switch (mixed(key) % 16) {
+  switch (decomp::splitmix(key) % 16) {
     case 0:
       return -0.0;
     case 1:
-      return std::bit_cast<double>(0x7ff8000000000000U | (mixed(key + 1) >> 16));
+      return std::bit_cast<double>(0x7ff8000000000000U | (decomp::splitmix(key + 1) >> 16));
     case 2:
       return std::numeric_limits<double>::denorm_min();
     default:
-      return static_cast<double>(static_cast<std::int64_t>(mixed(key + 2))) * 0x1p-50;
+      return static_cast<double>(static_cast<std::int64_t>(decomp::splitmix(key + 2))) * 0x1p-50;
   }
 }
 
@@ -90,8 +84,8 @@ inline void fill_row(Particles& particles, std::size_t row, std::uint64_t id) {
     std::byte* to = column.data() + row * column.width();
     const std::size_t size = bytes(info(f).type);
     for (std::size_t c = 0; c * size < column.width(); ++c, to += size) {
-      const std::uint64_t key = mixed(id) + 64 * static_cast<std::uint64_t>(f) + c;
-      std::uint64_t value = mixed(key);
+      const std::uint64_t key = decomp::splitmix(id) + 64 * static_cast<std::uint64_t>(f) + c;
+      std::uint64_t value = decomp::splitmix(key);
       if (f == Field::id) value = id;
       if (f == Field::group) value %= 3;
       if (f == Field::position) value %= 1000;
@@ -110,7 +104,7 @@ using Cut = std::function<int(std::uint64_t n, int ranks)>;  ///< rank that owns
 inline int round_robin(std::uint64_t n, int ranks) {
   return static_cast<int>(n % static_cast<std::uint64_t>(ranks));
 }
-inline int scattered(std::uint64_t n, int ranks) { return round_robin(mixed(n), ranks); }
+inline int scattered(std::uint64_t n, int ranks) { return round_robin(decomp::splitmix(n), ranks); }
 inline int all_on_last(std::uint64_t, int ranks) { return ranks - 1; }
 
 /// This rank's part of `count` particles in two or three dimensions, in descending order, with halo rows of
@@ -129,13 +123,13 @@ inline Particles make_state(const decomp::Comm& comm, std::uint64_t count, const
   return particles;
 }
 
-/// Contact history of id: mixed(id) % 4 entries of 8 bytes.
+/// Contact history of id: decomp::splitmix(id) % 4 entries of 8 bytes.
 inline decomp::Payload make_history(const Particles& particles) {
   decomp::Payload history;
   for (std::size_t row = 0; row < particles.owned(); ++row) {
     const std::uint64_t id = particles.data<Field::id>()[row];
-    for (std::uint64_t k = 0; k < mixed(id) % 4; ++k) {
-      const std::uint64_t entry = mixed(id + k);
+    for (std::uint64_t k = 0; k < decomp::splitmix(id) % 4; ++k) {
+      const std::uint64_t entry = decomp::splitmix(id + k);
       const std::span<const std::byte> bytes = std::as_bytes(std::span(&entry, 1));
       history.bytes.insert(history.bytes.end(), bytes.begin(), bytes.end());
     }

@@ -50,9 +50,9 @@ std::string print_of(const decomp::Comm& comm, const Particles& p, const RunReco
 std::uint64_t digest(const decomp::Comm& comm, const Particles& p, const decomp::Payload& history) {
   std::array<std::uint64_t, 1> sum{0};
   for (std::size_t row = 0; row < p.owned(); ++row) {
-    std::uint64_t h = mixed(p.data<Field::id>()[row]);
+    std::uint64_t h = decomp::splitmix(p.data<Field::id>()[row]);
     for (std::uint64_t k = history.offset[row]; k < history.offset[row + 1]; ++k)
-      h = mixed(h ^ static_cast<std::uint64_t>(history.bytes[k]));
+      h = decomp::splitmix(h ^ static_cast<std::uint64_t>(history.bytes[k]));
     sum[0] += h;
   }
   comm.sum(std::span<std::uint64_t>(sum));
@@ -203,9 +203,9 @@ TEST_F(CheckpointTest, AnyDamageIsSeenAndTheOlderOneTaken) {
                                                          {"half", good.substr(0, good.size() / 2)},
                                                          {"longer", good + "x"}};
     for (std::size_t k = 0; k < 40; ++k) {
-      const std::size_t at = k < 4 ? k : k < 8 ? good.size() - (k - 3) : mixed(k) % good.size();
+      const std::size_t at = k < 4 ? k : k < 8 ? good.size() - (k - 3) : decomp::splitmix(k) % good.size();
       std::string flipped = good;
-      flipped[at] = static_cast<char>(flipped[at] ^ (1 << (mixed(k) >> 32) % 8));
+      flipped[at] = static_cast<char>(flipped[at] ^ (1 << (decomp::splitmix(k) >> 32) % 8));
       bad.emplace_back("bit at " + std::to_string(at), flipped);
     }
     for (const auto& [name, text] : bad) {

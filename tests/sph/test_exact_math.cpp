@@ -7,17 +7,14 @@
 #include <limits>
 #include <string>
 
+#include "decomp/splitmix.hpp"
 #include "sph/core/exact_math.hpp"
 
 namespace {
 
-/// Uniform in [low, high) without a library whose bits could vary: splitmix64 of a counter.
+/// Uniform in [low, high) without a library whose bits could vary.
 double uniform(std::uint64_t counter, double low, double high) {
-  std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  z ^= z >> 31;
-  return low + (high - low) * (static_cast<double>(z >> 11) * 0x1p-53);
+  return low + (high - low) * decomp::splitmix_unit(decomp::splitmix(counter * decomp::splitmix_stride));
 }
 
 double error_in_ulp(double got, long double want) {

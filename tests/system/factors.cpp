@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "decomp/splitmix.hpp"
+
 namespace equivalence {
 
 namespace {
@@ -97,12 +99,10 @@ void shuffle(std::vector<Row>& rows, std::uint64_t seed) {
 }
 
 std::uint64_t draw(std::uint64_t seed, std::string_view purpose) {
-  // FNV-1a over the text, then the finaliser of splitmix64 so that all bits are usable
+  // FNV-1a over the text, then mixed so that all bits are usable
   std::uint64_t hash = 0xcbf29ce484222325U ^ seed;
   for (const char c : purpose) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9U;
-  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebU;
-  return hash ^ (hash >> 31);
+  return decomp::splitmix_mix(hash);
 }
 
 }  // namespace equivalence

@@ -5,6 +5,7 @@
 
 #include "cut_line.hpp"
 #include "decomp/cut_policy.hpp"
+#include "decomp/splitmix.hpp"
 
 namespace decomp {
 
@@ -12,17 +13,9 @@ namespace {
 
 constexpr std::int64_t width = JaggedPartition::min_width;
 
-/// splitmix64 (Steele, Lea, Flood 2014): a bijection of 64 bits, used here as a hash of counters.
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
-
 /// Draw number `index` of a stream, uniform in [0, 1).
 double uniform(std::uint64_t stream, std::uint64_t index) {
-  return static_cast<double>(mix(stream ^ mix(index)) >> 11) * 0x1p-53;
+  return splitmix_unit(splitmix(stream ^ splitmix(index)));
 }
 
 /// Where in [0, 1] inner cut i of `parts` goes, before sorting and before each part gets its least width.
@@ -47,7 +40,7 @@ CutLine random_line(std::size_t parts, std::int64_t cells, std::uint64_t stream)
   const std::int64_t spare = cells - static_cast<std::int64_t>(parts) * width;
   if (spare < 0)
     throw InputError(std::to_string(parts) + " parts do not fit into " + std::to_string(cells) + " cells");
-  const auto skew = static_cast<Skew>(mix(stream) % static_cast<std::uint64_t>(Skew::count_));
+  const auto skew = static_cast<Skew>(splitmix(stream) % static_cast<std::uint64_t>(Skew::count_));
   CutLine cut(parts + 1, 0);
   cut.back() = spare;
   for (std::size_t i = 1; i < parts; ++i) {
@@ -65,12 +58,12 @@ class Chaos final : public CutPolicy {
   [[nodiscard]] bool uses_costs() const override { return false; }
 
   Cuts next(const Cuts& now, const Load&, const CutLimits& limits) override {
-    const std::uint64_t call = mix(mix(seed_) ^ calls_++);
+    const std::uint64_t call = splitmix(splitmix(seed_) ^ calls_++);
     Cuts cuts;
-    cuts.row = random_line(now.row.size() - 1, limits.row_cells, mix(call));
+    cuts.row = random_line(now.row.size() - 1, limits.row_cells, splitmix(call));
     for (std::size_t row = 0; row < now.column.size(); ++row)
       cuts.column.push_back(
-          random_line(now.column[row].size() - 1, limits.column_cells, mix(call ^ (row + 1))));
+          random_line(now.column[row].size() - 1, limits.column_cells, splitmix(call ^ (row + 1))));
     return cuts;
   }
 

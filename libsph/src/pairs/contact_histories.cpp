@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "decomp/splitmix.hpp"
 #include "sph/pairs/contact_lists.hpp"
 
 namespace sph {
@@ -14,16 +15,14 @@ namespace {
 
 constexpr std::size_t lanes = ContactGroups::lanes;
 
-/// splitmix64's finaliser: makes keys whose sum tells contacts apart.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
+/// Sums of these tell contacts apart.
+std::uint64_t mixed(std::uint64_t carrier, std::uint64_t partner) {
+  return decomp::splitmix_mix(decomp::splitmix_mix(carrier) + partner);
 }
 
 void count(ContactCensus& census, std::uint64_t carrier, std::uint64_t partner) {
   ++census.count;
-  census.keys += mix(mix(carrier) + partner);
+  census.keys += mixed(carrier, partner);
 }
 
 std::uint64_t key_of(const std::byte* entry) {
@@ -154,7 +153,7 @@ ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& pa
       parted_entries_.insert(parted_entries_.end(), entry, entry + entry_bytes());
       count(found, id[row], key);
       if ((key & wall_key) == 0)
-        found.one_sided += id[row] < key ? mix(mix(id[row]) + key) : -mix(mix(key) + id[row]);
+        found.one_sided += id[row] < key ? mixed(id[row], key) : -mixed(key, id[row]);
     }
   return found;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "decomp/splitmix.hpp"
 #include "sph/core/error.hpp"
 #include "sph/core/exact_math.hpp"
 #include "sph/core/fixed_point.hpp"
@@ -25,17 +26,10 @@ constexpr std::uint64_t recorded = 0xf029b4080dff47c2;  // of every correct buil
 // Volatile, so that nothing is computed by the compiler.
 volatile std::uint64_t seed = 20240607;
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
 struct Random {
   std::uint64_t state = seed;
-  std::uint64_t bits() {
-    state += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-  }
-  double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  ///< in [0, 1)
+  std::uint64_t bits() { return decomp::splitmix_mix(state += decomp::splitmix_stride); }
+  double unit() { return decomp::splitmix_unit(bits()); }
 };
 
 class Hash {

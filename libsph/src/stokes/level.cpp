@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "decomp/splitmix.hpp"
 #include "transfers.hpp"
 
 namespace stokes {
@@ -20,14 +21,7 @@ std::vector<Box> frames_of(const Grid& grid, std::vector<Box> boxes) {
 }
 
 /// In [-1/2, 1/2), of a cell's number: the same wherever it is.
-double hashed(std::uint64_t x) {
-  x ^= x >> 30;
-  x *= 0xbf58476d1ce4e5b9ULL;
-  x ^= x >> 27;
-  x *= 0x94d049bb133111ebULL;
-  x ^= x >> 31;
-  return static_cast<double>(x >> 11) * 0x1p-53 - 0.5;
-}
+double hashed(std::uint64_t x) { return decomp::splitmix_unit(decomp::splitmix_mix(x)) - 0.5; }
 
 }  // namespace
 
