@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "files/agree.hpp"
 #include "run/cost.hpp"
 #include "sph/files/provenance.hpp"
 #include "sph/laws/contact/law.hpp"
 #include "sph/laws/drag/law.hpp"
+#include "sph/models/models.hpp"
 #include "sph/output/monitors.hpp"
 #include "sph/run/report.hpp"
 #include "start/start_sounds.hpp"
@@ -35,13 +38,23 @@ Work work_of(const decomp::Comm& comm, double seconds_here) {
 const char* name_of(Formulation f) { return f == Formulation::ida ? "ida" : "conservative"; }
 const char* name_of(Precision p) { return p == Precision::mixed ? "mixed" : "double"; }
 
-std::string method_of(const Scene& scene) {
-  if (scene.of_grains()) return fmt::format("grains, {} contacts", scene.grains.contact.law->name);
-  const std::string pairs =
-      fmt::format("{}, {} pairs", name_of(scene.terms.formulation), name_of(scene.terms.precision));
-  if (!scene.is_mixture()) return pairs;
-  return fmt::format("{}; grains, {} contacts, {} drag", pairs, scene.grains.contact.law->name,
-                     scene.grains.drag.law->word);
+/// Of the models that there are.
+std::string method_of(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  std::vector<std::string> methods;
+  if (simulation.physics() != nullptr)
+    methods.push_back(
+        fmt::format("{}, {} pairs", name_of(scene.terms.formulation), name_of(scene.terms.precision)));
+  if (simulation.grains() != nullptr)
+    methods.push_back(fmt::format("grains, {} contacts", scene.grains.contact.law->name));
+  if (has_drag(scene)) methods.back() += fmt::format(", {} drag", scene.grains.drag.law->word);
+  return fmt::format("{}", fmt::join(methods, "; "));
+}
+
+std::string formulation_of(const Simulation& simulation) {
+  if (simulation.physics() == nullptr) return "grains";
+  if (simulation.grains() != nullptr) return "grains in a fluid";
+  return name_of(simulation.scene().terms.formulation);
 }
 
 void print(const decomp::Comm& comm, const std::string& text) {
@@ -70,7 +83,7 @@ void Screen::banner() const {
       "peperite {} ({}), {} {}, {}, HDF5 {}\n{}: {}\n{}D, {}, {} particles, {} ranks\n"
       "from step {}, t = {} s{}, dt = {:.4g} s{}\n",
       build.version, build.git, build.compiler, build.build_type, build.mpi, build.hdf5, scene.file,
-      scene.name, scene.dim, method_of(scene), simulation_.particle_count(), simulation_.comm().size(),
+      scene.name, scene.dim, method_of(simulation_), simulation_.particle_count(), simulation_.comm().size(),
       g.step, g.time, end, g.dt,
       simulation_.physics() == nullptr
           ? ""
@@ -118,9 +131,7 @@ void Screen::final_report(const std::filesystem::path& dir) {
   p.loop.wall_seconds = seconds(Clock::now() - begin_);
   p.loop.setup_seconds = setup_seconds_;
   p.loop.steps = simulation_.global().step - first_.step;
-  p.label.formulation = simulation_.scene().of_grains()    ? "grains"
-                        : simulation_.scene().is_mixture() ? "grains in a fluid"
-                                                           : name_of(simulation_.scene().terms.formulation);
+  p.label.formulation = formulation_of(simulation_);
   p.label.precision = name_of(simulation_.scene().terms.precision);
   const Work work = work_of(simulation_.comm(), simulation_.timers().cost());
   p.loop.cost_seconds = work.sum;

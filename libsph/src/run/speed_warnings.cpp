@@ -54,10 +54,11 @@ double fall_of(const Scene& scene, double height) {
 
 std::string speed_warnings(const Scene& scene, const std::vector<Height>& heights, double file_speed) {
   constexpr double stiff_enough = 10, rounding = 1e-3;
-  if (scene.of_grains() || has_eos(scene, EosKind::ideal_gas)) return {};
+  if (has_eos(scene, EosKind::ideal_gas)) return {};
   const Speed start = fastest_at_start(scene, file_speed);
   double stiffest = 0;
   for (const Group& g : scene.groups) stiffest = std::max(stiffest, sound_at_rest(g));
+  if (!(stiffest > 0)) return {};  // nothing here is taken for stiff
   if (start.value >= stiffest)
     return fmt::format(
         "warning: {}: {:.4g} m/s is Mach {:.4g} in the stiffest group, whose c is {:.4g} m/s: check the "
