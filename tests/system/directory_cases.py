@@ -265,6 +265,10 @@ class Cases:
         for says, content in bad.items():
             snapshot.write_bytes(content)
             self.run.refused(1, "peperite", "info", snapshot, says=says)
+        snapshot.write_bytes(good)
+        with h5py.File(snapshot, "r+") as file:
+            file.attrs.modify("dim", 7)
+        self.run.refused(1, "peperite", "info", snapshot, says="7 dimensions")
 
 
 def main():

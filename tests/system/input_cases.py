@@ -75,6 +75,9 @@ class Cases(CheckCases):
         for limit in ("", "nan", "inf", "-1", "1:2:3:4", "1e5", "0:0:x", ":"):
             self.refused("run", scene, "--max-time", limit, "--out", "no", says="--max-time", ranks=(1,))
         self.refused("run", scene, "--out", "", says="--out", ranks=(1,))
+        for end in (["--steps", 3], ["--until", "1 ms"]):  # the end that they replace
+            for key in ("time.steps=-1", "time.until=-1"):
+                self.refused("run", scene, "--set", key, *end, "--out", "no", says=f"{key[:-3]}: is -1", ranks=(1,))
         self.refused("run", scene, "--steps", "18446744073709551616", "--out", "no", says="--steps", ranks=(3,))
         assert not (self.run.folder / "no").exists()
         short = self.run.run(1, "peperite", "run", scene, "--until", "30 us", "--out", "short")

@@ -87,6 +87,9 @@ class SnapshotFile : public StateFile {
     s.kind = "snapshot";
     s.path = path;
     s.dim = static_cast<int>(file.integer("dim"));
+    if (s.dim != 2 && s.dim != 3)
+      throw InputError(
+          fmt::format("{}: says that it has {} dimensions; it is damaged", path.string(), s.dim));
     s.rows = file.rows("particles/id");
     if (file.integer("particles") != static_cast<std::int64_t>(s.rows))
       throw InputError(fmt::format("{}: says that it has {} particles, but has {} ids; it is damaged",

@@ -1,9 +1,9 @@
 // [[group]] with kind = "grain".
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "keys/scene_resolve.hpp"
 #include "sph/laws/contact/law.hpp"
@@ -35,6 +35,20 @@ void read_radii(const GroupReader& table, Group& group) {
   group.grain.largest_radius = 0.5 * largest;
 }
 
+/// Forces and energies of grains have powers of their masses and volumes.
+void check_masses(const GroupReader& table, const Group& group) {
+  constexpr double least = 1e-60, most = 1e60;
+  const auto fits = [&](double density) {
+    return grain_mass(density, group.grain.least_radius) >= least &&
+           grain_mass(density, group.grain.largest_radius) <= most;
+  };
+  if (fits(group.density)) return;
+  const std::string what = "makes a mass that is beyond all reason";
+  const std::string right = fmt::format("grains are {} to {} kg: check its unit", least, most);
+  if (fits(1)) table.fail("density", what, right);
+  table.fail("diameter", what, right);
+}
+
 /// A material of walls alone has no diameter, and then no grains that could be heavy or fixed.
 void read_body(const GroupReader& table, Group& group) {
   read_radii(table, group);
@@ -43,9 +57,7 @@ void read_body(const GroupReader& table, Group& group) {
   if (table.has("diameter") && !(g.least_radius > 0))
     table.fail("diameter", "is below the range of numbers", "check its unit");
   if (has_grains) table.require("density");
-  const double lightest = grain_mass(group.density, g.least_radius);
-  if (has_grains && !(lightest > 0 && std::isfinite(grain_mass(group.density, g.largest_radius))))
-    table.fail("diameter", "makes a mass beyond the range of numbers", "check its unit and the density's");
+  if (has_grains) check_masses(table, group);
   table.only_if(has_grains || !g.fixed, "fixed",
                 "a material without diameter has no grains: it is for walls");
   table.only_if(g.fixed, "velocity",

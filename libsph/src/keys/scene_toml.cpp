@@ -95,9 +95,13 @@ void read_kernel(const KernelReader& table, Scene& scene) {
   table.finish();
 }
 
-void read_time(const Reader<keys::time>& table, Scene& scene) {
+void read_time(const Reader<keys::time>& table, const End& end, Scene& scene) {
   table.read(scene.time);
   table.not_both("dt", "cfl");
+  if (end.until || end.steps) {
+    scene.time.until = end.until;
+    scene.time.steps = end.steps;
+  }
   if (!scene.time.until && !scene.time.steps) table.fail_missing("until", "give the end in s, or steps");
   table.finish();
 }
@@ -190,7 +194,7 @@ void check_total_lagrangian(const Tables& tables, const Scene& scene) {
     tables.start.fail("pressure", "is of fluids", "solids with lagrangian = \"total\" start free of stress");
 }
 
-Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_files) {
+Scene resolve(const toml_tree::Node& root, const std::string& file, const End& end, bool check_files) {
   if (root.table()->empty())
     toml_tree::fail(fmt::format("{}:1:1", file), "scene", "the file is empty", "describe the scene in TOML");
   Scene scene;
@@ -204,7 +208,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
   if (scene.is_mixture()) read_drag(tables.top, tables.drag, scene);
   read_start(tables.start, scene);
   if (scene.has_matter()) read_terms(tables.terms, scene);
-  read_time(tables.time, scene);
+  read_time(tables.time, end, scene);
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
   fit_growth(tables.kernel, scene, least_periodic_cells);
@@ -223,20 +227,20 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, bool check_f
 }
 
 Scene parse_and_resolve(const std::string& text, const std::string& name,
-                        const std::vector<std::string>& overrides, bool check_files) {
+                        const std::vector<std::string>& overrides, const End& end, bool check_files) {
   toml_tree::Node root = toml_tree::parse(text, name);
   for (const std::string& option : overrides) toml_tree::apply_override(root, option);
-  return resolve(root, name, check_files);
+  return resolve(root, name, end, check_files);
 }
 
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& name,
-                  const std::vector<std::string>& overrides) {
-  return parse_and_resolve(text, name, overrides, false);
+Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
+                  const End& end) {
+  return parse_and_resolve(text, name, overrides, end, false);
 }
 
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides, const End& end) {
   const auto unreadable = [&](std::string_view what) {
     toml_tree::fail(fmt::format("{}:1:1", path), "scene", what, "give the path of a TOML scene");
   };
@@ -250,7 +254,7 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   std::ifstream in(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in) unreadable("cannot be read");
-  return parse_and_resolve(text, path, overrides, true);
+  return parse_and_resolve(text, path, overrides, end, true);
 }
 
 }  // namespace sph

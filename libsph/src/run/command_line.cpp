@@ -48,13 +48,13 @@ std::int64_t steps_of(const std::string& text) {
 }
 
 /// A time of the scene as --set time.until takes it, a number or "5 ms".
-std::string end_of(const std::string& text) {
+double until_of(const std::string& text) {
   const Quantity time = parse_quantity(text);
   const bool seconds = !time.has_unit || time.dim == dimension::time;
   if (!time.problem.empty() || !seconds || !std::isfinite(time.value) || time.value < 0)
     throw InputError(
         fmt::format("--until: \"{}\" is not a time; write seconds from 0, or a time like \"5 ms\"", text));
-  return text;
+  return time.value;
 }
 
 /// "H:M:S", "M:S" or "S" in seconds.
@@ -89,9 +89,9 @@ struct Arguments {
   }
   void add_end(CLI::App& app) {
     auto* steps = add_text(app, "--steps", "end after this many steps, counted from 0", "N",
-                           [this](const std::string& text) { run.steps = steps_of(text); });
+                           [this](const std::string& text) { run.end.steps = steps_of(text); });
     auto* until = add_text(app, "--until", "end at the first step with t >= T [s]", "T",
-                           [this](const std::string& text) { run.until = end_of(text); });
+                           [this](const std::string& text) { run.end.until = until_of(text); });
     steps->excludes(until);
   }
   void add_out(CLI::App& app) {

@@ -17,19 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// --steps and --until replace whatever end the scene has.
-std::vector<std::string> with_end(const RunOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (options.steps) {
-    overrides.push_back("time.until=");
-    overrides.push_back("time.steps=" + std::to_string(*options.steps));
-  } else if (options.until) {
-    overrides.push_back("time.steps=");
-    overrides.push_back("time.until=" + *options.until);
-  }
-  return overrides;
-}
-
 template <class Make>
 std::unique_ptr<Simulation> simulate(const Scene& scene, Make&& make) {
   return naming_file(scene, [&] {
@@ -68,7 +55,9 @@ bool has_checkpoint(const fs::path& dir) {
 
 }  // namespace
 
-Scene scene_of(const RunOptions& options) { return read_scene(options.scene, with_end(options)); }
+Scene scene_of(const RunOptions& options) {
+  return read_scene(options.scene, options.overrides, options.end);
+}
 
 bool is_finished(const Scene& scene, const GlobalState& global) {
   return (scene.time.steps && global.step >= *scene.time.steps) ||
@@ -111,7 +100,7 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
   if (!text.empty()) {
     if (comm.rank() == 0)
       fmt::print(stderr, "peperite: {} has no checkpoint yet: beginning anew\n", start.dir.string());
-    const Scene scene = parse_scene(text, file, with_end(options));
+    const Scene scene = parse_scene(text, file, options.overrides, options.end);
     prepare_record(comm, scene, true);
     start.old_scene = text;
     start.simulation = simulate(scene, [&] { return begun(comm, scene); });
@@ -120,7 +109,7 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
   const CheckpointHandle checkpoint = find_checkpoint(comm, start.dir);
   if (!checkpoint.warning.empty() && comm.rank() == 0)
     fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
-  const Scene scene = parse_scene(checkpoint.record.scene_toml, file, with_end(options));
+  const Scene scene = parse_scene(checkpoint.record.scene_toml, file, options.overrides, options.end);
   prepare_record(comm, scene, true);
   start.old_scene = checkpoint.record.scene_toml;
   start.memory = memory_from_json(checkpoint.record.extra_json);

@@ -18,8 +18,7 @@ struct RunOptions {
   std::filesystem::path resume;        ///< ... or the directory of one that goes on
   std::filesystem::path out;           ///< of a new run; empty: out/<stem of the scene file>
   std::vector<std::string> overrides;  ///< "a.b=v"
-  std::optional<std::int64_t> steps;   ///< end after so many steps, counted from 0 ...
-  std::optional<std::string> until;    ///< ... or at this time: both instead of what the scene says
+  End end;                             ///< instead of what the scene says
   std::optional<double> max_seconds;   ///< of wall time: then checkpoint and stop
   bool plan = false;                   ///< check: print the stages of a step
 };

@@ -39,4 +39,10 @@ struct TimeControl {
   friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 
+/// An end that is given beside a scene, instead of the scene's own.
+struct End {
+  std::optional<double> until;        ///< as TimeControl has it
+  std::optional<std::int64_t> steps;  ///< ... too
+};
+
 }  // namespace sph

@@ -52,11 +52,13 @@ struct Scene {
 };
 
 /// Reads and resolves a scene; `overrides` are "a.b=v" texts of --set, applied before anything is checked.
+/// If `end` has any it is taken instead of the scene's, which is checked all the same.
 /// Throws InputError "file:line:column: key: what is wrong; what would be right" for the first problem found.
-[[nodiscard]] Scene read_scene(const std::string& path, const std::vector<std::string>& overrides);
+[[nodiscard]] Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                               const End& end = {});
 /// The same from text already in memory (`name` stands for the file in messages).
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& name,
-                                const std::vector<std::string>& overrides);
+                                const std::vector<std::string>& overrides, const End& end = {});
 /// The resolved scene as TOML: reading it back gives the same scene. Stored in every file.
 [[nodiscard]] std::string to_toml(const Scene& scene);
 
