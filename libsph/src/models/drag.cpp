@@ -52,6 +52,8 @@ Drag::Drag(std::size_t fluid, std::size_t grains, const Scene& scene, const Posi
 
 // It is that of what walls leave of the kernel, whose share is known before.
 void Drag::add_porosity_to(Plan& fluid) {
+  for (const std::vector<Entry>* part : {&fluid.sums, &fluid.kick})
+    fluid_is_displaced_ |= first_that_writes(*part, Field::position) != part->end();
   Stage porosity{
       "porosity", decomp::Region::contacts, {}, {Field::porosity}, [this](StepState& s, Side side) {
         deposit_porosity(s, side);

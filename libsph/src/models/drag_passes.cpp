@@ -141,7 +141,11 @@ void Drag::push_grains(StepState& s, Side side) {
     speed2 = larger(v2, speed2);
   };
   using enum RowClass;
-  if (side != Side::boundary) for_rows(s.ranges, {interior_movers, interior_walls}, push_one);
+  if (side != Side::boundary)
+    for_rows(s.ranges, {interior_movers, interior_walls}, [&](std::size_t i) {
+      if (fluid_is_displaced_) near_.find_kernel(grains, i, fluid);
+      push_one(i);
+    });
   if (side != Side::interior)
     for_rows(s.ranges, {boundary_movers, boundary_walls}, [&](std::size_t i) {
       near_.find_kernel(grains, i, fluid);  // again: fluid of the halo has arrived since
@@ -160,6 +164,7 @@ void Drag::push_fluid(StepState& s, Side side) {
   const double* share = grains.data<Field::fluid_share>();
   for_grains(grains, side, [&](std::size_t i) {
     if (share[i] == 0) return;
+    if (fluid_is_displaced_ && i >= grains.owned()) near_.find_kernel(grains, i, fluid);
     near_.find_weights(i);
     const std::span<const std::uint32_t> rows = near_.rows(i);
     V quanta = V::zero();

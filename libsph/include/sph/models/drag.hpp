@@ -83,6 +83,7 @@ class Drag final : public Model, public SetPair {
   const SphConstants* constants_;
   DragForce push_;
   FluidNear near_;
+  bool fluid_is_displaced_ = false;  ///< after its porosity was found, by shifting
   double force_quantum_;
   double first_step_;
   Reduction::Maximum rate_{}, sound_{};
