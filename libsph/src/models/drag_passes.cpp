@@ -89,6 +89,8 @@ void Drag::fill_between_grains(const StepState& s) const {
 // Times the weight of a fluid particle it is what that particle takes, the same on both sides and on all ranks.
 double Drag::quanta_a_weight(double force, double share) const { return force * share / force_quantum_; }
 
+// The kernel is looked for again where fluid of the halo, or what shifting has displaced, is elsewhere than when the
+// porosity was found.
 void Drag::push_grains(StepState& s, Side side) {
   const Particles& fluid = *s.other;
   Particles& grains = s.particles;
@@ -141,16 +143,12 @@ void Drag::push_grains(StepState& s, Side side) {
     speed2 = larger(v2, speed2);
   };
   using enum RowClass;
-  if (side != Side::boundary)
-    for_rows(s.ranges, {interior_movers, interior_walls}, [&](std::size_t i) {
-      if (fluid_is_displaced_) near_.find_kernel(grains, i, fluid);
-      push_one(i);
-    });
-  if (side != Side::interior)
-    for_rows(s.ranges, {boundary_movers, boundary_walls}, [&](std::size_t i) {
-      near_.find_kernel(grains, i, fluid);  // again: fluid of the halo has arrived since
-      push_one(i);
-    });
+  const auto find_and_push = [&](std::size_t i) {
+    if (side == Side::boundary || fluid_is_displaced_) near_.find_kernel(grains, i, fluid);
+    push_one(i);
+  };
+  if (side != Side::boundary) for_rows(s.ranges, {interior_movers, interior_walls}, find_and_push);
+  if (side != Side::interior) for_rows(s.ranges, {boundary_movers, boundary_walls}, find_and_push);
   s.maxima.speed = larger(std::sqrt(speed2), s.maxima.speed);
 }
 
