@@ -87,6 +87,22 @@ TEST(Poison, copies_that_are_out_of_date_are_no_numbers) {
     ASSERT_TRUE(std::isfinite(p.data<Field::velocity>()[2 * i]));
 }
 
+TEST(Poison, a_start_leaves_nothing_of_the_state_out) {
+  if (!decomp::poisons()) GTEST_SKIP() << "this program does not poison";
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  for (const std::string name : {"grains_in_melt", "grains_pour", "bodies2d"}) {
+    const Simulation s(comm, read_scene(PEPERITE_TEST_DIR "/scenes/" + name + ".toml", {}));
+    for (const ParticleSet& set : s.sets())
+      for (const Field f : state_of(set.particles.fields()).list()) {
+        if (info(f).type != Type::f64) continue;
+        const std::size_t values = set.particles.owned() * width(f, set.particles.dim()) / sizeof(double);
+        const double* x = set.particles.table().as<double>(set.particles.column(f));
+        for (std::size_t k = 0; k < values; ++k)
+          ASSERT_FALSE(std::isnan(x[k])) << name << ' ' << info(f).name;
+      }
+  }
+}
+
 TEST(Poison, fresh_rows_are_no_numbers) {
   if (!decomp::poisons()) GTEST_SKIP() << "this program does not poison";
   decomp::Table table;

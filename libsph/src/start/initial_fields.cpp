@@ -118,6 +118,8 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* porosity = particles.data<Field::porosity>()) porosity[i] = 1;  // grains are not looked at yet
   if (auto* pull = particles.data<Field::grain_pull>())
     for (std::size_t a = 0; a < d; ++a) pull[i * d + a] = 0;
+  if (auto* drag = particles.data<Field::grain_drag>())
+    for (std::size_t a = 0; a < d; ++a) drag[i * d + a] = 0;
 }
 
 }  // namespace sph
