@@ -32,9 +32,9 @@ struct Grid {
   [[nodiscard]] bool slides(int axis) const;
 };
 
-/// One rank's cells with a layer of copies around them.
+/// One rank's cells with layers of copies around them.
 struct Patch {
-  Patch(const Grid& grid, const Box& own);
+  Patch(const Grid& grid, const Box& own, int layers = 1);
 
   [[nodiscard]] std::ptrdiff_t at(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return (x - frame.lo[0]) + (y - frame.lo[1]) * stride[1] + (z - frame.lo[2]) * stride[2];
@@ -45,6 +45,7 @@ struct Patch {
 
   Grid grid;
   Box own, frame;
+  int layers = 1;
   std::array<std::ptrdiff_t, 3> stride{};
   std::size_t size = 0;  ///< of the frame
 };
@@ -53,7 +54,7 @@ using Field = std::vector<double>;  ///< over a patch's frame
 using Velocity = std::array<Field, 3>;
 
 /// What lies behind walls of the copies: velocities vanish across them and have their mirror image along them, opposite
-/// where there is no slip; the rest is mirrored.
+/// where there is no slip; the rest is mirrored. Of velocities one layer.
 void mirror_velocity(const Patch& patch, Velocity& u);
 void mirror_cells(const Patch& patch, Field& c);
 

@@ -1,5 +1,6 @@
 #include "stokes/grid.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace stokes {
@@ -39,8 +40,10 @@ bool Grid::slides(int axis) const {
   return true;
 }
 
-Patch::Patch(const Grid& of, const Box& cells) : grid(of), own(cells), frame(cells) {
-  for (std::size_t a = 0; a < static_cast<std::size_t>(grid.dim); ++a) --frame.lo[a], ++frame.hi[a];
+Patch::Patch(const Grid& of, const Box& cells, int copies)
+    : grid(of), own(cells), frame(cells), layers(copies) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(grid.dim); ++a)
+    frame.lo[a] -= layers, frame.hi[a] += layers;
   if (own.empty()) frame = own;
   std::ptrdiff_t n = 1;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -76,12 +79,18 @@ void mirror_velocity(const Patch& p, Velocity& u) {
 }
 
 void mirror_cells(const Patch& p, Field& c) {
+  if (p.own.empty()) return;
   for (int axis = 0; axis < p.grid.dim; ++axis) {
+    if (p.grid.periodic(axis)) continue;
     const auto a = static_cast<std::size_t>(axis);
-    const std::ptrdiff_t s = p.stride[a], last = p.own.hi[a] - p.own.lo[a] + 1;
-    if (p.at_wall(axis, 0)) for_frame_lines(p, a, [&](std::ptrdiff_t k) { c[k] = c[k + s]; });
-    if (p.at_wall(axis, 1))
-      for_frame_lines(p, a, [&](std::ptrdiff_t k) { c[k + last * s] = c[k + (last - 1) * s]; });
+    const std::int64_t n = p.grid.cells[a], lo = p.frame.lo[a];
+    const auto mirror = [&](std::int64_t x, std::int64_t image) {
+      const std::ptrdiff_t to = (x - lo) * p.stride[a], from = (image - lo) * p.stride[a];
+      for_frame_lines(p, a, [&](std::ptrdiff_t k) { c[k + to] = c[k + from]; });
+    };
+    // A wall may also be behind the copies.
+    for (std::int64_t x = lo; x < 0; ++x) mirror(x, std::min(-1 - x, n - 1));
+    for (std::int64_t x = n; x < p.frame.hi[a]; ++x) mirror(x, std::max(2 * n - 1 - x, std::int64_t{0}));
   }
 }
 
