@@ -23,7 +23,8 @@ class Transport {
 
   /// One step of `dt` [s]. u [m/s]: of volume, per area of face, whatever M is; through walls nothing goes. `volume`:
   /// M, 1 in a pure fluid; `carried`: per volume of M. There are no new extrema where the |F| of a cell's faces sum up
-  /// to less than its M, before and after. Where M is not above 0 what is carried stays as it is. Collective.
+  /// to at most the M of both stages, M + sum F and M + 2 sum F. Where M is not above 0 what is carried stays as it is.
+  /// Collective.
   void advect(const Velocity& u, double dt, Field& volume, std::span<Field* const> carried);
 
   /// The time [s] in which u passes the share `cfl` of a cell: cfl / max sum_a |u_a| / edge_a, of a cell's faster face
