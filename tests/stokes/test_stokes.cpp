@@ -208,6 +208,55 @@ TEST(Stokes, WhatPressureBalancesMovesNothing) {
   });
 }
 
+// Out of a sphere of sources a flow in all directions, on grids of two spacings; its divergence is what was asked for.
+TEST(Stokes, FlowsOutOfSources) {
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  const Grid g = box_of(2, 32, Side::free_slip);
+  Solver solver(comm, g, even_boxes(g, comm.size()));
+  const Patch& p = solver.patch();
+  const double h = g.edge[0];
+  Flow x = solver.make_flow();
+  Field source(p.size, 0.0);
+  // u = (cos(pi y) sin(pi x), cos(pi x) sin(pi y)) = -grad phi: what flows without a force, of a phi that is
+  // harmonic but for the sources; their mean is 0.
+  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+    source[k] = 2 * pi * std::cos(pi * (at[0] + 0.5 * h)) * std::cos(pi * (at[1] + 0.5 * h)) + 7;
+  });
+  solver.set_viscosity(Field(p.size, 1e3));
+  EXPECT_TRUE(solver.solve(solver.make_flow().u, x, 1e-10, 200, &source).converged);
+  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+    EXPECT_NEAR(x.u[0][k], std::sin(pi * at[0]) * std::cos(pi * (at[1] + 0.5 * h)), 1e-3);
+    EXPECT_NEAR(x.u[1][k], std::sin(pi * at[1]) * std::cos(pi * (at[0] + 0.5 * h)), 1e-3);
+  });
+}
+
+// Darcy's flow: where faces resist far more than shear does, each component is what drives it over the resistance.
+TEST(Stokes, FacesResist) {
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  Grid g = box_of(3, 16, Side::periodic);
+  g.sides[2] = {Side::no_slip, Side::free_slip};
+  Solver solver(comm, g, even_boxes(g, comm.size()));
+  const Patch& p = solver.patch();
+  Flow x = solver.make_flow();
+  Velocity force = solver.make_flow().u;
+  Resistance resistance{{true, false, false}, {Field(p.size, 0.0), {}, {}}};
+  // u'' = (k u - f) / eta between a wall that holds it and one that does not.
+  const double k = 30, f = 6, eta = 2, a = std::sqrt(k / eta);
+  for_cells(p, [&](std::ptrdiff_t c, const std::array<double, 3>&) {
+    force[0][c] = f;
+    resistance.faces[0][c] = k;
+  });
+  solver.set_viscosity(Field(p.size, eta), resistance);
+  const Effort effort = solver.solve(force, x, 1e-10);
+  EXPECT_TRUE(effort.converged);
+  EXPECT_LE(effort.iterations, 14);
+  for_cells(p, [&](std::ptrdiff_t c, const std::array<double, 3>& at) {
+    const double z = at[2] + 0.5 * g.edge[2];
+    EXPECT_NEAR(x.u[0][c], f / k * (1 - std::cosh(a * (1 - z)) / std::cosh(a)), 0.01 * f / k);
+    EXPECT_NEAR(x.u[1][c], 0, 1e-9);
+  });
+}
+
 /// Boxes of whole tiles cut at random, some ranks without any.
 std::vector<Box> random_boxes(const Grid& g, int ranks, unsigned seed) {
   std::mt19937 random(seed);
@@ -236,13 +285,16 @@ TEST(Stokes, BitsAreThoseOfOneRank) {
         const Patch& p = solver.patch();
         Flow x = solver.make_flow();
         Velocity force = solver.make_flow().u;
-        Field eta(p.size, 1.0);
+        Field eta(p.size, 1.0), source(p.size, 0.0);
+        Resistance resistance{{false, seed % 3 != 0, false}, {Field(), Field(p.size, 0.0), Field()}};
         for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
           eta[k] = at[0] + 0.3 * at[1] * at[1] < 0.6 ? 1 : 1e4;
           force[1][k] = at[0] * (1 - at[0]) * at[1];
+          source[k] = 1e-6 * (at[0] - at[1]);
+          resistance.faces[1][k] = at[1] < 0.4 ? 50 : 0;
         });
-        solver.set_viscosity(eta);
-        const Effort effort = solver.solve(force, x, 1e-6, 12);
+        solver.set_viscosity(eta, resistance);
+        const Effort effort = solver.solve(force, x, 1e-6, 12, &source);
         return std::tuple(p, std::move(x), effort.iterations);
       };
       const auto [whole, expected, iterations] = run(alone, {g.box()});

@@ -24,8 +24,9 @@ class Level {
   void refresh(Velocity& u);
   void refresh_cells(Field& c);
 
-  /// Viscosities of the cells, of which `refresh_cells` has been asked; finds what follows from them. Collective.
-  void set_viscosity(Field cells, EdgeMean mean);
+  /// Viscosities of the cells and resistances of the faces, of which `refresh_cells` has been asked; finds what follows
+  /// from them. Collective.
+  void set_viscosity(Field cells, EdgeMean mean, Resistance resistance);
   [[nodiscard]] const Viscosity& viscosity() const { return viscosity_; }
 
   /// r = f - A u; refreshes u.

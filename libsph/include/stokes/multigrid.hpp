@@ -19,8 +19,8 @@ class Multigrid {
   [[nodiscard]] Level& finest() { return *levels_.front(); }
   [[nodiscard]] std::size_t depth() const { return levels_.size(); }
 
-  /// Of the finest cells, over its patch; copies need not be up to date. Collective.
-  void set_viscosity(Field cells);
+  /// Of the finest cells and faces (viscous_operator.hpp), over its patch; copies need not be up to date. Collective.
+  void set_viscosity(Field cells, Resistance resistance);
   /// u = about A^-1 f. Collective.
   void cycle(const Velocity& f, Velocity& u);
 

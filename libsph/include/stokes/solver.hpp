@@ -1,4 +1,4 @@
-// Slow flow of a fluid of variable viscosity: -div 2 eta eps(u) + grad p = f, div u = 0, on a staggered grid.
+// Slow flow of a fluid of variable viscosity: -div 2 eta eps(u) + c u + grad p = f, div u = s, on a staggered grid.
 // FGMRES (Saad 1993), preconditioned from the right by the block triangle [A G; 0 -S], S = 1 / eta the pressure's mass
 // and A^-1 one V-cycle. Dot products are exact sums of terms that are rounded once, updates read old values only, and the
 // grid's cuts meet no arithmetic: the same bits on any number of ranks.
@@ -29,11 +29,14 @@ class Solver {
 
   [[nodiscard]] const Patch& patch() { return multigrid_.finest().patch(); }
   [[nodiscard]] Flow make_flow();
-  /// [Pa s], over the patch; copies need not be up to date. Collective.
-  void set_viscosity(Field cells);
-  /// Improves `x` until |r| <= tolerance |f|. Where a mean velocity or pressure is free it is 0 then; where no wall holds
-  /// a component of the force its mean is taken off. Collective.
-  [[nodiscard]] Effort solve(Velocity force, Flow& x, double tolerance, int most_iterations = 200);
+  /// Of cells [Pa s], and of faces, as far as they resist, c [Pa s/m^2], over the patch; copies need not be up to date.
+  /// Collective.
+  void set_viscosity(Field cells, Resistance resistance = {});
+  /// Improves `x` until |r| <= tolerance |f|; residuals of the divergence count times the least eta / h. Where a mean velocity or
+  /// pressure is free it is 0 then; where no wall holds a component of the force its mean is taken off, and so is that of
+  /// the source s [1/s]. Collective.
+  [[nodiscard]] Effort solve(Velocity force, Flow& x, double tolerance, int most_iterations = 200,
+                             const Field* source = nullptr);
 
  private:
   /// y = K x; refreshes x.
@@ -49,6 +52,7 @@ class Solver {
 
   const decomp::Comm* comm_;
   Multigrid multigrid_;
+  double per_divergence_ = 1;  ///< least eta / h, squared [(Pa s/m)^2]
 };
 
 }  // namespace stokes

@@ -1,5 +1,6 @@
-// A u = -div 2 eta eps(u) on a patch, second order: normal stresses at cell centres, shear stresses at edges,
-//   tau_aa = 2 eta_c d_a u_a,   tau_ab = eta_e (d_b u_a + d_a u_b).
+// A u = -div 2 eta eps(u) + c u on a patch, second order: normal stresses at cell centres, shear stresses at edges,
+//   tau_aa = 2 eta_c d_a u_a,   tau_ab = eta_e (d_b u_a + d_a u_b),
+// and at faces a resistance c, where there is one: what rises into lighter fluid in a step comes back.
 #pragma once
 
 #include <array>
@@ -8,11 +9,18 @@
 
 namespace stokes {
 
-/// Viscosities of a patch: of its cells, and of the edges of each pair of axes (0 1, 0 2, 1 2) [Pa s].
+/// Of the components that faces resist, c [Pa s/m^2].
+struct Resistance {
+  std::array<bool, 3> along{};  ///< the same on all ranks, those without cells too
+  Velocity faces;
+};
+
+/// What resists on a patch: viscosities of its cells, and of the edges of each pair of axes (0 1, 0 2, 1 2) [Pa s].
 struct Viscosity {
   explicit Viscosity(const Patch& p);
   Field cells;
   std::array<Field, 3> edges;
+  Resistance resistance;
 };
 /// Which edges are those of axes a and b.
 [[nodiscard]] constexpr std::size_t pair_of(int a, int b) { return static_cast<std::size_t>(a + b - 1); }

@@ -54,8 +54,9 @@ void Level::refresh_cells(Field& c) {
   mirror_cells(patch_, c);
 }
 
-void Level::set_viscosity(Field cells, EdgeMean mean) {
+void Level::set_viscosity(Field cells, EdgeMean mean, Resistance resistance) {
   viscosity_.cells = std::move(cells);
+  viscosity_.resistance = std::move(resistance);
   set_edges(patch_, mean, viscosity_);
   inverse_diagonal_ = inverse_diagonal(patch_, viscosity_);
   largest_ = margin * largest_eigenvalue();

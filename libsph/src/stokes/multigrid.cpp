@@ -90,19 +90,33 @@ void Multigrid::restrict_to(std::size_t coarse, std::vector<Field*> halves, std:
   t.down.copy(from, to);
 }
 
-void Multigrid::set_viscosity(Field cells) {
+void Multigrid::set_viscosity(Field cells, Resistance resistance) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
     level.refresh_cells(cells);
+    for (std::size_t a = 0; a < 3; ++a)
+      if (resistance.along[a]) level.refresh_cells(resistance.faces[a]);
     Field coarse;
+    Resistance coarse_resistance{resistance.along, {}};
     if (k + 1 < levels_.size()) {
-      Field means(transfers_[k]->half.size);
-      mean_of_cells(level.patch(), cells, transfers_[k]->half, means);
-      coarse.assign(levels_[k + 1]->patch().size, 1.0);
+      const Patch& half = transfers_[k]->half;
+      const std::size_t size = levels_[k + 1]->patch().size;
+      Field means(half.size);
+      mean_of_cells(level.patch(), cells, half, means);
+      coarse.assign(size, 1.0);
       restrict_to(k + 1, {&means}, {&coarse});
+      for (int a = 0; a < level.grid().dim; ++a) {
+        const auto axis = static_cast<std::size_t>(a);
+        if (!resistance.along[axis]) continue;
+        restrict_faces(level.patch(), a, resistance.faces[axis], half, means);
+        coarse_resistance.faces[axis].assign(size, 0.0);
+        restrict_to(k + 1, {&means}, {&coarse_resistance.faces[axis]});
+      }
     }
-    level.set_viscosity(std::move(cells), k == 0 ? EdgeMean::harmonic : EdgeMean::arithmetic);
+    level.set_viscosity(std::move(cells), k == 0 ? EdgeMean::harmonic : EdgeMean::arithmetic,
+                        std::move(resistance));
     cells = std::move(coarse);
+    resistance = std::move(coarse_resistance);
   }
   factorise();
 }

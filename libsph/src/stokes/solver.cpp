@@ -1,6 +1,7 @@
 #include "stokes/solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -75,7 +76,14 @@ Solver::Solver(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxe
 
 Flow Solver::make_flow() { return {multigrid_.finest().make_velocity(), Field(patch().size, 0.0)}; }
 
-void Solver::set_viscosity(Field cells) { multigrid_.set_viscosity(std::move(cells)); }
+void Solver::set_viscosity(Field cells, Resistance resistance) {
+  std::array<double, 1> fluidity{0};
+  for_own(patch(), [&](std::ptrdiff_t k) { fluidity[0] = std::max(fluidity[0], 1 / cells[k]); });
+  comm_->max(fluidity);
+  const double scale = 1 / (fluidity[0] * patch().grid.edge[0]);
+  per_divergence_ = scale * scale;
+  multigrid_.set_viscosity(std::move(cells), std::move(resistance));
+}
 
 void Solver::apply_all(Flow& x, Flow& y) {
   Level& level = multigrid_.finest();
@@ -101,7 +109,7 @@ std::vector<double> Solver::dots(const Flow& w, const std::vector<const Flow*>& 
   const auto dim = static_cast<std::size_t>(patch().grid.dim);
   for (std::size_t q = 0; q < others.size(); ++q)
     for_own(patch(), [&](std::ptrdiff_t k) {
-      double cell = w.p[k] * others[q]->p[k];
+      double cell = per_divergence_ * (w.p[k] * others[q]->p[k]);
       for (std::size_t a = 0; a < dim; ++a) cell += w.u[a][k] * others[q]->u[a][k];
       sums[q].add(cell);
     });
@@ -127,9 +135,13 @@ void Solver::take_off_free_means(Velocity& u) {
     if (patch().grid.slides(a)) take_off_mean(u[static_cast<std::size_t>(a)]);
 }
 
-Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterations) {
+Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterations, const Field* source) {
   const Patch& p = patch();
   Flow f{std::move(force), Field(p.size, 0.0)};
+  if (source != nullptr) {
+    for_own(p, [&](std::ptrdiff_t k) { f.p[k] = -(*source)[k]; });
+    take_off_mean(f.p);
+  }
   take_off_free_means(f.u);
   add_gradient(p, f.p, 0, f.u);  // nothing drives a wall
   const double wanted = tolerance * norm(f);

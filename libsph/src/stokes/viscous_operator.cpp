@@ -39,6 +39,8 @@ void apply_component(const Patch& p, const Viscosity& viscosity, const Velocity&
     };
     for (int b = 0; b < D; ++b)
       if (b != A) add_shear(b);
+    if (const Field& c = viscosity.resistance.faces[A]; viscosity.resistance.along[A])
+      for (std::ptrdiff_t k = first; k < first + n; ++k) y[k] += c[k] * ua[k];
   });
   clear_walls<A>(p, out);
 }
@@ -51,6 +53,7 @@ void diagonal_component(const Patch& p, const Viscosity& viscosity, Field& out) 
     for (std::int64_t i = 0; i < n; ++i) {
       const std::ptrdiff_t k = first + i;
       double d = normal * (viscosity.cells[k] + viscosity.cells[k - sa]);
+      if (viscosity.resistance.along[A]) d += viscosity.resistance.faces[A][k];
       const Int3 x{p.own.lo[0] + i, y, z};
       for (int b = 0; b < p.grid.dim; ++b) {
         if (b == A) continue;
