@@ -40,7 +40,7 @@ def options():
     parser.add_argument("--from", dest="first", type=int, default=0, metavar="K", help="the first case")
     parser.add_argument("--cases", type=int, default=10**9, help="so many")
     parser.add_argument("--minutes", type=float, default=1e9, help="begin no case later")
-    parser.add_argument("--only", choices=["sph", "grains"], help="scenes of one kind")
+    parser.add_argument("--only", choices=["sph", "grains", "melts"], help="scenes of one kind")
     parser.add_argument("--replay", nargs="+", default=[], type=Path, metavar="FILE", help="kept cases")
     parser.add_argument("--print", action="store_true", help="print fingerprints of one rank, compare nothing")
     parser.add_argument("--program", type=int, default=40, metavar="N",

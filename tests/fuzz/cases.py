@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 
 import grain_scene
+import melt_scene
 import sph_scene
 import start_rows
 from draw import Draw
@@ -12,14 +13,17 @@ from draw import Draw
 CUTS = {"fixed": 3, "chaos": 4, "replay": 2, "quasi_newton": 2, "hybrid": 1, "literal": 1}
 SKINS = [0.0, 0.0, 1e-4, 1e-3, 0.002, 0.01, 0.05, 0.2, 0.59, 1.0, 2.0]
 GRAINS = 0.2
+MELTS = 0.08
 
 
 def make(seed, number, only=None):
     d = Draw(seed, number)
     grains = d.chance("grains", GRAINS) if only is None else only == "grains"
-    case = grain_scene.make(d.part("scene")) if grains else sph_scene.make(d.part("scene"))
+    melts = d.chance("melts", MELTS) if only is None else only == "melts"
+    kind = melt_scene if melts else grain_scene if grains else sph_scene
+    case = kind.make(d.part("scene"))
     case["name"] = f"{seed}/{number}"
-    add_output(d.part("output"), case, grains)
+    add_output(d.part("output"), case, kind)
     last = case["scene"]["time"]["steps"]
     case["steps"] = sorted({1, d.whole("compared", 1, last), last})
     case["rows"] = [row(d.part("row", k), case) for k in range(d.weighted("rows", {1: 1, 2: 4, 3: 2}))]
@@ -66,15 +70,16 @@ def row(d, case):
     if last > 1 and d.chance("restart", 0.3):
         out["restart"] = {"at": d.whole("at", 1, last - 1), "ranks": d.whole("resumed", 1, 8),
                           "files": d.one("files", [0, 1, 2, 5])}
-    mixture = "drag" in case["scene"]  # starts from no file
-    if "rows of start" not in case and not mixture and d.chance("shuffle", 0.25):
+    from_regions = "drag" in case["scene"] or "melt" in case["scene"]  # mixtures and melts start from no file
+    if "rows of start" not in case and not from_regions and d.chance("shuffle", 0.25):
         out["shuffle"] = True
     return out
 
 
-def add_output(d, case, grains):
+def add_output(d, case, kind):
     """What a run writes beside its state: seen by the rows that the program itself runs."""
     scene, dt = case["scene"], case["scene"]["time"].get("dt", 1.0)
+    grains, melts = kind is grain_scene, kind is melt_scene
     out = {}
     for key, values in {"snapshot_interval": [0, 3 * dt], "series_interval": [0, 2 * dt],
                         "checkpoint_interval": [0, 600], "status_interval": [0.1, 2], "average_time": [0, 4 * dt],
@@ -82,11 +87,14 @@ def add_output(d, case, grains):
         if d.chance(key, 0.2):
             out[key] = d.one(f"{key} value", values)
     mixture = "drag" in scene
-    for key in ["contacts"] * (grains or mixture) + ["average_space"] * (not grains):
+    for key in ["contacts"] * (grains or mixture) + ["average_space"] * (not grains and not melts):
         if d.chance(key, 0.2):
             out[key] = d.chance(f"{key} value", 0.8)
     if out:
         scene["output"] = out
+    if melts:
+        scene["monitor"] = [{"kind": "melt"}] * d.chance("monitor", 0.5)
+        return
     monitors = [{"kind": "energy"}, {"kind": "momentum", "name": "push"},
                 {"kind": "group", "group": scene["group"][0]["name"]},
                 {"kind": "particle", "nearest_to": scene["domain"]["lower"]}]

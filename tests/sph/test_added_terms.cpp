@@ -61,7 +61,7 @@ TEST(AddedTerms, NoDriftIsLongerThanItsBound) {
   const std::string domain = "central_pull = 1e5, pull_centre = [0.5, 0.5]", velocity = "[0.01, 0]";
   Simulation without(self, scene_of(domain, velocity, "0")), with(self, scene_of(domain, velocity, "0.5"));
   double bound = 0;
-  const Parts parts(with.scene(), with.scale());
+  const Parts parts(self, with.scene(), with.scale());
   for (const Entry& entry : parts.plan.kick)
     for (const Stage& stage : entry.stages)
       if (stage.name == "xsph drift") bound = stage.moves(with.global());

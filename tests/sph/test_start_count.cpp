@@ -64,7 +64,7 @@ class StartCounts : public ::testing::Test {
   void expect_as_placed(const Scene& scene) {
     const PositionScale scale = position_scale(scene);
     Distribution distribution(world_, scene, scale);
-    Particles particles(scene.dim, Parts(scene, scale).sets.front().fields);
+    Particles particles(scene.dim, Parts(world_, scene, scale).sets.front().fields);
     place_particles(scene, scale, distribution, particles);
     std::vector<std::int64_t> placed(scene.groups.size(), 0);
     for (std::size_t i = 0; i < particles.owned(); ++i) ++placed[particles.data<Field::group>()[i]];

@@ -26,6 +26,8 @@ struct Grid {
   }
   [[nodiscard]] std::array<bool, 3> periodic_axes() const;
   [[nodiscard]] Box box() const { return {{}, cells}; }
+  /// Of a cell [m^dim].
+  [[nodiscard]] double volume() const { return dim == 3 ? edge[0] * edge[1] * edge[2] : edge[0] * edge[1]; }
   /// Twice as wide cells; all axes must have an even number.
   [[nodiscard]] Grid halved() const;
   /// Of axis `a` a constant velocity meets no resistance: its mean is free.

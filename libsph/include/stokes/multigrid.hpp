@@ -10,13 +10,16 @@
 
 namespace stokes {
 
+/// Throws decomp::InputError for a number of cells that is not m 2^k with m <= 7 along each axis.
+void check_cells(const Grid& grid);
+
 class Multigrid {
  public:
-  /// `boxes`: of the finest grid (even_boxes). Throws decomp::InputError for a number of cells that is not m 2^k with
-  /// m <= 7 along each axis.
+  /// `boxes`: of the finest grid (even_boxes). Throws as check_cells().
   Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes);
 
   [[nodiscard]] Level& finest() { return *levels_.front(); }
+  [[nodiscard]] const Level& finest() const { return *levels_.front(); }
   [[nodiscard]] std::size_t depth() const { return levels_.size(); }
 
   /// Of the finest cells and faces (viscous_operator.hpp), over its patch; copies need not be up to date. Collective.

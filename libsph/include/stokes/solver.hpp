@@ -27,8 +27,10 @@ class Solver {
   /// `boxes`: who has which cells (even_boxes).
   Solver(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes);
 
-  [[nodiscard]] const Patch& patch() { return multigrid_.finest().patch(); }
-  [[nodiscard]] Flow make_flow();
+  [[nodiscard]] const Patch& patch() const { return multigrid_.finest().patch(); }
+  [[nodiscard]] Flow make_flow() const;
+  /// Copies of other ranks' cells, periodic images, images behind walls. Collective.
+  void refresh(Field& cells) { multigrid_.finest().refresh_cells(cells); }
   /// Of cells [Pa s], and of faces, as far as they resist, c [Pa s/m^2], over the patch; copies need not be up to date.
   /// Collective.
   void set_viscosity(Field cells, Resistance resistance = {});

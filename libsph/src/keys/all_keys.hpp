@@ -4,6 +4,7 @@
 #include "keys/frame_keys.hpp"
 #include "keys/grain_keys.hpp"
 #include "keys/group_keys.hpp"
+#include "keys/melt_keys.hpp"
 #include "keys/run_keys.hpp"
 #include "keys/start_keys.hpp"
 #include "keys/term_keys.hpp"
@@ -25,6 +26,7 @@ inline constexpr auto top_keys = std::to_array<Key>({
      Default{"required of fluids and solids"}},
     {"contact", Inner{&contact}, "The law of contacts.", of_grains, Default{"required of grains"}},
     {"drag", Inner{&drag}, "Of grains in a fluid.", of_mixtures, Default{"required of grains in a fluid"}},
+    {"melt", Inner{&melt_table}, "Slow flow.", of_melts},
     {"group", Inner{&group}, "The materials.", Default{"required"}},
     {"wall", Inner{&wall}, "Planes and boxes that hold grains.", of_grains},
     {"stage", Inner{&stage}, "Changes of the walls.", of_grains},
@@ -38,9 +40,9 @@ inline constexpr auto top_keys = std::to_array<Key>({
 });
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
-inline constexpr std::array<const KeyTable*, 22> all{
-    &top,   &domain,     &kernel, &group,           &fragmentation, &start,        &region, &layer,
-    &tile,  &fill,       &terms,  &surface_tension, &contact,       &contact_pair, &drag,   &wall,
-    &stage, &stage_wall, &time,   &decomposition,   &output,        &monitor};
+inline constexpr std::array<const KeyTable*, 24> all{
+    &top,       &domain, &kernel, &group,           &fragmentation, &start,         &region, &layer,
+    &tile,      &fill,   &terms,  &surface_tension, &contact,       &contact_pair,  &drag,   &melt_table,
+    &melt_side, &wall,   &stage,  &stage_wall,      &time,          &decomposition, &output, &monitor};
 
 }  // namespace sph::keys

@@ -21,6 +21,8 @@ inline constexpr Condition of_grains_alone{
 inline constexpr Condition of_mixtures{[](const Scene& s) { return s.has_grains() && s.has_matter(); },
                                        "grains in a fluid",
                                        "only scenes with groups of kind = \"fluid\" and \"grain\" have it"};
+inline constexpr Condition of_melts{[](const Scene& s) { return s.has_melt(); }, "melts",
+                                    "only scenes with a [[group]] of kind = \"melt\" have it"};
 inline constexpr Condition of_lattices{
     [](const Scene& s) { return s.start.file.empty() && s.start.tile.file.empty(); }, "lattices",
     "the particles come from start.file or start.tile"};

@@ -19,14 +19,19 @@ inline constexpr Table<BubblyMaterial> fragmentation{
 
 inline constexpr Where bubbly = where("eos", "bubbly"), gas = where("eos", "ideal_gas");
 inline constexpr Where solid = where("kind", "solid"), walls = where("kind", "wall");
-inline constexpr Where grain = where("kind", "grain");
-inline constexpr Where of_sph =
-    unless("kind", "grain", "it is of fluids and solids; grains have a contact law");
+inline constexpr Where grain = where("kind", "grain"), melt = where("kind", "melt");
+inline constexpr Where of_sph = unless(
+    "kind", "grain", "it is of fluids and solids; grains have a contact law, melts flow slowly", "melt");
+inline constexpr Where of_viscous =
+    unless("kind", "grain", "it is of fluids and solids, and of melts; grains have a contact law");
 inline constexpr Where elastic = unless("eos", "ideal_gas", "an ideal gas has heat_ratio and start_pressure");
 
 inline constexpr auto group_keys = std::to_array<Key>({
     {"name", Text{}, "A letter, then letters, digits, _ or -.", at<&Group::name>, required},
-    {"kind", Words{group_kind_words}, "At least one group is a fluid, a solid or of grains.",
+    {"kind", Words{group_kind_words},
+     "At least one group is a fluid, a solid, of grains or a melt: \"melt\" is slow flow without inertia on "
+     "a grid, of one "
+     "or two melts and nothing else.",
      at<&Group::kind>, required},
     {"eos", law_words<EquationOfState>,
      "\"linear\": p = K (rho/rho_0 - 1). Fluids only: \"bubbly\", Ida eqs. (12)-(15), and \"ideal_gas\": p "
@@ -36,7 +41,7 @@ inline constexpr auto group_keys = std::to_array<Key>({
      at<&Group::eos, &Compressibility::law>, of_sph},
     {"density", Number{dimension::density, positive},
      "rho_0, at zero pressure; of a bubbly fluid that of its liquid, of an ideal gas that at the start, of "
-     "grains that of the material.",
+     "grains that of the material, of a melt that at melt.reference_temperature.",
      at<&Group::density>,
      Default{"required; of a wall that of the first fluid; of grains without diameter none"}},
     {"heat_ratio",
@@ -53,8 +58,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
      of_sph, elastic, Default{"from bulk_modulus"}},
     {"viscosity", Number{dimension::viscosity, not_negative},
      "eta. Of a solid it damps vibrations and couples it to fluids, which slip past without; the heat of "
-     "that of a gas stays in the gas.",
-     at<&Group::viscosity>, of_sph, Default{"0; of a wall that of the first fluid"}},
+     "that of a gas stays in the gas. Of a melt that at melt.reference_temperature.",
+     at<&Group::viscosity>, of_viscous, Default{"0; of a wall that of the first fluid; required of melts"}},
     {"bulk_viscosity", Number{dimension::viscosity, not_negative}, "zeta of Ida eq. (9).",
      at<&Group::bulk_viscosity>, of_sph, unless("eos", "ideal_gas", "an ideal gas has viscosity alone"),
      Default{"0; of a wall that of the first fluid"}},
@@ -107,6 +112,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
      grain},
     {"fixed", Flag{}, "Grains glued in space, which never move.", at<&Group::grain, &GrainMaterial::fixed>,
      grain},
+    {"temperature", Number{dimension::temperature}, "Of a melt at the start.",
+     at<&Group::melt, &MeltMaterial::temperature>, melt},
     {"restitution", Number{dimension::none, {.least = 0, .most = 1, .above_least = true}},
      "Of a head-on impact.", at<&Group::grain, &GrainMaterial::restitution>, of_restitution, grain, required},
     {"friction", Number{dimension::none, not_negative}, "Coulomb's mu.",

@@ -39,7 +39,7 @@ Json schema_of(const Text&) { return {{"type", "string"}}; }
 Json schema_of(const File&) { return {{"type", "string"}}; }
 Json schema_of(const NameOf&) { return {{"type", "string"}}; }
 Json schema_of(const TwoGroups&) { return array_of({{"type", "string"}}, 2, 2); }
-Json schema_of(const Copies&) { return array_of({{"type", "integer"}, {"minimum", 1}}, 3, 3); }
+Json schema_of(const Copies&) { return array_of({{"type", "integer"}, {"minimum", 1}}, 2, 3); }
 Json schema_of(const Words& w) {
   Json words = Json::array();
   for (const Word& word : w.all()) words.push_back(word.text);

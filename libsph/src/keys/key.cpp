@@ -101,7 +101,8 @@ std::string place_of(const Key& key) {
   for (const Where& w : key.where)
     if (!w.key.empty())
       out +=
-          fmt::format("{}{} {} \"{}\"", out.empty() ? "" : ", ", w.key, w.but.empty() ? "=" : "!=", w.word);
+          fmt::format("{}{} {} \"{}\"{}", out.empty() ? "" : ", ", w.key, w.but.empty() ? "=" : "!=", w.word,
+                      w.or_word.empty() ? "" : fmt::format(", \"{}\"", w.or_word));
   return out;
 }
 

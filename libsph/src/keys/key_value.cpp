@@ -156,10 +156,12 @@ std::array<bool, 3> KeyValue::flags() const {
 
 std::array<std::int64_t, 3> KeyValue::copies() const {
   constexpr std::int64_t most = 1'000'000;  // along one axis
-  const std::string_view wanted = "it must be an array of three whole numbers, like [4, 4, 1]";
-  const toml_tree::Array& counts = array_of(*this, 3, wanted);
-  std::array<std::int64_t, 3> out{};
-  for (std::size_t a = 0; a < 3; ++a) {
+  const auto axes = static_cast<std::size_t>(scene_->dim);
+  const std::string wanted = fmt::format("it must be an array of {} whole numbers, like {}",
+                                         axes == 3 ? "three" : "two", axes == 3 ? "[4, 4, 1]" : "[4, 4]");
+  const toml_tree::Array& counts = array_of(*this, axes, wanted);
+  std::array<std::int64_t, 3> out{1, 1, 1};
+  for (std::size_t a = 0; a < axes; ++a) {
     out[a] = item<std::int64_t>(*this, counts[a], wanted);
     if (out[a] < 1 || out[a] > most)
       fail(fmt::format("is {} in {}", out[a], "xyz"[a]), fmt::format("it must be 1 to {}", most));

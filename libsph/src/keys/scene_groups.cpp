@@ -135,6 +135,11 @@ void refuse_bad_company(const std::vector<GroupReader>& tables, const std::vecto
   const auto has = [&](GroupKind k) {
     return std::ranges::any_of(groups, [k](const Group& g) { return g.kind == k; });
   };
+  for (std::size_t k = 0; k < tables.size(); ++k)
+    if (has(GroupKind::melt) && groups[k].kind != GroupKind::melt)
+      tables[k].fail(
+          "kind", "is no melt, and the scene has some",
+          "melts share a scene with melts alone; their walls are the sides of the domain, [[melt.side]]");
   if (!has(GroupKind::grain)) return;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     if (groups[k].kind == GroupKind::solid)
@@ -162,11 +167,12 @@ std::vector<Group> read_group_names(const TopReader& top) {
     movers = movers || group.kind != GroupKind::wall;
   }
   for (const GroupReader& table : tables)
-    if (!table.has("kind")) table.fail_missing("kind", "give \"fluid\", \"solid\", \"wall\" or \"grain\"");
+    if (!table.has("kind"))
+      table.fail_missing("kind", "give \"fluid\", \"solid\", \"wall\", \"grain\" or \"melt\"");
   refuse_bad_company(tables, groups);
   if (!movers)
     tables.front().fail("kind", "every group is a wall",
-                        "at least one group must be a fluid, a solid or of grains");
+                        "at least one group must be a fluid, a solid, of grains or a melt");
   return groups;
 }
 

@@ -65,6 +65,11 @@ void read_drag(const TopReader& top, const Reader<keys::drag>& table, Scene& sce
 [[nodiscard]] std::vector<Wall> read_walls(const TopReader& top, const Scene& scene);
 [[nodiscard]] std::vector<WallStage> read_stages(const TopReader& top, const Scene& scene);
 
+/// Groups of melts, [melt] and the spacing.
+void read_melt(const TopReader& top, const DomainReader& domain, const StartReader& start, Scene& scene);
+/// Refuses what the grid of melts cannot be, once all is read.
+void check_melt_grid(const StartReader& start, const Scene& scene);
+
 /// [start], once dimension, domain, groups and spacing of `scene` are known.
 void read_start(const StartReader& table, Scene& scene);
 /// [terms], once the groups are known.

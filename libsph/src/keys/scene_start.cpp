@@ -104,10 +104,11 @@ void read_lattice(const StartReader& table, Scene& scene) {
     matter = matter || (group >= 0 && can_move(scene.groups[static_cast<std::size_t>(group)]));
   }
   if (!matter)
-    table.fail(
-        "region",
-        scene.of_grains() ? "no region paints grains that can move" : "no region paints a fluid or a solid",
-        "paint at least one");
+    table.fail("region",
+               scene.of_grains()  ? "no region paints grains that can move"
+               : scene.has_melt() ? "no region paints a melt"
+                                  : "no region paints a fluid or a solid",
+               "paint at least one");
 }
 
 void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
@@ -209,12 +210,19 @@ void read_start(const StartReader& table, Scene& scene) {
                   fmt::format("the particles come from start.{}", table.has("file") ? "file" : "tile"));
   table.read(start);
   table.not_both("file", "tile");
+  if (scene.has_melt()) table.only_if(false, "file", "melts start from regions that fill the domain");
   if (scene.is_mixture())
     table.only_if(false, "file", "grains in a fluid start from a lattice and [[start.grains]]");
   table.only_if(table.has("file"), "free_surface", "it is for start.file; of a lattice it is known");
   if (!from_file) read_lattice(table, scene);
   if (scene.of_grains() && from_file) table.only_if(false, "velocity", "the velocities come from the file");
   read_velocity(table, scene, start);
+  if (scene.has_melt()) {
+    constexpr std::string_view why = "melts start at rest on their grid";
+    table.only_if(start.velocity.kind == InitialVelocity::rest, "velocity", why);
+    table.only_if(start.lattice.jitter == 0, "jitter", why);
+    table.only_if(start.lattice.kind == LatticeKind::square, "lattice", why);
+  }
   if (scene.has_matter()) read_pressure(table, scene, start);
   start.fills = read_fills(table, scene);
   table.finish();

@@ -24,7 +24,7 @@ void write_group(SceneWriter& out, const Group& g) {
 void write_start(SceneWriter& out, const Scene& scene) {
   const Start& s = scene.start;
   out.header(keys::start);
-  out.number("spacing", s.spacing);
+  if (!scene.has_melt()) out.number("spacing", s.spacing);
   out.keys(keys::start, s);
   const bool velocity_of_file = scene.of_grains() && (!s.file.empty() || !s.tile.file.empty());
   if (s.velocity.kind == InitialVelocity::uniform)
@@ -43,6 +43,11 @@ void write_terms(SceneWriter& out, Terms terms) {
   for (std::size_t k = 0; k < terms.added.size(); ++k)
     if (terms.added[k] > 0) out.number(added_terms()[k]->word, terms.added[k]);
   if (terms.surface_tension.between[0] >= 0) out.table(keys::surface_tension, terms.surface_tension);
+}
+
+void write_melt(SceneWriter& out, const MeltControl& melt) {
+  out.table(keys::melt_table, melt);
+  for (const MeltSide& side : melt.sides) out.table(keys::melt_side, side);
 }
 
 void write_output(SceneWriter& out, const Scene& scene) {
@@ -66,6 +71,7 @@ std::string to_toml(const Scene& scene) {
     else
       write_group(out, g);
   if (scene.has_grains()) write_walls(out, scene);
+  if (scene.has_melt()) write_melt(out, scene.domain.melt);
   write_start(out, scene);
   if (scene.has_matter()) write_terms(out, scene.terms);
   TimeControl time = scene.time;

@@ -52,6 +52,7 @@ struct Tables {
     (void)start.table<keys::tile>();
     (void)start.tables<keys::fill>();
     (void)contact.tables<keys::contact_pair>();
+    (void)top.table<keys::melt_table>().tables<keys::melt_side>();
     (void)top.tables<keys::wall>();
     for (const auto& stage : top.tables<keys::stage>()) (void)stage.tables<keys::stage_wall>();
   }
@@ -205,6 +206,10 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   read_domain(tables.domain, scene);
   if (scene.has_matter()) read_fluids_and_solids(tables, scene);
   if (scene.has_grains()) read_grains(tables, scene);
+  if (scene.has_melt()) {
+    read_melt(tables.top, tables.domain, tables.start, scene);
+    check_extent(tables.domain, scene);
+  }
   if (scene.is_mixture()) read_drag(tables.top, tables.drag, scene);
   read_start(tables.start, scene);
   if (scene.has_matter()) read_terms(tables.terms, scene);
@@ -212,6 +217,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
   fit_growth(tables.kernel, scene, least_periodic_cells);
+  check_melt_grid(tables.start, scene);
   check_periods(tables, scene);
   check_total_lagrangian(tables, scene);
   check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);

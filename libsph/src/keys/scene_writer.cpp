@@ -21,7 +21,7 @@ bool applies(const keys::KeyTable& table, const keys::Key& key, const Scene& sce
       const auto& at = std::get<keys::Enumerator>(value);
       word = words.text_of(at.get(at.at));
     }
-    return (word == where.word) == where.but.empty();
+    return where.holds(word);
   });
 }
 
@@ -47,9 +47,8 @@ void SceneWriter::put(const keys::Key& key, const keys::Value& value) {
       if (!x.empty() || !std::holds_alternative<keys::File>(key.kind)) text(key.name, x);
     } else if constexpr (std::is_same_v<T, std::array<int, 2>>) {
       raw(key.name, fmt::format("[{}, {}]", name_of(x[0]), name_of(x[1])));
-    } else if constexpr (std::is_same_v<T, std::array<std::int64_t, 3>>) {
-      raw(key.name, fmt::format("[{}]", fmt::join(x, ", ")));
-    } else if constexpr (std::is_same_v<T, std::array<bool, 3>>) {
+    } else if constexpr (std::is_same_v<T, std::array<std::int64_t, 3>> ||
+                         std::is_same_v<T, std::array<bool, 3>>) {
       const std::span axes(x.begin(), static_cast<std::size_t>(scene_->dim));
       raw(key.name, fmt::format("[{}]", fmt::join(axes, ", ")));
     } else {

@@ -101,7 +101,7 @@ bool TableReader::applies(const Key& key) const {
     const auto* given = value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
     const std::string_view word =
         given == nullptr ? std::get<keys::Words>(selector.kind).all().front().text : std::string_view(*given);
-    if ((word == where.word) == where.but.empty()) continue;
+    if (where.holds(word)) continue;
     only_if(false, key, keys::refusal(*keys_, where));
     return false;
   }

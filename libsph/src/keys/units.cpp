@@ -57,6 +57,7 @@ constexpr std::array units{
     Unit{"J", energy},
     Unit{"kJ", energy, 3},
     Unit{"MJ", energy, 6},
+    Unit{"K", dimension::temperature},
 };
 
 struct NamedDimension {
@@ -81,7 +82,10 @@ constexpr std::array named{
     NamedDimension{energy, "an energy", "J"},
     NamedDimension{dimension::rate, "a rate", "1/s"},
     NamedDimension{dimension::rate_squared, "a rate squared", "1/s2"},
-    NamedDimension{Dimension{0, 2, -1}, "a diffusivity", "m2/s"},
+    NamedDimension{dimension::diffusivity, "a diffusivity", "m2/s"},
+    NamedDimension{dimension::temperature, "a temperature", "K"},
+    NamedDimension{dimension::per_temperature, "a share per kelvin", "1/K"},
+    NamedDimension{dimension::temperature_flux, "a heat flux over a heat capacity", "K m/s"},
 };
 
 constexpr int max_power = 9;
@@ -158,6 +162,7 @@ struct Product {
     dim.kg += power * unit.dim.kg;
     dim.m += power * unit.dim.m;
     dim.s += power * unit.dim.s;
+    dim.kelvin += power * unit.dim.kelvin;
     exponent += power * unit.exponent;
     for (int k = 0; k < power; ++k) multiply *= unit.factor;
     for (int k = 0; k > power; --k) divide *= unit.factor;
@@ -231,7 +236,7 @@ Quantity parse_quantity(std::string_view text) {
 std::string si_unit(Dimension dim) {
   for (const NamedDimension& n : named)
     if (n.dim == dim) return std::string(n.unit);
-  return fmt::format("kg^{} m^{} s^{}", dim.kg, dim.m, dim.s);
+  return fmt::format("kg^{} m^{} s^{} K^{}", dim.kg, dim.m, dim.s, dim.kelvin);
 }
 
 std::string describe(Dimension dim) {

@@ -61,7 +61,8 @@ inline constexpr auto kernel_shape_words = std::to_array<Word>({{"quintic", Kern
 inline constexpr auto group_kind_words = std::to_array<Word>({{"fluid", GroupKind::fluid},
                                                               {"solid", GroupKind::solid},
                                                               {"wall", GroupKind::wall},
-                                                              {"grain", GroupKind::grain}});
+                                                              {"grain", GroupKind::grain},
+                                                              {"melt", GroupKind::melt}});
 inline constexpr auto lagrangian_words =
     std::to_array<Word>({{"updated", Lagrangian::updated}, {"total", Lagrangian::total}});
 inline constexpr auto region_shape_words = std::to_array<Word>(
@@ -85,7 +86,16 @@ inline constexpr auto monitor_kind_words = std::to_array<Word>({{"particle", Mon
                                                                 {"energy", MonitorKind::energy},
                                                                 {"momentum", MonitorKind::momentum},
                                                                 {"wall", MonitorKind::wall},
-                                                                {"contacts", MonitorKind::contacts}});
+                                                                {"contacts", MonitorKind::contacts},
+                                                                {"melt", MonitorKind::melt}});
+inline constexpr auto melt_side_words = std::to_array<Word>({{"x0", MeltFace::x0},
+                                                             {"x1", MeltFace::x1},
+                                                             {"y0", MeltFace::y0},
+                                                             {"y1", MeltFace::y1},
+                                                             {"z0", MeltFace::z0},
+                                                             {"z1", MeltFace::z1}});
+inline constexpr auto melt_profile_words =
+    std::to_array<Word>({{"groups", MeltProfile::groups}, {"conductive", MeltProfile::conductive}});
 inline constexpr auto wall_shape_words =
     std::to_array<Word>({{"plane", WallShape::plane}, {"box", WallShape::box}});
 

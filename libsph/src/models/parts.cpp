@@ -7,7 +7,7 @@
 
 namespace sph {
 
-Parts::Parts(const Scene& scene, const PositionScale& scale) {
+Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale) {
   std::vector<bool> stays;
   for (const Group& g : scene.groups) stays.push_back(g.kind == GroupKind::wall || g.grain.fixed);
   if (scene.has_matter()) {
@@ -31,6 +31,12 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
     models.push_back(&*drag);
     pairs.push_back(&*drag);
   }
+  if (scene.has_melt()) {
+    melt = std::make_unique<Melt>(sets.size(), comm, scene, scale);
+    sets.push_back({Melt::fields(scene), stays,
+                    [rows = &melt->rows()](const Particles& cells) { return rows->owners(cells); }});
+    models.push_back(&*melt);
+  }
   if (physics) {
     Plan of_fluid = physics->built().plan();
     if (drag) drag->add_porosity_to(of_fluid);
@@ -38,6 +44,7 @@ Parts::Parts(const Scene& scene, const PositionScale& scale) {
   }
   if (grains) append(plan, grains->plan(), grains->set());
   if (drag) append(plan, drag->force_plan());
+  if (melt) append(plan, melt->plan(), melt->set());
   for (Model* m : models) m->reserve(reduction);
 }
 

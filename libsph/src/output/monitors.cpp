@@ -36,6 +36,7 @@ std::size_t sums_of(const Monitor& monitor, const State& s) {
       return 3;  // contacts of grains, with what is held, number of grains
     case MonitorKind::particle:
     case MonitorKind::wall:
+    case MonitorKind::melt:
       break;
   }
   return 0;
@@ -150,6 +151,7 @@ void Monitors::make_names(const Simulation& s) {
       quantities = {"px", "py", "pz"};
       quantities.resize(static_cast<std::size_t>(s.scene().dim));
     }
+    if (m.kind == MonitorKind::melt) quantities = s.melt()->columns();
     for (const std::string& quantity : quantities) names_.push_back(m.name + "_" + quantity);
   }
 }
@@ -197,6 +199,9 @@ std::vector<double> Monitors::values(Simulation& s) const {
         break;
       case MonitorKind::wall:
         for (double value : values_of_wall(s, monitors[k].wall)) out.push_back(value);
+        break;
+      case MonitorKind::melt:
+        for (double value : s.melt()->values(s.particles(s.melt()->set()))) out.push_back(value);
         break;
       case MonitorKind::contacts:
         out.insert(out.end(), {sum[0], sum[1], sum[2] > 0 ? (2 * sum[0] + sum[1]) / sum[2] : none});

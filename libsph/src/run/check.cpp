@@ -107,7 +107,7 @@ Beginning place(const decomp::Comm& comm, const Scene& scene, Placed how) {
     return start_of(comm, scene, simulation.particles(), simulation.scale());
   }
   const PositionScale scale = position_scale(scene);
-  const Parts parts(scene, scale);
+  const Parts parts(comm, scene, scale);
   Distribution distribution(comm, scene, scale);
   Beginning start;
   for (const Parts::Set& set : parts.sets) {
@@ -116,7 +116,7 @@ Beginning place(const decomp::Comm& comm, const Scene& scene, Placed how) {
     Beginning of_set = start_of(comm, scene, particles, scale);
     if (set.fields.has(Field::radius)) {
       check_start_speeds(comm, scene, particles);
-    } else {
+    } else if (!set.owners) {
       check_start_densities(comm, scene, particles);
       of_set.sounds = fastest_sounds(comm, scene, particles);
     }
@@ -148,16 +148,22 @@ std::string memory_text(const Scene& scene, const Parts& parts, const MemoryNeed
   std::string out;
   for (std::size_t set = 0; set < parts.sets.size(); ++set) {
     const FieldSet fields = parts.sets[set].fields, halo = halo_fields(parts.plan, set, fields);
-    const std::string_view what = parts.sets.size() == 1      ? "particle"
+    const std::string_view what = parts.sets[set].owners      ? "cell"
+                                  : parts.sets.size() == 1    ? "particle"
                                   : fields.has(Field::radius) ? "grain"
                                                               : "fluid particle";
     out += fmt::format("bytes per {}: {} ({} state): {}\nbytes per halo {}: {}: {}\n", what,
                        bytes_of(fields, dim), bytes_of(state_of(fields), dim), listed(fields, dim), what,
                        bytes_of(halo, dim), listed(halo, dim));
   }
-  out += fmt::format("memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
-                     bytes_text(need.bytes), parts.physics ? "lists" : "contacts", need.listed,
-                     parts.physics ? "neighbours" : "a grain", need.cells);
+  if (parts.melt && parts.sets.size() == 1)
+    out += fmt::format("memory: about {} for all cells, grids and iterations included\n",
+                       bytes_text(need.bytes));
+  else
+    out +=
+        fmt::format("memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
+                    bytes_text(need.bytes), parts.physics ? "lists" : "contacts", need.listed,
+                    parts.physics ? "neighbours" : "a grain", need.cells);
   if (const std::string problem = memory_problem(need, machine); !problem.empty())
     out += "warning: " + problem + ": it would not run here\n";
   return out;
@@ -243,6 +249,7 @@ std::string drag_text(const Scene& scene, const Parts& parts) {
 }
 
 std::string steps_text(const Scene& scene, double dt) {
+  if (!std::isfinite(dt)) return "time step: from the flow, melt.courant cells; time.dt would bound it\n";
   double steps = scene.time.until ? std::ceil(*scene.time.until / dt) : HUGE_VAL;
   if (scene.time.steps) steps = std::min(steps, static_cast<double>(*scene.time.steps));
   return fmt::format("steps: about {:.4g}\n", steps);
@@ -267,7 +274,7 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
   return naming_file(scene, [&] {
     check_time_step(scene);
     const PositionScale scale = position_scale(scene);
-    const Parts parts(scene, scale);
+    const Parts parts(comm, scene, scale);
     const decomp::CellGrid grid = cell_grid_of(scene, scale);
     Beginning start{count_start(comm, scene)};
     MemoryNeed need = memory_need(scene, parts, grid, start.count);

@@ -53,7 +53,8 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
   need.particles = static_cast<double>(count.all);
   need.cells = 1;
   for (const std::int64_t n : grid.cells()) need.cells *= static_cast<double>(n);
-  double grains = parts.physics ? 0 : need.particles;  // of a file they are not counted by group
+  double grains =
+      parts.physics || parts.melt ? 0 : need.particles;  // of a file they are not counted by group
   for (std::size_t g = 0; parts.physics && parts.grains && g < scene.groups.size(); ++g)
     if (scene.groups[g].kind == GroupKind::grain) grains += static_cast<double>(count.by_group[g]);
   // Kernels of a gas are mostly as wide as at the start, and lists go by each.
@@ -66,7 +67,9 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
     double of_particle = field_factor * static_cast<double>(bytes_of(set.fields, scene.dim)) + bytes_of_row +
                          (dense ? 0 : bytes_of_occupied);
     const bool of_grains = set.fields.has(Field::radius);
-    if (of_grains) {
+    if (set.owners) {
+      of_particle += parts.melt->bytes_of_cell();
+    } else if (of_grains) {
       const ContactFusion fusion = contact_fusion(scene);
       of_particle += sum_factor * (fusion.spins ? 64 : 32) +
                      contact_factor * contacts_of_grain * (8 + 8 * fusion.history);
@@ -120,7 +123,7 @@ std::string memory_problem(const MemoryNeed& need, const MachineMemory& machine,
 void require_memory(const decomp::Comm& comm, const Scene& scene) {
   const PositionScale scale = position_scale(scene);
   const MemoryNeed need =
-      memory_need(scene, Parts(scene, scale), cell_grid_of(scene, scale), count_start(comm, scene));
+      memory_need(scene, Parts(comm, scene, scale), cell_grid_of(scene, scale), count_start(comm, scene));
   constexpr double margin = 1.5;
   const std::string problem = memory_problem(need, machine_memory(comm), margin);
   if (!problem.empty())

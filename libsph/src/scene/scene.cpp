@@ -18,7 +18,9 @@ double Scene::kernel_radius() const {
   return (kernel.shape == KernelShape::quintic ? 3 : 2) * kernel.smoothing_length;
 }
 
-double Scene::support() const { return std::max(kernel_radius(), largest_diameter()); }
+double Scene::support() const {
+  return has_melt() && !has_grains() ? start.spacing : std::max(kernel_radius(), largest_diameter());
+}
 
 double Scene::list_range() const {
   return support() * (total_lagrangian() ? terms.bonds.largest_stretch : kernel.largest_growth);

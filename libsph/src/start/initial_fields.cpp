@@ -8,6 +8,7 @@
 #include "sph/core/exact_math.hpp"
 #include "sph/laws/eos/law.hpp"
 #include "sph/scene/grain_mass.hpp"
+#include "sph/scene/melt_grid.hpp"
 
 namespace sph {
 namespace {
@@ -61,6 +62,10 @@ void InitialFields::set(NewParticle& p) const {
   const Double3& x = p.position;
   double volume = 1;
   for (int a = 0; a < scene.dim; ++a) volume *= scene.start.spacing;
+  if (g.kind == GroupKind::melt) {
+    p.mass = g.density * melt_grid(scene).volume();
+    return;
+  }
 
   if (g.kind == GroupKind::wall && scene.terms.formulation == Formulation::conservative) {
     p.density = g.density;

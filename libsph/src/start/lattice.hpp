@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "decomp/types.hpp"
+#include "sph/scene/melt_grid.hpp"
 #include "sph/scene/scene.hpp"
 
 namespace sph {
@@ -15,6 +16,7 @@ class Lattice {
   explicit Lattice(const Scene& scene)
       : fill_(scene.start.lattice), dim_(static_cast<std::size_t>(scene.dim)) {
     step_.fill(scene.start.spacing);
+    if (scene.has_melt()) step_ = melt_grid(scene).edge;
     if (fill_.kind == LatticeKind::hexagonal) {
       if (scene.dim != 2) throw InputError("start.lattice: \"hexagonal\" exists in 2D only; use \"square\"");
       // a^2 sqrt(3)/2 = spacing^2

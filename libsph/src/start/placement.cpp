@@ -12,13 +12,6 @@
 namespace sph {
 namespace {
 
-/// The last region that contains the point; -1 leaves it empty.
-int painted_group(const Scene& scene, const Double3& x) {
-  for (auto r = scene.start.lattice.regions.rbegin(); r != scene.start.lattice.regions.rend(); ++r)
-    if (contains(*r, x, static_cast<std::size_t>(scene.dim))) return r->group;
-  return -1;
-}
-
 /// Ids of fills follow on those of the lattice, one fill after the other.
 std::uint64_t first_id(const Scene& scene, const GrainFill& fill) {
   const Lattice lattice(scene);
@@ -53,6 +46,12 @@ void fill_with_grains(const Scene& scene, const GrainFill& fill, const PositionS
 }
 
 }  // namespace
+
+int painted_group(const Scene& scene, const Double3& x) {
+  for (auto r = scene.start.lattice.regions.rbegin(); r != scene.start.lattice.regions.rend(); ++r)
+    if (contains(*r, x, static_cast<std::size_t>(scene.dim))) return r->group;
+  return -1;
+}
 
 void place_particles(const Scene& scene, const PositionScale& scale, Distribution& distribution,
                      Particles& particles) {
@@ -98,7 +97,7 @@ void place_particles(const Scene& scene, const PositionScale& scale, Distributio
       for (k[0] = lo[0]; k[0] < hi[0]; ++k[0]) {
         const Double3 x = lattice.point(k);
         if (!lattice.inside(x)) continue;
-        const int group = painted_group(scene, x);
+        const int group = scene.has_melt() ? 0 : painted_group(scene, x);  // cells may hold two melts
         if (group < 0) continue;
         NewParticle p{lattice.id(k), x, {}, static_cast<std::uint32_t>(group), 0, 0};
         const Group& g = scene.groups[p.group];

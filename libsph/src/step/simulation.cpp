@@ -61,7 +61,8 @@ void Simulation::kick_half_a_step() {
 // pairs of sets.
 void Simulation::rebuild() {
   united_.reset();
-  std::vector<Distribution::Carried> carried(sets_.size());
+  const std::span<ParticleSet> sets = movable(sets_);
+  std::vector<Distribution::Carried> carried(sets.size());
   double least_skin = 0;
   for (SetPair* pair : parts_.pairs) {
     least_skin = std::max(least_skin, pair->least_skin(global_));
@@ -73,18 +74,18 @@ void Simulation::rebuild() {
     const auto timing = timers_.time(decomp::Region::migrate);
     try {
       distribution_.rebuild(
-          sets_, timers_.take_cost(),
+          sets, timers_.take_cost(),
           [&](std::size_t set) { return pairs_of_rows(parts_, sets_[set], set, rebuilds_ > 0); },
           age_.longest(), least_skin, carried);
     } catch (const GuardError& error) {
       throw GuardError(step_text(global_.step) + error.what());
     }
-    for (const ParticleSet& set : sets_)
+    for (const ParticleSet& set : sets)
       if (set.count(comm_) != set.census)
         throw GuardError(step_text(global_.step) +
                          "a particle was lost or duplicated in migration; reduce time.dt");
   }
-  for (ParticleSet& set : sets_) set.exchange.forget();
+  for (ParticleSet& set : sets) set.exchange.forget();
   for (const SetPair* pair : parts_.pairs) refresh_halo(pair->constants(), pair->set());
   for (SetPair* pair : parts_.pairs) {
     const Distribution::Carried& with = carried[pair->set()];

@@ -81,7 +81,7 @@ void Simulation::begin() {
   add_dawdling();
   for (ParticleSet& set : sets_) set.census = set.count(comm_);
   if (particle_count() == 0) throw InputError(scene_.file + ": start: no particle lies in any region");
-  distribution_.cut_by_counts(sets_);
+  distribution_.cut_by_counts(movable(sets_));
   scatter();
   for (ParticleSet& set : sets_) forget_sums(set.particles);
   for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
@@ -100,7 +100,10 @@ void Simulation::scatter() {
     const bool carries =
         std::ranges::any_of(parts_.pairs, [&](const SetPair* p) { return p->set() == k && p->carries(); });
     if (carries && arrived_.rows() == 0) arrived_.offset.assign(particles(k).owned() + 1, 0);
-    distribution_.scatter(sets_[k].particles, carries ? &arrived_ : nullptr);
+    if (const OwnersOf& owners = sets_[k].owners)
+      decomp::redistribute(comm_, owners(sets_[k].particles), sets_[k].particles.table(), nullptr);
+    else
+      distribution_.scatter(sets_[k].particles, carries ? &arrived_ : nullptr);
   }
 }
 

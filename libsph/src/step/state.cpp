@@ -10,7 +10,7 @@ State::State(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
       scene_(scene),
       scale_(scale),
       wrap_(wrap_of(scene_, scale_)),
-      parts_(scene_, scale_),
+      parts_(comm_, scene_, scale_),
       distribution_(comm_, scene_, scale_) {
   for (const Parts::Set& set : parts_.sets)
     sets_.push_back({Particles(scene_.dim, set.fields),
@@ -18,7 +18,8 @@ State::State(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
                      {},
                      {},
                      HaloExchange(scene_.decomposition.overlap),
-                     {}});
+                     {},
+                     set.owners});
 }
 
 const Particles& State::particles() const {

@@ -44,17 +44,22 @@ std::string cells_text(const Grid& g) {
   return text;
 }
 
-void check(const Grid& finest, const Grid& last) {
-  if (*std::ranges::max_element(last.cells) <= most_coarsest) return;
-  throw decomp::InputError("a grid of " + cells_text(finest) + " cells can be halved to " + cells_text(last) +
-                           " only; take m 2^k cells along each axis with the same k, m from " +
+}  // namespace
+
+void check_cells(const Grid& grid) {
+  Grid last = grid;
+  while (can_be_halved(last)) last = last.halved();
+  const auto [least, most] = std::minmax_element(last.cells.begin(), last.cells.begin() + grid.dim);
+  if (*most <= most_coarsest && *least >= coarsest && last.cells != grid.cells) return;
+  throw decomp::InputError("makes a grid of " + cells_text(grid) + " cells, which can be halved to " +
+                           cells_text(last) +
+                           " only; take m 2^k cells along each axis with the same k of 1 or more, m from " +
                            std::to_string(coarsest) + " to " + std::to_string(most_coarsest));
 }
 
-}  // namespace
-
 Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes)
     : alone_(MPI_COMM_SELF) {
+  check_cells(grid);
   levels_.push_back(std::make_unique<Level>(comm, grid, std::move(boxes)));
   while (can_be_halved(levels_.back()->grid())) {
     const Level& fine = *levels_.back();
@@ -79,7 +84,6 @@ Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box
                  decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up)}));
     levels_.push_back(std::make_unique<Level>(whose, coarse, next));
   }
-  check(grid, levels_.back()->grid());
 }
 
 void Multigrid::restrict_to(std::size_t coarse, std::vector<Field*> halves, std::vector<Field*> values) {

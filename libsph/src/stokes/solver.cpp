@@ -74,7 +74,7 @@ class LeastSquares {
 Solver::Solver(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes)
     : comm_(&comm), multigrid_(comm, grid, std::move(boxes)) {}
 
-Flow Solver::make_flow() { return {multigrid_.finest().make_velocity(), Field(patch().size, 0.0)}; }
+Flow Solver::make_flow() const { return {multigrid_.finest().make_velocity(), Field(patch().size, 0.0)}; }
 
 void Solver::set_viscosity(Field cells, Resistance resistance) {
   std::array<double, 1> fluidity{0};

@@ -3,11 +3,12 @@
 
 namespace sph {
 
-/// Exponents of kilogram, metre and second.
+/// Exponents of kilogram, metre, second and kelvin.
 struct Dimension {
   int kg = 0;
   int m = 0;
   int s = 0;
+  int kelvin = 0;
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
@@ -26,6 +27,10 @@ inline constexpr Dimension stiffness{1, 0, -2};
 inline constexpr Dimension rate{0, 0, -1};
 inline constexpr Dimension rate_squared{0, 0, -2};
 inline constexpr Dimension speed_per_force{-1, 0, 1};
+inline constexpr Dimension diffusivity{0, 2, -1};
+inline constexpr Dimension temperature{0, 0, 0, 1};
+inline constexpr Dimension per_temperature{0, 0, 0, -1};
+inline constexpr Dimension temperature_flux{0, 1, -1, 1};
 }  // namespace dimension
 
 }  // namespace sph

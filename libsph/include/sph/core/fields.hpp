@@ -63,6 +63,10 @@ enum class Field : std::uint8_t {
   fluid_force,
   fluid_drag,
   fluid_share,
+  temperature,
+  composition,
+  melt_share,
+  flow_pressure,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -106,7 +110,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::id, "id", "1", Type::u64, Shape::scalar, true, true, "global id, never depends on ranks"},
     {Field::position, "position", "quantum", Type::i64, Shape::vector, true, true,
      "fixed-point coordinates; metres = quanta * quantum"},
-    {Field::velocity, "velocity", "m/s", Type::f64, Shape::vector, true, true, "velocity"},
+    {Field::velocity, "velocity", "m/s", Type::f64, Shape::vector, true, true,
+     "velocity; of a cell of melt on its lower faces, each the component across it"},
     {Field::density, "density", "kg/m^3", Type::f64, Shape::scalar, true, true,
      "density; of a fluid with grains in it its mass over the volume of both"},
     {Field::mass, "mass", "kg", Type::f64, Shape::scalar, true, true, "mass (per metre of depth in 2D)"},
@@ -209,6 +214,13 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of the fluid on a grain in it: drag alone"},
     {Field::fluid_share, "fluid_share", "1", Type::f64, Shape::scalar, false, false,
      "of a grain: 1 over the sum of the kernel over the volumes of the fluid around it, 0 if there is none"},
+    {Field::temperature, "temperature", "K", Type::f64, Shape::scalar, true, true, "of a cell of melt"},
+    {Field::composition, "composition", "1", Type::f64, Shape::scalar, true, true,
+     "of a cell: share of the second melt"},
+    {Field::melt_share, "melt_share", "1", Type::f64, Shape::scalar, true, false,
+     "volume of melt that flowed into a cell, over the cell's: 1 but for what the flow's tolerance leaves"},
+    {Field::flow_pressure, "flow_pressure", "Pa", Type::f64, Shape::scalar, true, true,
+     "of slow flow, less what holds layers at rest"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

@@ -57,7 +57,7 @@ class Distribution {
   /// Moves the cuts by the computation time (or counts) since the last call, migrates, sorts in memory and
   /// plans the halos. Halo rows are allocated, not filled. No particle has moved further than `moved` [m]
   /// since the last call. The lists will reach as far as the scene's skin, or `least_skin` [m] where that is
-  /// more. `carried`: one for each set.
+  /// more. `carried`: one for each set. Sets that have owners of their own are not among them.
   void rebuild(std::span<ParticleSet> sets, double cost_seconds, const PairCounts& pairs, double moved,
                double least_skin, std::span<Carried> carried);
 

@@ -2,6 +2,8 @@
 // fields that its models read, and where copies of them are kept on other ranks.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "decomp/halo.hpp"
@@ -12,6 +14,9 @@
 
 namespace sph {
 
+/// The ranks that rows belong to, of a grid's cells.
+using OwnersOf = std::function<std::vector<decomp::Rank>(const Particles&)>;
+
 struct ParticleSet {
   Particles particles;
   std::vector<bool> stays;  ///< by group: its particles are no movers
@@ -19,6 +24,7 @@ struct ParticleSet {
   decomp::HaloPlan halo;
   HaloExchange exchange;
   decomp::Census census{};  ///< of its start
+  OwnersOf owners{};        ///< of a set that stays where it is; empty: rows follow the cuts
 
   /// Brings the halo copies of these fields up to date.
   void refresh(FieldSet fields, decomp::Timers& timers) {
@@ -32,5 +38,12 @@ struct ParticleSet {
   /// Halo copies of these fields are out of date.
   void changed(FieldSet fields) { exchange.changed(particles, fields); }
 };
+
+/// Those that follow the cuts: the others are last.
+[[nodiscard]] inline std::span<ParticleSet> movable(std::span<ParticleSet> sets) {
+  std::size_t n = 0;
+  while (n < sets.size() && !sets[n].owners) ++n;
+  return sets.first(n);
+}
 
 }  // namespace sph

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sph/scene/grain_scene.hpp"
+#include "sph/scene/melt_scene.hpp"
 
 namespace sph {
 
@@ -17,6 +18,7 @@ struct Domain {
   double central_pull = 0;      ///< acceleration towards pull_centre over the distance from it [1/s^2]
   Double3 pull_centre{};        ///< [m]
   double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
+  MeltControl melt;             ///< that fills it
   friend bool operator==(const Domain&, const Domain&) = default;
 };
 

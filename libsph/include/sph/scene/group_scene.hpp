@@ -6,11 +6,12 @@
 #include "sph/scene/fluid_scene.hpp"
 #include "sph/scene/gas_scene.hpp"
 #include "sph/scene/grain_scene.hpp"
+#include "sph/scene/melt_scene.hpp"
 #include "sph/scene/solid_scene.hpp"
 
 namespace sph {
 
-enum class GroupKind { fluid, solid, wall, grain };
+enum class GroupKind { fluid, solid, wall, grain, melt };
 /// What the pressure depends on besides the density: nothing, the gas content, the internal energy.
 enum class EosKind { barotropic, bubbly, ideal_gas };
 struct EquationOfState;  // laws/eos/law.hpp
@@ -45,6 +46,7 @@ struct Group {
   SolidMaterial solid;
   WallMaterial wall;
   GrainMaterial grain;  ///< besides it grains have name, density and wall.velocity
+  MeltMaterial melt;    ///< besides it melts have name, density and viscosity
   friend bool operator==(const Group&, const Group&) = default;
 };
 

@@ -30,7 +30,7 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-enum class MonitorKind { particle, group, energy, momentum, wall, contacts };
+enum class MonitorKind { particle, group, energy, momentum, wall, contacts, melt };
 
 struct Monitor {
   std::string name;

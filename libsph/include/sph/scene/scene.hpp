@@ -38,10 +38,12 @@ struct Scene {
   /// Of grains alone.
   [[nodiscard]] bool of_grains() const { return has_grains() && !has_matter(); }
   [[nodiscard]] bool has_grains() const { return has_kind(GroupKind::grain); }
+  [[nodiscard]] bool has_melt() const { return has_kind(GroupKind::melt); }
   [[nodiscard]] bool has_matter() const;          ///< fluids or solids
   [[nodiscard]] double largest_diameter() const;  ///< of grains, 0 if there are none [m]
   [[nodiscard]] double kernel_radius() const;     ///< 0 if there is no matter [m]
-  /// Range of interaction [m]: the kernel's radius or the largest diameter of the grains, whichever is more.
+  /// Range of interaction [m]: the kernel's radius or the largest diameter of the grains, whichever is more; of melts
+  /// alone a cell.
   [[nodiscard]] double support() const;
   [[nodiscard]] double list_range()
       const;  ///< how far pairs of the lists may be apart [m]: support(), or more

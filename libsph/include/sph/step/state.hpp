@@ -40,6 +40,7 @@ class State {
   [[nodiscard]] const Physics* physics() const { return parts_.physics ? &*parts_.physics : nullptr; }
   [[nodiscard]] const NeighbourLists& lists() const { return parts_.sph_pairs->lists(); }
   [[nodiscard]] const Grains* grains() const { return parts_.grains ? &*parts_.grains : nullptr; }
+  [[nodiscard]] Melt* melt() const { return parts_.melt.get(); }
   [[nodiscard]] bool has_history() const {
     return grains() != nullptr && grains()->pairs().lists().history() > 0;
   }

@@ -1,0 +1,119 @@
+// [[group]] with kind = "melt", [melt] and [[melt.side]].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "keys/scene_resolve.hpp"
+#include "sph/scene/melt_grid.hpp"
+#include "stokes/multigrid.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr std::size_t most_melts = 2;
+constexpr double most_aspect = 1.5;
+
+using MeltReader = Reader<keys::melt_table>;
+using SideReader = Reader<keys::melt_side>;
+
+void read_melt_groups(const TopReader& top, Scene& scene) {
+  const std::vector<GroupReader> tables = top.tables<keys::group>();
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    Group& group = scene.groups[k];
+    if (k >= most_melts) tables[k].fail("kind", "is a third melt", "there are two at most");
+    tables[k].read(group);
+    tables[k].require("density");
+    tables[k].require("viscosity");
+    if (!(group.viscosity > 0))
+      tables[k].fail("viscosity", fmt::format("is {}", group.viscosity), "a melt must have some");
+    tables[k].finish();
+  }
+}
+
+MeltSide read_side(const SideReader& table, const Scene& scene, const MeltControl& melt) {
+  MeltSide side;
+  table.read(side);
+  const auto axis = static_cast<std::size_t>(side.side) / 2;
+  const std::string_view name = axis < 3 ? axis_names[axis] : "";
+  if (axis >= static_cast<std::size_t>(scene.dim))
+    table.fail("side", fmt::format("is of {}, which a scene in {}D does not have", name, scene.dim),
+               "give \"x0\", \"x1\", \"y0\" or \"y1\"");
+  if (scene.domain.periodic[axis])
+    table.fail("side", fmt::format("is of {}, which is periodic", name), "it has no sides: remove it");
+  for (const MeltSide& other : melt.sides)
+    if (other.side == side.side) table.fail("side", "is described twice", "one [[melt.side]] is enough");
+  table.not_both("temperature", "heat_flux");
+  table.only_if(melt.diffusivity > 0, "temperature", "there is no heat: give melt.diffusivity");
+  table.only_if(melt.diffusivity > 0, "heat_flux", "there is no heat: give melt.diffusivity");
+  table.finish();
+  return side;
+}
+
+void check_heat(const MeltReader& table, const Scene& scene) {
+  const MeltControl& melt = scene.domain.melt;
+  if (melt.diffusivity == 0) {
+    constexpr std::string_view why = "there is no heat: give diffusivity";
+    table.only_if(false, "expansion", why);
+    table.only_if(false, "viscosity_fall", why);
+    table.only_if(false, "profile", why);
+  }
+  if (melt.profile != MeltProfile::conductive) return;
+  int given = 0;
+  for (const MeltSide& s : melt.sides)
+    if (static_cast<int>(s.side) / 2 == scene.dim - 1 && s.temperature) ++given;
+  if (given != 2)
+    table.fail("profile", "is \"conductive\" without two temperatures",
+               fmt::format("give those of the sides {0}0 and {0}1",
+                           axis_names[static_cast<std::size_t>(scene.dim) - 1]));
+}
+
+/// Sets start.spacing to the shortest edge of a cell.
+void check_cells(const MeltReader& table, Scene& scene) {
+  const stokes::Grid grid = melt_grid(scene);
+  const auto [least, most] = std::minmax_element(grid.edge.begin(), grid.edge.begin() + grid.dim);
+  if (*most > most_aspect * *least)
+    table.fail("cells", fmt::format("makes cells of {:.4g} m by {:.4g} m", *least, *most),
+               fmt::format("at most {} times as long as wide are possible: change the numbers", most_aspect));
+  scene.start.spacing = *least;
+  try {
+    stokes::check_cells(grid);
+  } catch (const InputError& error) {
+    const std::string_view text = error.what();
+    const std::size_t end = text.find(';');
+    table.fail("cells", text.substr(0, end), text.substr(end + 2));
+  }
+}
+
+}  // namespace
+
+void read_melt(const TopReader& top, const DomainReader& domain, const StartReader& start, Scene& scene) {
+  start.only_if(false, "spacing", "melts have cells: give melt.cells");
+  read_melt_groups(top, scene);
+  const auto table = top.table<keys::melt_table>();
+  table.read(scene.domain.melt);
+  for (const auto& side : table.tables<keys::melt_side>())
+    scene.domain.melt.sides.push_back(read_side(side, scene, scene.domain.melt));
+  check_cells(table, scene);
+  check_heat(table, scene);
+  if (scene.domain.melt.wave_height != 0 && !(scene.domain.melt.wave_length > 0))
+    table.fail_missing("wave_length", "wave_height needs it, in m");
+  table.only_if(scene.domain.melt.wave_height != 0, "wave_length", "it is of wave_height");
+  table.finish();
+  if (scene.domain.central_pull > 0) domain.only_if(false, "central_pull", "it is of fluids");
+}
+
+void check_melt_grid(const StartReader& start, const Scene& scene) {
+  if (!scene.has_melt()) return;
+  const LatticeFill& lattice = scene.start.lattice;
+  using Name = StartReader::Name<>;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (lattice.lower[a] != scene.domain.lower[a] || lattice.upper[a] != scene.domain.upper[a] ||
+        lattice.origin[a] != scene.domain.lower[a])
+      start.fail(lattice.upper[a] != scene.domain.upper[a] ? Name("upper") : Name("lower"),
+                 fmt::format("leaves cells of the domain out in {}", axis_names[a]),
+                 "melts fill it: remove the key");
+}
+
+}  // namespace sph

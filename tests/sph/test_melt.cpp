@@ -1,0 +1,227 @@
+// Melts on a grid: what is conserved, what stays at rest, steps far beyond where an interface would slosh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "decomp/exact_sum.hpp"
+#include "sph/core/error.hpp"
+#include "sph/output/monitors.hpp"
+#include "sph/step/simulation.hpp"
+
+namespace sph {
+namespace {
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+const std::string tests_dir = PEPERITE_TEST_DIR;
+
+const decomp::Comm& world() {
+  static const decomp::Comm comm(MPI_COMM_WORLD);
+  return comm;
+}
+
+/// What a GuardError says that `work` ends with.
+template <class Work>
+std::string guard_text(Work&& work) {
+  try {
+    work();
+  } catch (const GuardError& error) {
+    return error.what();
+  }
+  return "(nothing)";
+}
+
+Scene melts(const std::string& file, const std::vector<std::string>& overrides = {}) {
+  return read_scene(tests_dir + "/scenes/" + file, overrides);
+}
+
+/// Sums over all cells and ranks of what `value` says of a row.
+template <class Value>
+double sum_of(const Simulation& s, Value value) {
+  decomp::ExactSum sum;
+  const Particles& p = s.particles();
+  for (std::size_t i = 0; i < p.owned(); ++i) sum.add(value(p, i));
+  decomp::ExactSum::all_reduce(s.comm(), std::span(&sum, 1));
+  return sum.value();
+}
+
+double second_melt(const Simulation& s) {
+  return sum_of(s, [](const Particles& p, std::size_t i) {
+    return p.data<Field::composition>()[i] * p.data<Field::melt_share>()[i];
+  });
+}
+double mean_square_speed(const Simulation& s) {
+  const double square = sum_of(s, [](const Particles& p, std::size_t i) {
+    const auto d = static_cast<std::size_t>(p.dim());
+    double v2 = 0;
+    for (std::size_t a = 0; a < d; ++a)
+      v2 += p.data<Field::velocity>()[i * d + a] * p.data<Field::velocity>()[i * d + a];
+    return v2;
+  });
+  return square / static_cast<double>(s.particle_count());
+}
+
+TEST(Melt, NoneIsLostAndNoneIsMade) {
+  for (const char* file : {"melts2d.toml", "melts3d.toml"}) {
+    Simulation s(world(), melts(file));
+    const double before = second_melt(s);
+    for (int k = 0; k < 8; ++k) s.step();
+    EXPECT_GT(mean_square_speed(s), 0) << file;
+    EXPECT_NEAR(second_melt(s), before, 1e-13 * before) << file;
+    const Particles& p = s.particles();
+    for (std::size_t i = 0; i < p.owned(); ++i) {
+      EXPECT_GE(p.data<Field::composition>()[i], -1e-12);
+      EXPECT_LE(p.data<Field::composition>()[i], 1 + 1e-12);
+      EXPECT_NEAR(p.data<Field::melt_share>()[i], 1, 1e-2);
+    }
+  }
+}
+
+TEST(Melt, HeatStaysBetweenInsulatedSides) {
+  Simulation s(world(), parse_scene(R"(
+[domain]
+lower = [0, 0]
+upper = [1, 1]
+gravity = [0, -10]
+[melt]
+cells = [16, 16]
+diffusivity = 1e-3
+expansion = 1e-3
+wave_height = 0.2
+wave_length = 2
+[[group]]
+name = "cold"
+kind = "melt"
+density = 2000
+viscosity = 50
+temperature = 1
+[[group]]
+name = "warm"
+kind = "melt"
+density = 2000
+viscosity = 20
+temperature = 9
+[start]
+[[start.region]]
+group = "cold"
+[[start.region]]
+group = "warm"
+shape = "box"
+lower = [0, 0]
+upper = [1, 0.5]
+[time]
+steps = 20
+dt = 1
+)",
+                                    "heat", {}));
+  const auto heat = [&] {
+    return sum_of(s, [](const Particles& p, std::size_t i) {
+      return p.data<Field::temperature>()[i] * p.data<Field::melt_share>()[i];
+    });
+  };
+  const double before = heat();
+  for (int k = 0; k < 20; ++k) s.step();
+  EXPECT_GT(mean_square_speed(s), 0);
+  EXPECT_NEAR(heat(), before,
+              1e-5 * before);  // conduction does not know the share, which is 1 within the tolerance
+}
+
+constexpr const char* layers = R"(
+[domain]
+lower = [0, 0]
+upper = [1, 1]
+gravity = [0, -1]
+[melt]
+cells = [32, 32]
+tolerance = 1e-6
+wave_height = 0
+[[melt.side]]
+side = "y0"
+slip = false
+[[group]]
+name = "light"
+kind = "melt"
+density = 1
+viscosity = 1
+[[group]]
+name = "heavy"
+kind = "melt"
+density = 2
+viscosity = 1
+[start]
+[[start.region]]
+group = "light"
+[[start.region]]
+group = "heavy"
+shape = "box"
+lower = [0, -1]
+upper = [1, 0.53]
+[time]
+steps = 5
+dt = 50
+)";
+
+TEST(Melt, FlatLayersStayAtRest) {
+  Simulation s(world(), parse_scene(layers, "layers", {}));
+  for (int k = 0; k < 3; ++k) s.step();
+  EXPECT_EQ(mean_square_speed(s), 0);
+}
+
+// A wave of length 2 of a stable interface slackens at drho g lambda / (16 pi eta) or less: an explicit step beyond twice
+// its inverse would throw it over. At twenty times that it comes to rest without turning once.
+TEST(Melt, AStableInterfaceDoesNotSloshHoweverLongTheStep) {
+  const double limit = 16 * std::numbers::pi / 2;
+  Simulation s(world(), parse_scene(layers, "layers",
+                                    {"melt.wave_height=0.02", "melt.wave_length=2", "melt.courant=0.5",
+                                     "time.dt=" + std::to_string(20 * limit)}));
+  // First moment of the heavy melt along x, weighted by the wave: its amplitude.
+  const auto amplitude = [&] {
+    return sum_of(s, [&](const Particles& p, std::size_t i) {
+      const double x = s.scale().metres(p.data<Field::position>()[2 * i]);
+      return p.data<Field::composition>()[i] * std::cos(std::numbers::pi * x);
+    });
+  };
+  double before = amplitude();
+  EXPECT_GT(before, 1);
+  const double first = before;
+  for (int k = 0; k < 12; ++k) {
+    s.step();
+    const double now = amplitude();
+    EXPECT_LE(now, before + 1e-6 * first);
+    EXPECT_GE(now, -0.02 * first);
+    before = now;
+  }
+  EXPECT_LT(before, 0.1 * first);
+}
+
+TEST(Melt, AFlowThatIsNotFoundEndsTheRun) {
+  Simulation s(world(), melts("melts2d.toml", {"melt.most_iterations=2"}));
+  const std::string text = guard_text([&] { s.step(); });
+  EXPECT_SAYS(text, "step 0: the slow flow has a residual of");
+  EXPECT_SAYS(text, "raise melt.most_iterations or melt.tolerance");
+}
+
+TEST(Melt, NothingFlowsAndThereIsNoStep) {
+  Simulation s(world(), parse_scene(layers, "layers", {"time.dt="}));
+  EXPECT_SAYS(guard_text([&] { s.step(); }), "nothing flows, and there is no time.dt: give one");
+}
+
+TEST(Melt, MonitorsSayWhatFlowsAndWhatComesIn) {
+  Simulation s(world(), melts("melts2d.toml"));
+  const Monitors monitors(s);
+  const std::vector<std::string> names{"melt_iterations",  "melt_residual", "melt_v_rms",  "melt_temperature",
+                                       "melt_composition", "melt_heat_y0",  "melt_heat_y1"};
+  EXPECT_EQ(monitors.names(), names);
+  s.step();
+  const std::vector<double> values = monitors.values(s);
+  ASSERT_EQ(values.size(), names.size());
+  EXPECT_GT(values[0], 3);
+  EXPECT_LE(values[1], 1e-3);
+  EXPECT_NEAR(values[2], std::sqrt(mean_square_speed(s)), 1e-12 * values[2]);
+  EXPECT_GT(values[5], 0);
+  EXPECT_EQ(values[6], -1e-3);
+}
+
+}  // namespace
+}  // namespace sph
