@@ -36,9 +36,10 @@ class Solver {
   void set_viscosity(Field cells, Resistance resistance = {});
   /// Improves `x` until |r| <= tolerance |f|; residuals of the divergence count times the least eta / h. Where a mean velocity or
   /// pressure is free it is 0 then; where no wall holds a component of the force its mean is taken off, and so is that of
-  /// the source s [1/s]. Collective.
+  /// the source s [1/s]. Where |f| is less than `least_norm`, what is left of it by rounding, that counts instead.
+  /// Collective.
   [[nodiscard]] Effort solve(Velocity force, Flow& x, double tolerance, int most_iterations = 200,
-                             const Field* source = nullptr);
+                             const Field* source = nullptr, double least_norm = 0);
 
  private:
   /// y = K x; refreshes x.

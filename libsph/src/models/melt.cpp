@@ -16,8 +16,7 @@ namespace sph {
 namespace {
 
 constexpr std::array side_names{"x0", "x1", "y0", "y1", "z0", "z1"};
-// Below this share of what would drive a flow if all that may differ did, it is rounding.
-constexpr double least_force = 1e-10;
+constexpr double least_force = 1e-10;  // of the weight: less is what rounding leaves where all is at rest
 constexpr double usual_iterations = 20;
 constexpr double grids_and_scratch = 24;  // numbers of each component of a cell
 
@@ -218,8 +217,11 @@ void Melt::flow(StepState& state) {
   // What the tolerance left in cells flows out of them in the next step.
   stokes::Field source(p.size, 0.0);
   if (before > 0) for_cells(p, [&](std::size_t k) { source[k] = (work_->share[k] - 1) / before; });
+  double g2 = 0;
+  for (const double g : scene_->domain.gravity) g2 += g * g;
+  const double weight = scene_->groups.front().density * std::sqrt(g2 * cells_of(p.grid));
   effort_ = work_->solver.solve(driving_force(rho), work_->flow, m.tolerance,
-                                static_cast<int>(m.most_iterations), &source);
+                                static_cast<int>(m.most_iterations), &source, least_force * weight);
   if (!effort_.converged)
     throw GuardError(fmt::format(
         "{}the slow flow has a residual of {:.3g} after {} iterations, wanted {}: viscosities may "

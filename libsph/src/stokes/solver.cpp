@@ -135,7 +135,8 @@ void Solver::take_off_free_means(Velocity& u) {
     if (patch().grid.slides(a)) take_off_mean(u[static_cast<std::size_t>(a)]);
 }
 
-Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterations, const Field* source) {
+Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterations, const Field* source,
+                     double least_norm) {
   const Patch& p = patch();
   Flow f{std::move(force), Field(p.size, 0.0)};
   if (source != nullptr) {
@@ -144,7 +145,7 @@ Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterati
   }
   take_off_free_means(f.u);
   add_gradient(p, f.p, 0, f.u);  // nothing drives a wall
-  const double wanted = tolerance * norm(f);
+  const double wanted = tolerance * std::max(norm(f), least_norm);
   Effort effort;
   while (true) {
     Flow r = make_flow();
