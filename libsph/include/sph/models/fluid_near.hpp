@@ -1,6 +1,7 @@
 // The fluid around each grain: lists of its rows, the kernel at those within its support, and the averages that the
 // kernel gives. What find_kernel() finds stays until it is asked again: positions are the same in all passes of a
-// step, but where shifting displaces the fluid. Weights are those of one grain at a time: find_weights(), then what wants them.
+// step, but where shifting displaces the fluid. Weights are those of one grain at a time: find_weights(), then what wants
+// them.
 #pragma once
 
 #include <cstdint>
