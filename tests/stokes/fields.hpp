@@ -39,6 +39,16 @@ void for_cells(const Patch& p, Work work) {
   });
 }
 
+/// work(index, lower corner of the cell) for this rank's cells.
+template <class Work>
+void for_corners(const Patch& p, Work work) {
+  for_cells(p, [&](std::ptrdiff_t k, const Int3& x) {
+    std::array<double, 3> corner{};
+    for (std::size_t a = 0; a < 3; ++a) corner[a] = static_cast<double>(x[a]) * p.grid.edge[a];
+    work(k, corner);
+  });
+}
+
 /// In [-1, 1), of a cell and a stream of numbers.
 inline double hashed(const Grid& g, const Int3& x, unsigned stream) {
   const auto number = static_cast<std::uint64_t>((x[2] * g.cells[1] + x[1]) * g.cells[0] + x[0]);
@@ -72,14 +82,19 @@ double sum_over_cells(const decomp::Comm& comm, const Patch& p, Term term) {
   return sum[0].value();
 }
 
-/// Cut across an axis at random, also into boxes of one cell and of none.
-inline std::vector<Box> random_boxes(const Grid& g, std::size_t axis, int ranks, std::mt19937& random) {
-  std::vector<std::int64_t> cuts{0, g.cells[axis]};
+/// Cut across an axis at random, also into boxes of one tile and of none.
+inline std::vector<Box> random_boxes(const Grid& g, std::size_t axis, int ranks, std::mt19937& random,
+                                     std::int64_t tile = 1) {
+  const std::int64_t tiles = g.cells[axis] / tile;
+  std::vector<std::int64_t> cuts{0, tiles};
   for (int r = 1; r < ranks; ++r)
-    cuts.push_back(static_cast<std::int64_t>(random() % static_cast<unsigned>(g.cells[axis] + 1)));
+    cuts.push_back(static_cast<std::int64_t>(random() % static_cast<unsigned>(tiles + 1)));
   std::ranges::sort(cuts);
   std::vector<Box> boxes(static_cast<std::size_t>(ranks), g.box());
-  for (std::size_t r = 0; r < boxes.size(); ++r) boxes[r].lo[axis] = cuts[r], boxes[r].hi[axis] = cuts[r + 1];
+  for (std::size_t r = 0; r < boxes.size(); ++r) {
+    boxes[r].lo[axis] = cuts[r] * tile;
+    boxes[r].hi[axis] = cuts[r + 1] * tile;
+  }
   return boxes;
 }
 

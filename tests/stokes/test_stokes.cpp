@@ -1,86 +1,40 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
-#include <random>
 #include <string>
 #include <tuple>
-#include <vector>
 
-#include "decomp/exact_sum.hpp"
+#include "stokes/fields.hpp"
 #include "stokes/partition.hpp"
 #include "stokes/solcx.hpp"
+#include "stokes/solved.hpp"
 #include "stokes/solver.hpp"
 
 namespace {
 
 using namespace stokes;
+using namespace test_stokes;
 using std::numbers::pi;
-
-Grid box_of(int dim, std::int64_t n, Side side) {
-  Grid g;
-  g.dim = dim;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
-    g.cells[a] = n;
-    g.edge[a] = 1.0 / static_cast<double>(n);
-    g.sides[a] = {side, side};
-  }
-  return g;
-}
-
-/// work(index, lower corner of the cell) for this rank's cells.
-template <class Work>
-void for_cells(const Patch& p, Work work) {
-  for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t y, std::int64_t z) {
-    for (std::int64_t i = 0; i < n; ++i)
-      work(first + i,
-           std::array{static_cast<double>(p.own.lo[0] + i) * p.grid.edge[0],
-                      static_cast<double>(y) * p.grid.edge[1], static_cast<double>(z) * p.grid.edge[2]});
-  });
-}
-
-/// Relative L2 norms of differences over all ranks.
-class Norms {
- public:
-  void add(std::size_t kind, double got, double exact) {
-    sums_[2 * kind].add((got - exact) * (got - exact));
-    sums_[2 * kind + 1].add(exact * exact);
-  }
-  std::array<double, 2> of_all(const decomp::Comm& comm) {
-    decomp::ExactSum::all_reduce(comm, sums_);
-    return {std::sqrt(sums_[0].value() / sums_[1].value()), std::sqrt(sums_[2].value() / sums_[3].value())};
-  }
-
- private:
-  std::array<decomp::ExactSum, 4> sums_;
-};
-
-struct Solved {
-  Effort effort;
-  std::array<double, 2> errors;  ///< of velocity and pressure
-};
 
 Solved solcx(std::int64_t n) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  const Grid g = box_of(2, n, Side::free_slip);
+  const Grid g = unit_box(2, n, Side::free_slip);
   Solver solver(comm, g, even_boxes(g, comm.size()));
   const Patch& p = solver.patch();
   const double h = g.edge[0];
   Flow x = solver.make_flow();
   Velocity force = solver.make_flow().u;
   Field eta(p.size, 1.0);
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
     eta[k] = at[0] + 0.5 * h < 0.5 ? 1 : 1e6;
     force[1][k] = std::sin(pi * at[1]) * std::cos(pi * (at[0] + 0.5 * h));
   });
   solver.set_viscosity(eta);
   Solved out{solver.solve(force, x, 1e-8), {}};
-  const test_stokes::SolCx exact(1e6);
+  const SolCx exact(1e6);
   Norms norms;
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
     norms.add(0, x.u[0][k], exact.u(at[0], at[1] + 0.5 * h));
     norms.add(0, x.u[1][k], exact.v(at[0] + 0.5 * h, at[1]));
     norms.add(1, x.p[k], exact.p(at[0] + 0.5 * h, at[1] + 0.5 * h));
@@ -105,7 +59,7 @@ TEST(Stokes, SolCxWithAJumpOfTheViscosityOfAMillion) {
 // eta = exp(a.x), a solenoidal flow: f_i = -eta (2 eps_ij a_j + lap u_i) + d_i p.
 Solved smooth(int dim, std::int64_t n) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  const Grid g = box_of(dim, n, Side::free_slip);
+  const Grid g = unit_box(dim, n, Side::free_slip);
   Solver solver(comm, g, even_boxes(g, comm.size()));
   const Patch& p = solver.patch();
   const double h = g.edge[0];
@@ -137,7 +91,7 @@ Solved smooth(int dim, std::int64_t n) {
   Flow x = solver.make_flow();
   Velocity force = solver.make_flow().u;
   Field eta(p.size, 1.0);
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& corner) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& corner) {
     eta[k] = viscosity(centre(corner, none));
     for (std::size_t i = 0; i < d; ++i) {
       const std::array<double, 3> at = centre(corner, i);
@@ -149,7 +103,7 @@ Solved smooth(int dim, std::int64_t n) {
   solver.set_viscosity(eta);
   Solved out{solver.solve(force, x, 1e-9), {}};
   Norms norms;
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& corner) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& corner) {
     for (std::size_t i = 0; i < d; ++i) norms.add(0, x.u[i][k], flow(centre(corner, i), i));
     norms.add(1, x.p[k], wave(centre(corner, none), none, none));
   });
@@ -171,7 +125,7 @@ TEST(Stokes, SmoothViscosityIsOfSecondOrder) {
 // Between walls that hold it, driven along a periodic axis: u = f / (2 eta) y (1 - y), exact but for the walls' h^2 / 8.
 TEST(Stokes, FlowThroughAChannel) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  Grid g = box_of(2, 32, Side::no_slip);
+  Grid g = unit_box(2, 32, Side::no_slip);
   g.sides[0] = {Side::periodic, Side::periodic};
   Solver solver(comm, g, even_boxes(g, comm.size()));
   const Patch& p = solver.patch();
@@ -180,7 +134,7 @@ TEST(Stokes, FlowThroughAChannel) {
   for (double& f : force[0]) f = 8;
   solver.set_viscosity(Field(p.size, 1.0));
   EXPECT_TRUE(solver.solve(force, x, 1e-10).converged);
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
     const double y = at[1] + 0.5 * g.edge[1];
     EXPECT_NEAR(x.u[0][k], 4 * y * (1 - y) + g.edge[1] * g.edge[1], 1e-8);
     EXPECT_NEAR(x.u[1][k], 0, 1e-8);
@@ -190,19 +144,19 @@ TEST(Stokes, FlowThroughAChannel) {
 // A force that is a gradient moves nothing, and what drives a fluid that nothing holds is taken off.
 TEST(Stokes, WhatPressureBalancesMovesNothing) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  const Grid g = box_of(3, 16, Side::periodic);
+  const Grid g = unit_box(3, 16, Side::periodic);
   Solver solver(comm, g, even_boxes(g, comm.size()));
   const Patch& p = solver.patch();
   const double h = g.edge[0];
   Flow x = solver.make_flow();
   Velocity force = solver.make_flow().u;
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
     force[0][k] = 3.0;
     force[2][k] = (std::cos(2 * pi * (at[2] + 0.5 * h)) - std::cos(2 * pi * (at[2] - 0.5 * h))) / h;
   });
   solver.set_viscosity(Field(p.size, 1.0));
   EXPECT_TRUE(solver.solve(force, x, 1e-10).converged);
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
     for (const Field& u : x.u) EXPECT_NEAR(u[k], 0, 1e-9);
     EXPECT_NEAR(x.p[k], std::cos(2 * pi * (at[2] + 0.5 * h)), 1e-8);
   });
@@ -211,7 +165,7 @@ TEST(Stokes, WhatPressureBalancesMovesNothing) {
 // Out of a sphere of sources a flow in all directions, on grids of two spacings; its divergence is what was asked for.
 TEST(Stokes, FlowsOutOfSources) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  const Grid g = box_of(2, 32, Side::free_slip);
+  const Grid g = unit_box(2, 32, Side::free_slip);
   Solver solver(comm, g, even_boxes(g, comm.size()));
   const Patch& p = solver.patch();
   const double h = g.edge[0];
@@ -219,12 +173,12 @@ TEST(Stokes, FlowsOutOfSources) {
   Field source(p.size, 0.0);
   // u = (cos(pi y) sin(pi x), cos(pi x) sin(pi y)) = -grad phi: what flows without a force, of a phi that is
   // harmonic but for the sources; their mean is 0.
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
     source[k] = 2 * pi * std::cos(pi * (at[0] + 0.5 * h)) * std::cos(pi * (at[1] + 0.5 * h)) + 7;
   });
   solver.set_viscosity(Field(p.size, 1e3));
   EXPECT_TRUE(solver.solve(solver.make_flow().u, x, 1e-10, 200, &source).converged);
-  for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
     EXPECT_NEAR(x.u[0][k], std::sin(pi * at[0]) * std::cos(pi * (at[1] + 0.5 * h)), 1e-3);
     EXPECT_NEAR(x.u[1][k], std::sin(pi * at[1]) * std::cos(pi * (at[0] + 0.5 * h)), 1e-3);
   });
@@ -233,7 +187,7 @@ TEST(Stokes, FlowsOutOfSources) {
 // Darcy's flow: where faces resist far more than shear does, each component is what drives it over the resistance.
 TEST(Stokes, FacesResist) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  Grid g = box_of(3, 16, Side::periodic);
+  Grid g = unit_box(3, 16, Side::periodic);
   g.sides[2] = {Side::no_slip, Side::free_slip};
   Solver solver(comm, g, even_boxes(g, comm.size()));
   const Patch& p = solver.patch();
@@ -242,7 +196,7 @@ TEST(Stokes, FacesResist) {
   Resistance resistance{{true, false, false}, {Field(p.size, 0.0), {}, {}}};
   // u'' = (k u - f) / eta between a wall that holds it and one that does not.
   const double k = 30, f = 6, eta = 2, a = std::sqrt(k / eta);
-  for_cells(p, [&](std::ptrdiff_t c, const std::array<double, 3>&) {
+  for_corners(p, [&](std::ptrdiff_t c, const std::array<double, 3>&) {
     force[0][c] = f;
     resistance.faces[0][c] = k;
   });
@@ -250,24 +204,11 @@ TEST(Stokes, FacesResist) {
   const Effort effort = solver.solve(force, x, 1e-10);
   EXPECT_TRUE(effort.converged);
   EXPECT_LE(effort.iterations, 14);
-  for_cells(p, [&](std::ptrdiff_t c, const std::array<double, 3>& at) {
+  for_corners(p, [&](std::ptrdiff_t c, const std::array<double, 3>& at) {
     const double z = at[2] + 0.5 * g.edge[2];
     EXPECT_NEAR(x.u[0][c], f / k * (1 - std::cosh(a * (1 - z)) / std::cosh(a)), 0.01 * f / k);
     EXPECT_NEAR(x.u[1][c], 0, 1e-9);
   });
-}
-
-/// Boxes of whole tiles cut at random, some ranks without any.
-std::vector<Box> random_boxes(const Grid& g, int ranks, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<std::int64_t> cuts{0, g.cells[0] / tile};
-  for (int r = 1; r < ranks; ++r)
-    cuts.push_back(static_cast<std::int64_t>(random() % static_cast<unsigned>(cuts[1] + 1)));
-  std::ranges::sort(cuts);
-  std::vector<Box> boxes;
-  for (std::size_t r = 0; r + 1 < cuts.size(); ++r)
-    boxes.push_back({{cuts[r] * tile, 0, 0}, {cuts[r + 1] * tile, g.cells[1], g.cells[2]}});
-  return boxes;
 }
 
 TEST(Stokes, BitsAreThoseOfOneRank) {
@@ -275,7 +216,7 @@ TEST(Stokes, BitsAreThoseOfOneRank) {
   for (const int dim : {2, 3})
     for (unsigned seed = 0; seed < 6; ++seed) {
       std::mt19937 random(seed);
-      Grid g = box_of(dim, dim == 2 ? 96 : 24, Side::free_slip);
+      Grid g = unit_box(dim, dim == 2 ? 96 : 24, Side::free_slip);
       for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
         const auto side = static_cast<Side>(random() % 3), other = static_cast<Side>(1 + random() % 2);
         g.sides[a] = {side, side == Side::periodic ? side : other};
@@ -287,7 +228,7 @@ TEST(Stokes, BitsAreThoseOfOneRank) {
         Velocity force = solver.make_flow().u;
         Field eta(p.size, 1.0), source(p.size, 0.0);
         Resistance resistance{{false, seed % 3 != 0, false}, {Field(), Field(p.size, 0.0), Field()}};
-        for_cells(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
+        for_corners(p, [&](std::ptrdiff_t k, const std::array<double, 3>& at) {
           eta[k] = at[0] + 0.3 * at[1] * at[1] < 0.6 ? 1 : 1e4;
           force[1][k] = at[0] * (1 - at[0]) * at[1];
           source[k] = 1e-6 * (at[0] - at[1]);
@@ -298,26 +239,20 @@ TEST(Stokes, BitsAreThoseOfOneRank) {
         return std::tuple(p, std::move(x), effort.iterations);
       };
       const auto [whole, expected, iterations] = run(alone, {g.box()});
-      const auto boxes = seed % 2 == 0 ? even_boxes(g, world.size()) : random_boxes(g, world.size(), seed);
+      const auto boxes =
+          seed % 2 == 0 ? even_boxes(g, world.size()) : random_boxes(g, 0, world.size(), random, tile);
       const auto [part, got, iterations_here] = run(world, boxes);
       EXPECT_EQ(iterations_here, iterations);
-      std::size_t wrong = 0;
-      const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
-      for (std::int64_t z = part.own.lo[2]; z < part.own.hi[2]; ++z)
-        for (std::int64_t y = part.own.lo[1]; y < part.own.hi[1]; ++y)
-          for (std::int64_t i = part.own.lo[0]; i < part.own.hi[0]; ++i) {
-            const std::ptrdiff_t k = part.at(i, y, z), j = whole.at(i, y, z);
-            wrong += same(got.p[k], expected.p[j]) ? 0 : 1;
-            for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
-              wrong += same(got.u[a][k], expected.u[a][j]) ? 0 : 1;
-          }
+      std::size_t wrong = other_bits(part, got.p, whole, expected.p);
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
+        wrong += other_bits(part, got.u[a], whole, expected.u[a]);
       EXPECT_EQ(wrong, 0U) << dim << "D, seed " << seed;
     }
 }
 
 TEST(Stokes, GridsThatCannotBeHalvedOftenEnoughAreRefused) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  Grid g = box_of(2, 64, Side::free_slip);
+  Grid g = unit_box(2, 64, Side::free_slip);
   g.cells[1] = 72;
   try {
     const Solver solver(comm, g, even_boxes(g, comm.size()));

@@ -52,6 +52,9 @@ struct Patch {
   std::size_t size = 0;  ///< of the frame
 };
 
+/// The cells and copies of each rank's patch: what a halo exchange fills. Copies behind walls nobody has.
+[[nodiscard]] std::vector<Box> frames_of(const Grid& grid, std::vector<Box> boxes, int layers = 1);
+
 using Field = std::vector<double>;  ///< over a patch's frame
 using Velocity = std::array<Field, 3>;
 
@@ -67,6 +70,13 @@ void for_lines(const Patch& p, Work work) {
   for (std::int64_t z = p.own.lo[2]; z < p.own.hi[2]; ++z)
     for (std::int64_t y = p.own.lo[1]; y < p.own.hi[1]; ++y)
       work(p.at(p.own.lo[0], y, z), p.own.hi[0] - p.own.lo[0], y, z);
+}
+/// work(index) for each of the rank's own cells.
+template <class Work>
+void for_own(const Patch& p, Work work) {
+  for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
+    for (std::ptrdiff_t k = first; k < first + n; ++k) work(k);
+  });
 }
 
 }  // namespace stokes

@@ -9,11 +9,6 @@ namespace {
 
 constexpr double tolerance = 1e-12;
 
-std::vector<Box> frames_of(const Grid& grid, std::vector<Box> boxes) {
-  for (Box& b : boxes) b = Patch(grid, b).frame;
-  return boxes;
-}
-
 /// work(index) for the rank's cells at a wall.
 template <class Work>
 void for_cells_at(const Patch& p, int axis, int side, Work work) {
@@ -133,9 +128,7 @@ int Conduction::advance(double dt, Field& temperature, double theta) {
     rho = rho_next;
     left *= rho;
   }
-  for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-    for (std::ptrdiff_t k = first; k < first + n; ++k) temperature[k] += change_[k];
-  });
+  for_own(p, [&](std::ptrdiff_t k) { temperature[k] += change_[k]; });
   return iterations;
 }
 

@@ -59,6 +59,11 @@ bool Patch::at_wall(int axis, int side) const {
   return side == 0 ? own.lo[a] == 0 : own.hi[a] == grid.cells[a];
 }
 
+std::vector<Box> frames_of(const Grid& grid, std::vector<Box> boxes, int layers) {
+  for (Box& b : boxes) b = Patch(grid, b, layers).frame;
+  return boxes;
+}
+
 void mirror_velocity(const Patch& p, Velocity& u) {
   for (int axis = 0; axis < p.grid.dim; ++axis) {
     const auto a = static_cast<std::size_t>(axis);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "decomp/splitmix.hpp"
-#include "transfers.hpp"
 
 namespace stokes {
 namespace {
@@ -14,11 +13,6 @@ constexpr int degree = 4;        // of the polynomial
 constexpr double span = 12;      // it smooths [largest / span, largest]
 constexpr int power_steps = 12;  // towards the largest eigenvalue
 constexpr double margin = 1.1;   // above what they find
-
-std::vector<Box> frames_of(const Grid& grid, std::vector<Box> boxes) {
-  for (Box& b : boxes) b = frame_inside(grid, b);
-  return boxes;
-}
 
 /// In [-1/2, 1/2), of a cell's number: the same wherever it is.
 double hashed(std::uint64_t x) { return decomp::splitmix_unit(decomp::splitmix_mix(x)) - 0.5; }
@@ -82,11 +76,9 @@ double Level::largest_eigenvalue() {
     apply(patch_, viscosity_, u, r_);
     double most = 0;
     for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
-      for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t count, std::int64_t, std::int64_t) {
-        for (std::ptrdiff_t k = first; k < first + count; ++k) {
-          u[a][k] = inverse_diagonal_[a][k] * r_[a][k];
-          most = std::max(most, std::fabs(u[a][k]));
-        }
+      for_own(patch_, [&](std::ptrdiff_t k) {
+        u[a][k] = inverse_diagonal_[a][k] * r_[a][k];
+        most = std::max(most, std::fabs(u[a][k]));
       });
     std::array<double, 1> all{most};
     comm_->max(all);
@@ -102,10 +94,8 @@ void Level::residual(const Velocity& f, Velocity& u, Velocity& r) {
   refresh(u);
   apply(patch_, viscosity_, u, r);
   for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a)
-    for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-      for (std::ptrdiff_t k = first; k < first + n; ++k)
-        r[a][k] = inverse_diagonal_[a][k] != 0 ? f[a][k] - r[a][k] : 0.0;
-    });
+    for_own(patch_,
+            [&](std::ptrdiff_t k) { r[a][k] = inverse_diagonal_[a][k] != 0 ? f[a][k] - r[a][k] : 0.0; });
 }
 
 void Level::smooth(const Velocity& f, Velocity& u, bool from_zero) {
@@ -120,11 +110,9 @@ void Level::smooth(const Velocity& f, Velocity& u, bool from_zero) {
     if (step > 0) rho = next;
     for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a) {
       const Field& r = zero ? f[a] : r_[a];
-      for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-        for (std::ptrdiff_t k = first; k < first + n; ++k) {
-          step_[a][k] = keep * step_[a][k] + take * (inverse_diagonal_[a][k] * r[k]);
-          u[a][k] = (zero ? 0.0 : u[a][k]) + step_[a][k];
-        }
+      for_own(patch_, [&](std::ptrdiff_t k) {
+        step_[a][k] = keep * step_[a][k] + take * (inverse_diagonal_[a][k] * r[k]);
+        u[a][k] = (zero ? 0.0 : u[a][k]) + step_[a][k];
       });
     }
   }

@@ -74,9 +74,8 @@ Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box
     const decomp::Comm& whose = everywhere ? alone_ : fine.comm();
     // Each rank gets what it needs of the coarser grid around its own cells.
     const auto me = static_cast<std::size_t>(fine.comm().rank());
-    std::vector<Box> wanted_down = next, wanted_up;
+    std::vector<Box> wanted_down = next, wanted_up = frames_of(coarse, halves);
     if (everywhere) wanted_down.assign(static_cast<std::size_t>(fine.comm().size()), coarse.box());
-    for (const Box& b : halves) wanted_up.push_back(frame_inside(coarse, b));
     if (everywhere) wanted_up = {wanted_up[me]};
     transfers_.push_back(std::make_unique<Transfer>(
         Transfer{Patch(coarse, halves[me]),
@@ -204,9 +203,8 @@ void Multigrid::solve_coarsest(const Velocity& f, Velocity& u) const {
   const std::size_t n = dim * static_cast<std::size_t>(count(p.grid));
   std::vector<double> x(n);
   std::size_t r = 0;
-  for_lines(p, [&](std::ptrdiff_t first, std::int64_t cells, std::int64_t, std::int64_t) {
-    for (std::ptrdiff_t k = first; k < first + cells; ++k)
-      for (std::size_t a = 0; a < dim; ++a) x[r++] = f[a][k];
+  for_own(p, [&](std::ptrdiff_t k) {
+    for (std::size_t a = 0; a < dim; ++a) x[r++] = f[a][k];
   });
   for (r = 0; r < n; ++r) {
     for (std::size_t k = 0; k < r; ++k) x[r] -= factor_[r * n + k] * x[k];
@@ -217,9 +215,8 @@ void Multigrid::solve_coarsest(const Velocity& f, Velocity& u) const {
     x[r] /= factor_[r * n + r];
   }
   r = 0;
-  for_lines(p, [&](std::ptrdiff_t first, std::int64_t cells, std::int64_t, std::int64_t) {
-    for (std::ptrdiff_t k = first; k < first + cells; ++k)
-      for (std::size_t a = 0; a < dim; ++a) u[a][k] = x[r++];
+  for_own(p, [&](std::ptrdiff_t k) {
+    for (std::size_t a = 0; a < dim; ++a) u[a][k] = x[r++];
   });
 }
 

@@ -12,14 +12,6 @@ namespace {
 
 constexpr int restart = 40;
 
-/// work(k) for the rank's own cells.
-template <class Work>
-void for_own(const Patch& p, Work work) {
-  for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-    for (std::ptrdiff_t k = first; k < first + n; ++k) work(k);
-  });
-}
-
 void add(const Patch& p, double factor, const Flow& x, Flow& y) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(p.grid.dim); ++a)
     for_own(p, [&](std::ptrdiff_t k) { y.u[a][k] += factor * x.u[a][k]; });

@@ -34,18 +34,6 @@ bool is_wall(const Grid& g, int axis, const Int3& x) {
 
 }  // namespace
 
-Box frame_inside(const Grid& grid, const Box& own) {
-  if (own.empty()) return own;
-  Box frame = Patch(grid, own).frame;
-  for (int axis = 0; axis < grid.dim; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    if (grid.periodic(axis)) continue;
-    frame.lo[a] = std::max<std::int64_t>(frame.lo[a], 0);
-    frame.hi[a] = std::min(frame.hi[a], grid.cells[a]);
-  }
-  return frame;
-}
-
 void mean_of_cells(const Patch& fine, const Field& cells, const Patch& coarse, Field& means) {
   Stencil s;
   for (std::size_t a = 0; a < static_cast<std::size_t>(fine.grid.dim); ++a)

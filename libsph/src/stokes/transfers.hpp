@@ -5,9 +5,6 @@
 
 namespace stokes {
 
-/// A patch's frame, less what of it is behind walls.
-[[nodiscard]] Box frame_inside(const Grid& grid, const Box& own);
-
 /// Arithmetic means of the 2^dim cells of `fine` in each of `coarse`.
 void mean_of_cells(const Patch& fine, const Field& cells, const Patch& coarse, Field& means);
 /// Of the component along `axis`; the copies of r are up to date.

@@ -9,11 +9,6 @@ namespace {
 
 constexpr int limiter_reach = 2;
 
-std::vector<Box> frames_of(const Grid& grid, std::vector<Box> boxes, int layers) {
-  for (Box& b : boxes) b = Patch(grid, b, layers).frame;
-  return boxes;
-}
-
 /// Of a line of n faces: c is the cell above the first, `step` leads to the next along the axis, `courant` is signed.
 void limited_values(const double* c, std::ptrdiff_t step, const double* courant, std::ptrdiff_t n,
                     double* face) {
@@ -103,7 +98,7 @@ Transport::Transport(const decomp::Comm& comm, const Grid& grid, std::vector<Box
     : comm_(&comm),
       patch_(grid, boxes[static_cast<std::size_t>(comm.rank())]),
       wide_(grid, patch_.own, limiter_reach),
-      face_halo_(comm, grid.cells, grid.periodic_axes(), boxes, frames_of(grid, boxes, 1)),
+      face_halo_(comm, grid.cells, grid.periodic_axes(), boxes, frames_of(grid, boxes)),
       cell_halo_(comm, grid.cells, grid.periodic_axes(), boxes, frames_of(grid, boxes, limiter_reach)),
       growth_(patch_.size, 0.0) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(grid.dim); ++a) courant_[a].assign(patch_.size, 0.0);
@@ -113,9 +108,7 @@ void Transport::set_courant(const Velocity& u, double dt) {
   std::vector<decomp::CellValues> values;
   for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a) {
     const double per_speed = dt / patch_.grid.edge[a];
-    for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-      for (std::ptrdiff_t k = first; k < first + n; ++k) courant_[a][k] = per_speed * u[a][k];
-    });
+    for_own(patch_, [&](std::ptrdiff_t k) { courant_[a][k] = per_speed * u[a][k]; });
     values.push_back(decomp::cell_values(std::span(courant_[a]), patch_.frame));
   }
   face_halo_.copy(values, values);
@@ -171,21 +164,17 @@ void Transport::advect(const Velocity& u, double dt, Field& volume, std::span<Fi
                  }
                });
   }
-  for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-    for (std::ptrdiff_t k = first; k < first + n; ++k) volume[k] += growth_[k];
-  });
+  for_own(patch_, [&](std::ptrdiff_t k) { volume[k] += growth_[k]; });
 }
 
 double Transport::longest_step(const Velocity& u, double cfl) {
   set_courant(u, 1);
   double most = 0;
-  for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-    for (std::ptrdiff_t k = first; k < first + n; ++k) {
-      double sum = 0;
-      for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a)
-        sum += std::max(std::fabs(courant_[a][k]), std::fabs(courant_[a][k + patch_.stride[a]]));
-      most = std::max(most, sum);
-    }
+  for_own(patch_, [&](std::ptrdiff_t k) {
+    double sum = 0;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a)
+      sum += std::max(std::fabs(courant_[a][k]), std::fabs(courant_[a][k + patch_.stride[a]]));
+    most = std::max(most, sum);
   });
   std::array<double, 1> all{most};
   comm_->max(all);

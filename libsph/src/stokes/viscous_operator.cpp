@@ -126,10 +126,7 @@ void add_gradient(const Patch& p, const Field& pressure, double factor, Velocity
   for (std::size_t a = 0; a < static_cast<std::size_t>(p.grid.dim); ++a) {
     const double per_edge = factor / p.grid.edge[a];
     const std::ptrdiff_t s = p.stride[a];
-    for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-      for (std::ptrdiff_t k = first; k < first + n; ++k)
-        y[a][k] += per_edge * (pressure[k] - pressure[k - s]);
-    });
+    for_own(p, [&](std::ptrdiff_t k) { y[a][k] += per_edge * (pressure[k] - pressure[k - s]); });
   }
   clear_walls<0>(p, y[0]);
   clear_walls<1>(p, y[1]);
