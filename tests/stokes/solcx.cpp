@@ -1,34 +1,13 @@
 #include "stokes/solcx.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "stokes/gauss.hpp"
 
 namespace test_stokes {
 namespace {
 
 const long double pi = std::acos(-1.0L);
-
-/// Gauss with pivots scaled by their rows; the matrix is 8 x 8, its last column the right-hand side.
-void solve(long double (&m)[8][9], long double (&x)[8]) {
-  const auto largest = [&](int r) {
-    long double s = 0;
-    for (int i = 0; i < 8; ++i) s = std::max(s, std::fabs(m[r][i]));
-    return s > 0 ? s : 1;
-  };
-  for (int p = 0; p < 8; ++p) {
-    int best = p;
-    for (int r = p; r < 8; ++r)
-      if (std::fabs(m[r][p]) / largest(r) > std::fabs(m[best][p]) / largest(best)) best = r;
-    std::swap(m[p], m[best]);
-    for (int r = 0; r < 8; ++r) {
-      if (r == p) continue;
-      const long double f = m[r][p] / m[p][p];
-      for (int q = p; q < 9; ++q) m[r][q] -= f * m[p][q];
-    }
-  }
-  for (int i = 0; i < 8; ++i) x[i] = m[i][8] / m[i][i];
-}
 
 }  // namespace
 
