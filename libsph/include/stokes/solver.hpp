@@ -18,8 +18,9 @@ struct Flow {
 
 struct Effort {
   int iterations = 0;
-  double residual = 0;  ///< |r| / |right-hand side| at the end
-  bool converged = false;
+  double residual =
+      0;  ///< |r| / |right-hand side| of what is returned; not finite where that is not, or the force 0
+  bool converged = false;  ///< that residual is at most the tolerance
 };
 
 class Solver {
@@ -36,7 +37,7 @@ class Solver {
   void set_viscosity(Field cells, Resistance resistance = {});
   /// Improves `x` until |r| <= tolerance |f|; residuals of the divergence count times the least eta / h. Where a mean velocity or
   /// pressure is free it is 0 then; where no wall holds a component of the force its mean is taken off, and so is that of
-  /// the source s [1/s]. Where |f| is less than `least_norm`, what is left of it by rounding, that counts instead.
+  /// the source s [1/s], and of what faces resist. Where |f| is less than `least_norm`, what is left of it by rounding, that counts instead.
   /// Collective.
   [[nodiscard]] Effort solve(Velocity force, Flow& x, double tolerance, int most_iterations = 200,
                              const Field* source = nullptr, double least_norm = 0);
@@ -50,6 +51,7 @@ class Solver {
   [[nodiscard]] double norm(const Flow& w);
   void take_off_mean(Field& values);
   void take_off_free_means(Velocity& u);
+  void take_off_resisted_means(Velocity& u);
   /// One cycle of the Krylov method from `r`; true: it ended because of the tolerance.
   void improve(Flow& x, Flow r, double beta, double wanted, int most, Effort& effort);
 

@@ -84,6 +84,7 @@ void Solver::apply_all(Flow& x, Flow& y) {
   apply(level.patch(), level.viscosity(), x.u, y.u);
   add_gradient(level.patch(), x.p, 1, y.u);
   minus_divergence(level.patch(), x.u, y.p);
+  take_off_resisted_means(y.u);
 }
 
 void Solver::precondition(const Flow& r, Flow& z) {
@@ -94,6 +95,7 @@ void Solver::precondition(const Flow& r, Flow& z) {
   Velocity f = r.u;
   add_gradient(patch(), z.p, -1, f);
   multigrid_.cycle(f, z.u);
+  take_off_resisted_means(z.u);
 }
 
 std::vector<double> Solver::dots(const Flow& w, const std::vector<const Flow*>& others) {
@@ -127,6 +129,13 @@ void Solver::take_off_free_means(Velocity& u) {
     if (patch().grid.slides(a)) take_off_mean(u[static_cast<std::size_t>(a)]);
 }
 
+// Of a component that is held to a mean of 0 all forces are without one, that by which faces resist too.
+void Solver::take_off_resisted_means(Velocity& u) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(patch().grid.dim); ++a)
+    if (multigrid_.finest().viscosity().resistance.along[a] && patch().grid.slides(static_cast<int>(a)))
+      take_off_mean(u[a]);
+}
+
 Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterations, const Field* source,
                      double least_norm) {
   const Patch& p = patch();
@@ -137,6 +146,7 @@ Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterati
   }
   take_off_free_means(f.u);
   add_gradient(p, f.p, 0, f.u);  // nothing drives a wall
+  take_off_resisted_means(x.u);
   const double wanted = tolerance * std::max(norm(f), least_norm);
   Effort effort;
   while (true) {
@@ -145,9 +155,9 @@ Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterati
     scale(p, -1, r);
     add(p, 1, f, r);
     const double beta = norm(r);
-    effort.residual = wanted > 0 ? beta * tolerance / wanted : 0;
+    effort.residual = beta == 0 ? 0 : beta * tolerance / wanted;
     effort.converged = beta <= wanted;
-    if (effort.converged || effort.iterations >= most_iterations) break;
+    if (!(beta > wanted) || effort.iterations >= most_iterations) break;  // it may be no number
     improve(x, std::move(r), beta, wanted, most_iterations, effort);
   }
   take_off_free_means(x.u);
