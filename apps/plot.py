@@ -3,8 +3,9 @@
 
     plot.py DIR [DIR ...] [--out DIR] [--time T] [--draw LIST]
 
-DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Two dimensions: buoyant_cylinder/plot.py; the sandbox
-and its shear boxes: sandbox/plot.py; everything else in three: plotting/plain.py. Each says with --help what it draws.
+DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Melts: plotting/melt.py; what else has two dimensions:
+buoyant_cylinder/plot.py; the sandbox and its shear boxes: sandbox/plot.py; everything else in three: plotting/plain.py.
+Each says with --help what it draws.
 """
 
 import os
@@ -36,6 +37,8 @@ def script_for(scene):
     walls = {wall["name"] for wall in scene.get("wall", [])}
     pushed = {change["name"] for stage in scene.get("stage", []) for change in stage.get("wall", [])
               if any(change.get("velocity", []))}
+    if any(group["kind"] == "melt" for group in scene["group"]):
+        return "plotting/melt.py"
     if scene["dimension"] == 2:
         return "buoyant_cylinder/plot.py"
     # The sandbox has a back wall that is pushed, its shear boxes a lid over a bottom that slides.

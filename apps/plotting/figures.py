@@ -12,6 +12,7 @@ from PIL import Image
 WALL, SPRAY = "#9a9a9a", "#1b2a49"
 GROUPS = ("#f4c89a", "#4fa3a5", "#c97b84", "#a7b957", "#8d7fb8")  # in the order of the scene
 RUNS = ("#1b6ca8", "#c8553d", "#3a7d44", "#7a4f9e", "#8a6d1d", "#444444")
+LINES = {"white": "#ffffff", "red": "#d62839"}  # over fields
 TENSION, COMPRESSION = "#d62839", "#1d3557"
 
 STYLE = {
@@ -47,6 +48,11 @@ def text_with_unit(value, name):
 
 def time_text(time):
     return text_with_unit(float(f"{time:.4g}"), "s")
+
+
+def clock_text(time, clock):
+    """`clock`: name and size of a unit, or None for seconds."""
+    return time_text(time) if clock is None else f"{time / clock[1]:.3g} {clock[0]}"
 
 
 def circles(axes, position, diameter, **options):

@@ -39,7 +39,7 @@ FOLDERS = {
     "models": "stokes core scene pairs terms laws plan start",
     "checkpoint": "core files",
     "step": "core scene plan start models checkpoint",
-    "output": "core files laws step",
+    "output": "core files scene laws step",
     "inspect": "core files laws checkpoint output",
     "run": "core files scene pairs laws keys plan start models checkpoint step output inspect",
 }

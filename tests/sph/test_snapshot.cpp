@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -217,6 +218,47 @@ TEST_F(SnapshotTest, AFullDiskIsAnErrorAndTheOldFileStays) {
   }
   write(world_, dir_ / "a.h5", p);
   EXPECT_EQ(read(dir_ / "a.h5", "particles/id").size(), 20000U);
+}
+
+TEST_F(SnapshotTest, ShowsCellsAsAMeshAndTheRestAsParticles) {
+  const auto rows = static_cast<std::int64_t>(count);
+  CellMesh mesh{{6, 4, 1}, {1, 2, 0}, {0.5, 0.25, 1}, {Field::pressure}, {Field::id, Field::velocity}};
+  write_snapshot(world_, dir_ / "a.h5", make_state(world_, count, scattered), make_global(), make_scale(),
+                 make_wrap(), {}, {}, sort_always, {}, mesh);
+  const Hdf5Reader file(dir_ / "a.h5");
+  using Extent = std::vector<std::uint64_t>;
+  EXPECT_EQ(file.stored_as("cells/pressure").extent, (Extent{1, 4, 6}));
+  EXPECT_EQ(file.stored_as("cells/position").extent, (Extent{1, 4, 6, 2}));
+  EXPECT_EQ(file.stored_as("others/velocity").extent, (Extent{count - 24, 2}));
+  EXPECT_EQ(file.text_of("cells/pressure", "unit"), "Pa");
+  EXPECT_FALSE(file.has("cells/velocity") || file.has("others/pressure"));
+  const auto same = [&](const std::string& view, const std::string& set, std::uint64_t first) {
+    const std::vector<double> whole = read(dir_ / "a.h5", set);
+    std::vector<double> part(whole.size());
+    file.read(view, Element::f64, part.data());
+    std::uint64_t size = 1;
+    for (std::uint64_t n : file.stored_as(view).extent) size *= n;
+    EXPECT_EQ(std::memcmp(part.data(), whole.data() + first, size * sizeof(double)), 0) << view;
+  };
+  same("cells/pressure", "particles/pressure", 0);
+  same("cells/position", "particles/position", 0);
+  same("others/id", "particles/id", 24);
+  same("others/velocity", "particles/velocity", 48);
+  same("others/position", "particles/position", 48);
+  same("others/vertex", "vertex", 0);
+
+  const auto path = dir_ / ("mesh" + std::to_string(world_.rank()) + ".xdmf");
+  write_xdmf(path, {{"a.h5", 0, 0, rows}}, make_state(world_, count, round_robin), {}, mesh);
+  const std::string text = contents(path);
+  for (const char* part :
+       {"TopologyType=\"3DCoRectMesh\" Dimensions=\"2 5 7\"", ">-0.5 2 1</DataItem>",
+        ">0.5 0.25 0.5</DataItem>",
+        "Dimensions=\"1 4 6\" NumberType=\"Float\" Precision=\"8\">a.h5:/cells/pressure",
+        "Polyvertex\" NumberOfElements=\"73\"", "Dimensions=\"73 2\"", "a.h5:/others/vertex"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  mesh.cells = {97, 1, 1};
+  write_xdmf(path, {{"a.h5", 0, 0, rows}}, make_state(world_, count, round_robin), {}, mesh);
+  EXPECT_EQ(contents(path).find("Polyvertex"), std::string::npos) << "all rows are cells";
 }
 
 TEST_F(SnapshotTest, XdmfPointsIntoTheFiles) {

@@ -18,6 +18,10 @@ from runner import Runner
 PARAVIEW = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"]  # what ParaView calls the six components of an array
 NUMBERS = {("Float", 8): "f8", ("Int", 8): "i8", ("UInt", 4): "u4"}
 WALL = 1 << 63
+MESHES = {  # cells, lower corner and edges of the scenes' grids
+    "melts2d": ((24, 28), (-0.1, 0.2), (0.025, 1 / 28)),
+    "melts3d": ((16, 20, 16), (0, 0, 0), (1 / 16, 1.25 / 20, 1 / 16)),
+}
 
 
 class Xdmf(unittest.TestCase):
@@ -32,6 +36,10 @@ class Xdmf(unittest.TestCase):
         cls.run_of.run(2, "peperite", "run", cls.scenes / "box3d_solid.toml", "--steps", 5, "--out", "solid")
         cls.run_of.run(2, "peperite", "run", cls.scenes / "grains_pour.toml", "--steps", 100, "--set",
                        "output.contacts=true", "--out", "grains")
+        for scene in MESHES:
+            cls.run_of.run(2, "peperite", "run", cls.scenes / f"{scene}.toml", "--steps", 2, "--out", scene)
+        cls.run_of.run(2, "peperite", "run", cls.scenes / "melts2d.toml", "--steps", 1, "--set",
+                       "output.sort_limit=100", "--out", "long")
 
     @classmethod
     def tearDownClass(cls):
@@ -70,6 +78,49 @@ class Xdmf(unittest.TestCase):
                         # Tensor6 means xx xy xz yy yz zz to one reader, and to the others nothing.
                         self.assertEqual((attribute.get("AttributeType"), values.shape[1]), ("Matrix", 6))
                         self.assertTrue(np.all(np.any(values[:, 3:] != 0, axis=0)))
+
+    def test_cells_are_a_mesh(self):
+        for run, (cells, lower, edge) in MESHES.items():
+            (cells_of_times,) = ElementTree.parse(self.folder / run / "particles.xdmf").getroot().findall("Domain/Grid")
+            self.assertEqual((cells_of_times.get("Name"), cells_of_times.get("CollectionType")), ("cells", "Temporal"))
+            grids = cells_of_times.findall("Grid")
+            self.assertEqual(len(grids), len(list((self.folder / run).glob("snapshot_*.h5"))))
+            # A plane is a layer of cells below z = 0.
+            shape = (1,) * (3 - len(cells)) + cells[::-1]
+            corner = lower if len(cells) == 3 else (*lower, -edge[0])
+            for grid in grids:
+                topology = grid.find("Topology")
+                self.assertEqual((topology.get("TopologyType"), topology.get("Dimensions")),
+                                 ("3DCoRectMesh", " ".join(str(n + 1) for n in shape)))
+                origin, spacing = ([float(x) for x in item.text.split()] for item in grid.findall("Geometry/DataItem"))
+                self.assertTrue(np.allclose(origin, corner[::-1], rtol=1e-12, atol=1e-12))
+                self.assertTrue(np.allclose(spacing, (*edge, edge[0])[2::-1], rtol=1e-12))
+                held = {}
+                for attribute in grid.findall("Attribute"):
+                    self.assertEqual(attribute.get("Center"), "Cell")
+                    held[attribute.get("Name")] = self.held(run, attribute.find("DataItem"))
+                    self.assertEqual(held[attribute.get("Name")].shape[:3], shape)
+                self.assertLessEqual({"temperature", "composition", "flow_pressure", "velocity_on_lower_faces"},
+                                     set(held))
+                self.in_the_order_of_the_grid(run, grid, held["temperature"], cells, corner, edge)
+
+    def in_the_order_of_the_grid(self, run, grid, temperature, cells, corner, edge):
+        name = grid.find("Attribute/DataItem").text.split(":")[0]
+        with h5py.File(self.folder / run / name) as file:
+            rows = file["particles"]
+            place = np.floor((rows["position"][()] - corner[: len(cells)]) / edge).astype(int)
+            wanted = np.zeros(temperature.shape)
+            wanted[(*([0] * (3 - len(cells))), *place.T[::-1])] = rows["temperature"][()]
+            self.assertTrue(np.array_equal(temperature, wanted))
+            self.assertGreater(np.ptp(wanted), 0)
+            self.assertTrue(np.array_equal(file["cells/velocity"][()].reshape(rows["velocity"].shape), rows["velocity"]))
+            self.assertEqual(file["cells/temperature"].attrs["unit"], "K")
+
+    def test_rows_that_are_not_sorted_are_no_mesh(self):
+        (points,) = ElementTree.parse(self.folder / "long" / "particles.xdmf").getroot().findall("Domain/Grid")
+        self.assertEqual(points.get("Name"), "particles")
+        with h5py.File(self.snapshot("long")) as file:
+            self.assertNotIn("cells", file)
 
     def test_stress_of_grains_is_that_of_their_contacts(self):
         with h5py.File(self.snapshot("grains")) as file:

@@ -77,10 +77,23 @@ Handle text_type() {
   return Handle(type.release(), H5Tclose, "text type");
 }
 
-Handle space_of(std::uint64_t rows, int components) {
-  const std::array<hsize_t, 2> size{rows, static_cast<hsize_t>(components)};
-  return Handle(H5Screate_simple(components == 1 ? 1 : 2, size.data(), nullptr), H5Sclose,
+/// Of rows in any shape.
+Handle space_of(const std::vector<std::uint64_t>& shape, int components) {
+  std::vector<hsize_t> size(shape.begin(), shape.end());
+  if (components != 1) size.push_back(static_cast<hsize_t>(components));
+  return Handle(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose,
                 "H5Screate_simple");
+}
+Handle space_of(std::uint64_t rows, int components) {
+  return space_of(std::vector<std::uint64_t>{rows}, components);
+}
+
+void select_rows(const Handle& space, const std::string& data_set, std::uint64_t first, std::uint64_t rows,
+                 int components) {
+  const std::array<hsize_t, 2> start{first, 0};
+  const std::array<hsize_t, 2> count{rows, static_cast<hsize_t>(components)};
+  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+        "select rows of " + data_set);
 }
 
 void add_attribute(hid_t object, const std::string& name, hid_t type, const Handle& space,
@@ -124,24 +137,42 @@ std::uint64_t data_bytes(const DataSet& set) {
   return set.rows * static_cast<std::uint64_t>(set.components) * bytes(set.element);
 }
 
-Extent add_data_set(hid_t file, const DataSet& set) {
+/// With the groups that it is in, and what it says of itself.
+Handle create_described(hid_t file, const std::string& name, const DataSet& set, const Handle& space,
+                        const Handle& create) {
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "H5Pcreate");
   check(H5Pset_create_intermediate_group(links, 1), "H5Pset_create_intermediate_group");
+  check(H5Pset_obj_track_times(create, false), "H5Pset_obj_track_times");
+  Handle data(H5Dcreate2(file, name.c_str(), memory_type(set.element), space, links, create, H5P_DEFAULT),
+              H5Dclose, "create data set " + name);
+  if (!set.unit.empty()) add_attribute(data, "unit", set.unit);
+  if (!set.meaning.empty()) add_attribute(data, "meaning", set.meaning);
+  if (!set.component_names.empty()) add_attribute(data, "components", set.component_names);
+  return Handle(data.release(), H5Dclose, name);
+}
+
+Extent add_data_set(hid_t file, const DataSet& set) {
   const Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "H5Pcreate");
   check(H5Pset_layout(create, H5D_CONTIGUOUS), "H5Pset_layout");
   check(H5Pset_alloc_time(create, H5D_ALLOC_TIME_EARLY), "H5Pset_alloc_time");
   check(H5Pset_fill_time(create, H5D_FILL_TIME_NEVER), "H5Pset_fill_time");
-  check(H5Pset_obj_track_times(create, false), "H5Pset_obj_track_times");
-  const Handle data(H5Dcreate2(file, set.name.c_str(), memory_type(set.element),
-                               space_of(set.rows, set.components), links, create, H5P_DEFAULT),
-                    H5Dclose, "create data set " + set.name);
-  if (!set.unit.empty()) add_attribute(data, "unit", set.unit);
-  if (!set.meaning.empty()) add_attribute(data, "meaning", set.meaning);
-  if (!set.component_names.empty()) add_attribute(data, "components", set.component_names);
+  const Handle data = create_described(file, set.name, set, space_of(set.rows, set.components), create);
   const haddr_t offset = H5Dget_offset(data);
   if (offset != HADDR_UNDEF) return {offset, data_bytes(set)};
   if (set.rows > 0) fail("place of data set " + set.name);
   return {0, 0};
+}
+
+void add_view(hid_t file, const DataView& view, const DataSet& set) {
+  const Handle whole = space_of(view.shape, set.components);
+  const Handle rows = space_of(set.rows, set.components);
+  std::uint64_t count = 1;
+  for (std::uint64_t size : view.shape) count *= size;
+  select_rows(rows, set.name, view.first, count, set.components);
+  const Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "H5Pcreate");
+  // "." is the file that the view is in, whatever its name.
+  check(H5Pset_virtual(create, whole, ".", ("/" + set.name).c_str(), rows), "H5Pset_virtual");
+  (void)create_described(file, view.name, set, whole, create);
 }
 
 }  // namespace
@@ -172,7 +203,7 @@ Element element_of(Type type) {
 }
 
 std::vector<Extent> lay_out(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
-                            const std::vector<DataSet>& data_sets) {
+                            const std::vector<DataSet>& data_sets, const std::vector<DataView>& views) {
   silence();
   std::vector<Extent> extents;
   MemoryFile image;
@@ -182,6 +213,7 @@ std::vector<Extent> lay_out(const std::filesystem::path& path, const std::vector
     for (const Attribute& attribute : attributes)
       std::visit([&](const auto& value) { add_attribute(file, attribute.name, value); }, attribute.value);
     for (const DataSet& set : data_sets) extents.push_back(add_data_set(file, set));
+    for (const DataView& view : views) add_view(file, view, data_sets[view.of]);
     check(H5Fclose(file.release()), "H5Fclose");
   }
   Descriptor file = create_anew(path);
@@ -281,11 +313,8 @@ void Hdf5Reader::read_rows(const std::string& data_set, Element element, std::ui
   if (rows == 0) return;
   const Handle data(H5Dopen2(id_, data_set.c_str(), H5P_DEFAULT), H5Dclose, "open data set " + data_set);
   const Handle file_space(H5Dget_space(data), H5Sclose, "H5Dget_space");
-  const std::array<hsize_t, 2> start{first, 0};
-  const std::array<hsize_t, 2> count{rows, static_cast<hsize_t>(components(data_set))};
-  check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-        "select rows of " + data_set);
-  const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose, "H5Screate_simple");
+  select_rows(file_space, data_set, first, rows, components(data_set));
+  const Handle memory = space_of(rows, components(data_set));
   check(H5Dread(data, memory_type(element), memory, file_space, H5P_DEFAULT, values), "read " + data_set);
 }
 

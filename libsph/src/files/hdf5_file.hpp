@@ -31,6 +31,14 @@ struct DataSet {
   std::string component_names = {};  ///< attribute "components"; empty: none
 };
 
+/// Rows of a data set once more, in another shape and under another name (HDF5's virtual data set): no values of its own.
+struct DataView {
+  std::string name;
+  std::size_t of;                    ///< which data set
+  std::uint64_t first;               ///< of its rows
+  std::vector<std::uint64_t> shape;  ///< of the rows, the slowest axis first
+};
+
 struct Attribute {
   std::string name;
   std::variant<std::int64_t, double, std::string, std::vector<std::int64_t>, std::vector<std::string>> value;
@@ -39,7 +47,7 @@ struct Attribute {
 /// Creates `path` with all its structure and reserves its disk space. One rank. Returns where the rows of
 /// each data set lie in the file: contiguous, in the machine's own byte order.
 std::vector<Extent> lay_out(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
-                            const std::vector<DataSet>& data_sets);
+                            const std::vector<DataSet>& data_sets, const std::vector<DataView>& views = {});
 
 /// A laid-out file, open for rows on this rank. For writing only: a client of NFS then sends just the bytes
 /// it was given, and none of what other ranks write beside them. Errors are std::runtime_error.

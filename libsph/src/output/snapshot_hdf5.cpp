@@ -154,6 +154,35 @@ std::vector<DataSet> data_sets_of(int dim, std::uint64_t rows, const std::vector
   return out;
 }
 
+/// Cells and other particles apart. Of the sets the last two are the position in metres and the vertices.
+std::vector<DataView> views_of(const CellMesh& mesh, const std::vector<DataSet>& sets,
+                               const std::vector<Field>& fields) {
+  const auto count = static_cast<std::uint64_t>(mesh.count());
+  const std::size_t vertex = sets.size() - 1, metres = vertex - 1;
+  if (sets[metres].rows < count)
+    throw std::logic_error("the snapshot has fewer rows than its mesh has cells");
+  const std::uint64_t others = sets[metres].rows - count;
+  std::vector<std::uint64_t> shape;
+  for (std::size_t a = 3; a-- > 0;) shape.push_back(static_cast<std::uint64_t>(mesh.cells[a]));
+
+  std::vector<DataView> out;
+  const auto add = [&](const std::string& group, std::size_t set, std::uint64_t first,
+                       const std::vector<std::uint64_t>& as) {
+    out.push_back({group + sets[set].name.substr(sets[set].name.find('/') + 1), set, first, as});
+  };
+  for (std::size_t k = 0; k < metres; ++k) {
+    const bool extra = k >= fields.size();
+    if (!extra && fields[k] == Field::position) continue;
+    if (!extra && mesh.cell_fields.has(fields[k])) add("cells/", k, 0, shape);
+    if (others > 0 && (extra || mesh.particle_fields.has(fields[k]))) add("others/", k, count, {others});
+  }
+  add("cells/", metres, 0, shape);
+  if (others == 0) return out;
+  add("others/", metres, count, {others});
+  add("others/", vertex, 0, {others});
+  return out;
+}
+
 void write_metres(const RowFile& file, std::size_t set, int dim, std::uint64_t first, std::uint64_t rows,
                   const std::int64_t* quanta, const PositionScale& scale) {
   const auto d = static_cast<std::size_t>(dim);
@@ -182,7 +211,7 @@ void count_rows(const RowFile& file, std::size_t set, std::uint64_t first, std::
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
                     const Provenance& provenance, std::vector<ExtraColumn> extra, std::int64_t sort_limit,
-                    std::optional<ContactColumns> contacts) {
+                    std::optional<ContactColumns> contacts, const std::optional<CellMesh>& mesh) {
   const std::string what = "cannot write " + path.string();
   const std::vector<Field> fields = fields_of(particles);
   Placed rows, touching;
@@ -196,6 +225,7 @@ void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path,
   const std::size_t of_particles = sets.size();  // the last one is the position in metres
   sets.push_back({"vertex", element_of(vertex_type(sets.front().rows)), sets.front().rows, 1, "1",
                   "number of the row: XDMF's vertices"});
+  const std::vector<DataView> views = mesh ? views_of(*mesh, sets, fields) : std::vector<DataView>{};
   if (contacts) {
     touching.place(comm, sort_limit, 2);
     for (DataSet& set : contact_sets(static_cast<std::uint64_t>(touching.all_rows)))
@@ -209,7 +239,7 @@ void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path,
     all_or_none(comm, what, [&] {
       if (comm.rank() == 0)
         extents = lay_out(temporary, attributes_of(particles.dim(), rows.all_rows, global, scale, provenance),
-                          sets);
+                          sets, views);
     });
     fill_in(comm, comm, temporary, sets, extents, what, [&](const RowFile& file) {
       rows.write(file, 0);

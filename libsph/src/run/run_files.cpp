@@ -106,6 +106,7 @@ RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_sce
       series_bytes_(memory.series_bytes),
       snapshots_(memory.snapshots) {
   const std::vector<ExtraColumn> extra = extra_columns(s.scene());
+  const std::optional<CellMesh> mesh = cell_mesh(s);
   on_root_or_refuse(s.comm(), "", [&] {
     std::vector<std::string> listed;
     for (const SnapshotEntry& entry : snapshots_) listed.push_back(entry.file);
@@ -117,7 +118,7 @@ RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_sce
     if (snapshots_.empty())
       fs::remove(dir_ / "particles.xdmf");
     else
-      write_xdmf(dir_ / "particles.xdmf", snapshots_, s.particles(), extra);
+      write_xdmf(dir_ / "particles.xdmf", snapshots_, s.particles(), extra, mesh);
   });
 }
 
@@ -158,13 +159,15 @@ void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
   std::vector<ExtraColumn> extra = extra_columns(s);
   std::optional<ContactColumns> contacts;
   if (output.contacts) contacts = contact_columns(s);
+  const std::optional<CellMesh> mesh = cell_mesh(s);
   write_snapshot(s.comm(), dir_ / entry.file, s.particles(), g, s.scale(), s.wrap(), from, std::move(extra),
-                 output.sort_limit, std::move(contacts));
+                 output.sort_limit, std::move(contacts), mesh);
   std::vector<SnapshotEntry> listed = snapshots_;
   listed.push_back(entry);
   if (scheduled) snapshots_ = listed;
-  on_root(s.comm(), "particles.xdmf",
-          [&] { write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra_columns(s.scene())); });
+  on_root(s.comm(), "particles.xdmf", [&] {
+    write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra_columns(s.scene()), mesh);
+  });
 }
 
 void RunFiles::write_checkpoint(const Simulation& s) {

@@ -4,7 +4,9 @@
 // attributes of the root: step, time, dt, quantum, fingerprint, scene (TOML), git, compiler, flags.
 // Positions are written twice: `position` in metres (f64) and `position_quanta` (i64, exact bits). `stress`
 // in 3D is xx yy zz xy yz xz, as ParaView takes it and the data set's attribute "components" says. /vertex
-// counts the rows: one of ParaView's readers draws only points that a list of vertices names.
+// counts the rows: one of ParaView's readers draws only points that a list of vertices names. Where cells of melts are
+// among the rows, /cells/<field> is theirs as [z][y][x] (one z in two dimensions) and /others/<field> what is left
+// (cell_mesh.hpp).
 #pragma once
 
 #include <filesystem>
@@ -15,6 +17,7 @@
 #include "decomp/comm.hpp"
 #include "sph/core/particles.hpp"
 #include "sph/files/provenance.hpp"
+#include "sph/output/cell_mesh.hpp"
 
 namespace sph {
 
@@ -36,14 +39,14 @@ struct ContactColumns {
 /// Writes the state collectively to `path` (through a temporary name, renamed when complete) with rows
 /// sorted by id if there are at most sort_limit, else in owner order. Throws OutputError on every rank if
 /// any rank cannot write. Positions are written wrapped into the domain. Contacts, if any are given, are
-/// sorted by (id, partner) under the same limit.
+/// sorted by (id, partner) under the same limit. With a mesh rows must be sorted, cells first.
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
                     const Provenance& provenance, std::vector<ExtraColumn> extra, std::int64_t sort_limit,
-                    std::optional<ContactColumns> contacts = {});
+                    std::optional<ContactColumns> contacts = {}, const std::optional<CellMesh>& mesh = {});
 
 /// Rewrites the XDMF index for the snapshots of a run, atomically (rank 0 only): one entry per file name,
-/// time and row count. `fields` as in the files.
+/// time and row count. `fields` and `mesh` as in the files.
 struct SnapshotEntry {
   std::string file;
   std::int64_t step;
@@ -51,6 +54,7 @@ struct SnapshotEntry {
   std::int64_t rows;
 };
 void write_xdmf(const std::filesystem::path& path, const std::vector<SnapshotEntry>& entries,
-                const Particles& particles, const std::vector<ExtraColumn>& extra);
+                const Particles& particles, const std::vector<ExtraColumn>& extra,
+                const std::optional<CellMesh>& mesh = {});
 
 }  // namespace sph
