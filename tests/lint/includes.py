@@ -52,7 +52,7 @@ LAYERS = [
     *((f"libsph/{tree}/stokes/", r"(decomp|stokes)/.*") for tree in ("include", "src")),
     (r"libdecomp/", r"decomp/.*"),
     (r"apps/", r"(decomp|sph)/.*"),
-    (r"benchmarks/", r"(decomp|sph)/.*"),
+    (r"benchmarks/", r"(decomp|sph|stokes)/.*"),
 ]
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 

@@ -5,12 +5,17 @@
 #include <cmath>
 #include <utility>
 
+#include "conjugate_gradients.hpp"
 #include "decomp/exact_sum.hpp"
 
 namespace stokes {
 namespace {
 
 constexpr int restart = 40;
+// A whole cycle of the Krylov method that leaves more than this of the residual is slow: what follows finds velocities
+// to `close_enough`, in at most so many V-cycles.
+constexpr double slow = 0.03, close_enough = 0.01;
+constexpr int most_cycles = 100;
 
 void add(const Patch& p, double factor, const Flow& x, Flow& y) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(p.grid.dim); ++a)
@@ -87,15 +92,20 @@ void Solver::apply_all(Flow& x, Flow& y) {
   take_off_resisted_means(y.u);
 }
 
-void Solver::precondition(const Flow& r, Flow& z) {
+int Solver::precondition(const Flow& r, bool thorough, Flow& z) {
   Level& level = multigrid_.finest();
   const Field& eta = level.viscosity().cells;
   for_own(patch(), [&](std::ptrdiff_t k) { z.p[k] = -eta[k] * r.p[k]; });
   level.refresh_cells(z.p);
   Velocity f = r.u;
   add_gradient(patch(), z.p, -1, f);
-  multigrid_.cycle(f, z.u);
+  int cycles = 1;
+  if (thorough)
+    cycles = conjugate_gradients(*comm_, multigrid_, f, close_enough, most_cycles, z.u);
+  else
+    multigrid_.cycle(f, z.u);
   take_off_resisted_means(z.u);
+  return cycles;
 }
 
 std::vector<double> Solver::dots(const Flow& w, const std::vector<const Flow*>& others) {
@@ -149,6 +159,9 @@ Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterati
   take_off_resisted_means(x.u);
   const double wanted = tolerance * std::max(norm(f), least_norm);
   Effort effort;
+  double before = 0;  // the residual when the last cycle began, after so many iterations
+  int begun = 0;
+  bool thorough = false;
   while (true) {
     Flow r = make_flow();
     apply_all(x, r);
@@ -158,14 +171,17 @@ Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterati
     effort.residual = beta == 0 ? 0 : beta * tolerance / wanted;
     effort.converged = beta <= wanted;
     if (!(beta > wanted) || effort.iterations >= most_iterations) break;  // it may be no number
-    improve(x, std::move(r), beta, wanted, most_iterations, effort);
+    thorough = thorough || (effort.iterations == begun + restart && beta > slow * before);
+    before = beta;
+    begun = effort.iterations;
+    improve(x, std::move(r), beta, wanted, most_iterations, thorough, effort);
   }
   take_off_free_means(x.u);
   take_off_mean(x.p);
   return effort;
 }
 
-void Solver::improve(Flow& x, Flow r, double beta, double wanted, int most, Effort& effort) {
+void Solver::improve(Flow& x, Flow r, double beta, double wanted, int most, bool thorough, Effort& effort) {
   const Patch& p = patch();
   scale(p, 1 / beta, r);
   std::vector<Flow> v, z;
@@ -174,7 +190,7 @@ void Solver::improve(Flow& x, Flow r, double beta, double wanted, int most, Effo
   double left = beta;
   while (z.size() < restart && effort.iterations < most && left > 0.9 * wanted) {
     z.push_back(make_flow());
-    precondition(v.back(), z.back());
+    effort.cycles += precondition(v.back(), thorough, z.back());
     Flow w = make_flow();
     apply_all(z.back(), w);
     std::vector<const Flow*> all;
