@@ -26,7 +26,7 @@ double thread_seconds() { return in_seconds(thread_time()); }
 std::string_view name_of(Region r) {
   static constexpr std::array<std::string_view, region_count> names{
       "pairs",     "update",  "contacts", "lists",  "order", "pack",
-      "halo wait", "migrate", "reduce",   "output", "other"};
+      "halo wait", "migrate", "reduce",   "output", "grid",  "other"};
   return names[index_of(r)];
 }
 

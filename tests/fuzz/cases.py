@@ -79,7 +79,7 @@ def row(d, case):
 def add_output(d, case, kind):
     """What a run writes beside its state: seen by the rows that the program itself runs."""
     scene, dt = case["scene"], case["scene"]["time"].get("dt", 1.0)
-    grains, melts = kind is grain_scene, kind is melt_scene
+    grains, melts = kind is grain_scene, kind is melt_scene and "drag" not in case["scene"]
     out = {}
     for key, values in {"snapshot_interval": [0, 3 * dt], "series_interval": [0, 2 * dt],
                         "checkpoint_interval": [0, 600], "status_interval": [0.1, 2], "average_time": [0, 4 * dt],
@@ -100,6 +100,8 @@ def add_output(d, case, kind):
                 {"kind": "particle", "nearest_to": scene["domain"]["lower"]}]
     if "rows of start" in case:
         monitors.append({"kind": "particle", "name": "one", "id": min(case["rows of start"][0]["id"], 2**63 - 1)})
+    if "melt" in scene:
+        monitors.append({"kind": "melt"})
     if grains or mixture:
         monitors.append({"kind": "contacts"})
         if scene.get("wall") and scene["wall"][0].get("shape") != "box":

@@ -1,9 +1,12 @@
 """A random scene of melts that flow slowly on a grid."""
 
 
+import math
+
+
 class MeltScene:
     def __init__(self, d):
-        self.d, self.dim = d, d.weighted("dim", {2: 3, 3: 1})
+        self.d, self.dim = d, d.weighted("dim", {2: 1, 3: 1})
         self.axes = "xyz"[: self.dim]
 
     def make(self):
@@ -50,7 +53,69 @@ class MeltScene:
                  "group": groups, "start": {"region": regions}, "time": time}
         if any(self.periodic):
             scene["domain"]["periodic"] = self.periodic
-        return {"scene": scene, "skin": 2.0}
+        if dim == 3 and d.chance("grains", 0.7):
+            self.add_grains(scene, min((upper[a] - lower[a]) / cells[a] for a in range(dim)))
+        # Three cells of the lists fit into each period.
+        reach = min((upper[a] - lower[a]) / cells[a] for a in range(dim))
+        periods = [upper[a] - lower[a] for a in range(dim) if self.periodic[a]]
+        return {"scene": scene, "skin": min([2.0] + [0.99 * (p / (3 * reach) - 1) for p in periods])}
+
+    def add_grains(self, scene, edge):
+        """Grains in the melts, and planes that hold them."""
+        d = self.d.part("grains")
+        first, box = scene["group"][0], scene["domain"]
+        size = edge * d.one("size", [0.2, 0.35, 0.5, 0.9])
+        ratio = d.one("ratio", [1.0, 1.0, 0.7])
+        rho = first["density"] * d.one("density", [1.0, 1.2, 1.1, 0.7, 3.0])
+        weight = math.pi / 6 * size**3 * abs(rho - first["density"] or 0.1 * rho) * abs(box["gravity"][-1])
+        stiffness = weight / size * d.log("stiff", 1, 1e3)
+        hertz = d.chance("hertz", 0.3)
+        scene["contact"] = {"law": "hertz" if hertz else d.one("law", ["linear", "linear", "walton_braun"]),
+                            "largest_overlap": 0.5}
+        scene["drag"] = {"law": d.one("drag", ["richardson_zaki", "beetstra", "stokes", "di_felice", "gidaspow"])}
+        if d.chance("say own", 0.4):
+            scene["drag"]["own_disturbance"] = d.chance("own", 0.5)
+        if d.chance("packed", 0.4):
+            scene["drag"]["packed_fraction"] = d.real("packed is", 0.4, 0.9)
+        sand = {"name": "sand", "kind": "grain", "density": rho,
+                "diameter": size if ratio == 1 else [ratio * size, size]}
+        if hertz:
+            sand |= {"young_modulus": 10 * stiffness / size, "poisson_ratio": 0.3}
+        else:
+            sand["normal_stiffness"] = stiffness
+        if scene["contact"]["law"] == "walton_braun":
+            sand["restitution"] = d.one("e", [1.0, 0.9, 0.5])
+        if d.chance("rough", 0.7):
+            sand["friction"] = d.one("mu", [0.1, 0.5])
+            if d.chance("rolls", 0.4):
+                sand["rolling_friction"] = 0.1
+        scene["group"].insert(d.whole("first", 0, len(scene["group"])), sand)
+        scene["start"]["seed"] = d.whole("seed", 0, 1000)
+        scene["start"]["grains"] = [self.fill(d.part("fill", k), box, size) for k in range(d.weighted("fills", {1: 4, 2: 1}))]
+        scene["time"]["steps"] = d.whole("steps", 1, 40)
+        walls = []
+        for a in range(3):
+            for side, key in enumerate(("lower", "upper")):
+                if self.periodic[a] or not d.chance(f"plane/{a}/{side}", 0.8):
+                    continue
+                normal = [0.0] * 3
+                normal[a] = -1.0 if side else 1.0
+                walls.append({"name": f"plane{a}{side}", "material": "sand", "point": box[key], "normal": normal})
+        if walls:
+            scene["wall"] = walls
+
+    def fill(self, d, box, size):
+        spacing, lower, upper = size * d.one("apart", [1.02, 1.1, 1.5, 2.5]), [], []
+        most = d.one("many", [1, 4, 8, 12])
+        for a in range(3):
+            low, high = box["lower"][a], box["upper"][a]
+            n = min(most, max(1, int((high - low) / spacing) - 1))
+            at = low + d.real(f"at/{a}") * max(high - low - n * spacing, 0.0)
+            lower.append(at), upper.append(min(at + n * spacing, high))
+        fill = {"group": "sand", "lower": lower, "upper": upper, "spacing": spacing}
+        if d.chance("jitter", 0.5):
+            fill["jitter"] = d.real("jitter is", 0, 0.2)
+        return fill
 
     def add_heat(self, melt, groups, diffusivity):
         d = self.d.part("heat")

@@ -14,7 +14,8 @@ class Mixture:
         stiffness = 0.5 * mass * (math.pi / contact_time) ** 2
         hertz = d.chance("hertz", 0.3)
         scene["contact"] = {"law": "hertz" if hertz else "linear", "largest_overlap": 0.5}
-        scene["drag"] = {"law": d.weighted("law", {"di_felice": 4, "gidaspow": 3, "stokes": 2, "none": 1})}
+        scene["drag"] = {"law": d.weighted("law", {"di_felice": 4, "gidaspow": 3, "stokes": 2, "none": 1,
+                                                   "richardson_zaki": 1, "beetstra": 1})}
         if scene["drag"]["law"] != "none" and d.chance("say own", 0.4):
             scene["drag"]["own_disturbance"] = d.chance("own", 0.5)
         sand = {"name": "sand", "kind": "grain", "density": rho, "restitution": d.one("e", [1.0, 0.9, 0.5]),
@@ -47,7 +48,10 @@ class Mixture:
             n = min(most, max(1, int((high - low) / spacing) - 1))
             at = low + d.real(f"at/{a}") * max(high - low - n * spacing, 0.0)
             lower.append(at), upper.append(min(at + n * spacing, high))
-        return {"group": d.one("group", names), "lower": lower, "upper": upper, "spacing": spacing}
+        fill = {"group": d.one("group", names), "lower": lower, "upper": upper, "spacing": spacing}
+        if d.chance("jitter", 0.3):
+            fill["jitter"] = d.real("jitter is", 0, 0.2)
+        return fill
 
     def planes(self, d, scene):
         box = scene["domain"]

@@ -36,8 +36,9 @@ const Table& factors(Family family) {
                                      "bodies3d", "gas3d", "blast2d", "blast2d_wide", "mixture"},
                                     {"double", "mixed"});
   // Contacts are always computed in double.
-  static const Table grains =
-      table_of({"linear", "hertz", "latched", "smooth", "sizes", "glued", "servo"}, {"double"});
+  static const Table grains = table_of({"linear", "hertz", "latched", "smooth", "sizes", "glued", "servo",
+                                        "melts2d", "chamber", "chamber_open"},
+                                       {"double"});
   return family == Family::grains ? grains : sph;
 }
 

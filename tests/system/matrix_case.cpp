@@ -16,8 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Grains in a fluid do not start from files.
-bool may_be_shuffled(const Row& row) { return row[Factor::scene] != "mixture"; }
+/// Grains in a fluid or in melts do not start from files, nor do melts.
+bool may_be_shuffled(const Row& row) {
+  const std::string_view scene = row[Factor::scene];
+  return scene != "mixture" && scene != "melts2d" && !scene.starts_with("chamber");
+}
 
 /// The scene as anybody would run it on one rank.
 sph::Scene reference_scene(const Row& row) {

@@ -98,6 +98,17 @@ const std::vector<Source>& sources() {
       {"sizes", "tests/scenes/grains_sizes.toml", {}},
       {"glued", "tests/scenes/grains_glued.toml", {}},
       {"servo", "tests/scenes/grains_servo.toml", {}},
+      // cells that no cut moves
+      {"melts2d", "tests/scenes/melts2d.toml", {"time.dt=0.2"}},
+      // grains that the flow on them carries for some steps: what is between two flows is state
+      {"chamber", "tests/scenes/chamber.toml", {}},
+      {"chamber_open",
+       "tests/scenes/chamber.toml",
+       {"domain.periodic=[true, true, false]", "group.crystal.friction=", "group.crystal.rolling_friction=",
+        "drag.law=beetstra", "melt.diffusivity=0",
+        "melt.expansion=", "melt.viscosity_fall=", "melt.side=[{side=\"z1\", slip=false}]",
+        "start.grains=[{group=\"crystal\", lower=[0, 0, 2], "
+        "upper=[32, 16, 14], spacing=1.3333333333333333, jitter=0.05}]"}},
   };
   return table;
 }
@@ -160,6 +171,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
   const auto quiet = [&](const std::string& what) {
     throw std::runtime_error(scene.name + " is too quiet for a test: " + what);
   };
+  if (scene.has_melt() && !scene.has_grains()) return;  // no cell ever goes anywhere
   if (end.rebuilds < start.rebuilds + 2) quiet("its lists were not rebuilt twice");
   constexpr std::int64_t some = 50;
   if (scene.is_mixture() && end.dragged < some) quiet("few grains are dragged");
@@ -186,6 +198,7 @@ bool has_boundary(const sph::Simulation& simulation) {
 }
 
 void check_shared_out(const sph::Simulation& simulation, std::int64_t shared) {
+  if (simulation.sets().front().owners) return;  // cells have halos of their own
   const auto fail = [&](const std::string& what) {
     throw std::runtime_error(simulation.scene().name + " is no test of many ranks: " + what);
   };

@@ -24,6 +24,7 @@ enum class Region : std::uint8_t {
   migrate,    ///< balancing, migration, sorting in memory
   reduce,     ///< the global reduction of a step, waiting included
   output,     ///< snapshots, checkpoints, monitors
+  grid,       ///< flow on a grid, waiting included: its cells follow no cut
   other,
   count_
 };

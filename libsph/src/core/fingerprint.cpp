@@ -104,6 +104,10 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
     words.push_back(std::bit_cast<std::uint64_t>(global.motion.unlike));
     words.push_back(std::bit_cast<std::uint64_t>(global.motion.largest));
   }
+  if (global.flow != FlowClock{}) {
+    words.push_back(std::bit_cast<std::uint64_t>(global.flow.interval));
+    words.push_back(std::bit_cast<std::uint64_t>(global.flow.left));
+  }
   for (const WallState& wall : global.walls)
     for (std::size_t a = 0; a < 3; ++a) {
       words.push_back(std::bit_cast<std::uint64_t>(wall.offset[a]));

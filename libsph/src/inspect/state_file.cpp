@@ -101,6 +101,7 @@ class SnapshotFile : public StateFile {
                 file.real("max_acceleration"),
                 {},
                 {},
+                {},
                 {}};
     s.scale.quantum = file.real("quantum");
     for (const FieldInfo& i : field_table) {

@@ -25,7 +25,7 @@ inline constexpr auto top_keys = std::to_array<Key>({
      sph_only("grains act on each other where they touch: there is no kernel"),
      Default{"required of fluids and solids"}},
     {"contact", Inner{&contact}, "The law of contacts.", of_grains, Default{"required of grains"}},
-    {"drag", Inner{&drag}, "Of grains in a fluid.", of_mixtures, Default{"required of grains in a fluid"}},
+    {"drag", Inner{&drag}, "Of grains in a fluid or in melts.", of_mixtures, Default{"required of them"}},
     {"melt", Inner{&melt_table}, "Slow flow.", of_melts},
     {"group", Inner{&group}, "The materials.", Default{"required"}},
     {"wall", Inner{&wall}, "Planes and boxes that hold grains.", of_grains},

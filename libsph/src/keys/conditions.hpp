@@ -18,9 +18,13 @@ inline constexpr Condition of_grains{[](const Scene& s) { return s.has_grains();
 inline constexpr Condition of_grains_alone{
     [](const Scene& s) { return s.of_grains(); }, "grains alone",
     "only scenes of grains alone have it, where every [[group]] has kind = \"grain\""};
-inline constexpr Condition of_mixtures{[](const Scene& s) { return s.has_grains() && s.has_matter(); },
-                                       "grains in a fluid",
-                                       "only scenes with groups of kind = \"fluid\" and \"grain\" have it"};
+inline constexpr Condition of_mixtures{
+    [](const Scene& s) { return s.has_grains_in_flow(); }, "grains in a fluid or in melts",
+    "only scenes with groups of kind = \"grain\" and \"fluid\", or \"melt\", have it"};
+inline constexpr Condition of_suspensions{[](const Scene& s) { return s.is_suspension(); }, "grains in melts",
+                                          "only scenes with groups of kind = \"grain\" and \"melt\" have it"};
+inline constexpr Condition of_inertia{[](const Scene& s) { return !s.has_melt(); }, "grains with inertia",
+                                      "grains in melts have no inertia that a dashpot could take: remove it"};
 inline constexpr Condition of_melts{[](const Scene& s) { return s.has_melt(); }, "melts",
                                     "only scenes with a [[group]] of kind = \"melt\" have it"};
 inline constexpr Condition of_lattices{
@@ -46,10 +50,17 @@ inline constexpr Condition of_total{[](const Scene& s) { return s.total_lagrangi
                                     "total-Lagrangian solids",
                                     "only scenes of solids with lagrangian = \"total\" have it"};
 inline constexpr Condition of_dashpots{
-    [](const Scene& s) { return s.grains.contact.law == nullptr || s.grains.contact.law->dashpot; },
-    "laws with a dashpot", "the contact law of the scene has no dashpot: remove it"};
-inline constexpr Condition of_restitution{[](const Scene& s) { return !s.grains.contact.normal_damping; },
-                                          "contacts without normal_damping",
-                                          "contact.normal_damping stands instead of it"};
+    [](const Scene& s) {
+      return !s.has_melt() && (s.grains.contact.law == nullptr || s.grains.contact.law->dashpot);
+    },
+    "laws with a dashpot, not in melts",
+    "the contact law of the scene has no dashpot, or its grains no inertia: remove it"};
+inline constexpr Condition of_restitution{
+    [](const Scene& s) {
+      const ContactLaw* law = s.grains.contact.law;
+      return !s.grains.contact.normal_damping && !(s.has_melt() && (law == nullptr || law->dashpot));
+    },
+    "contacts without normal_damping, dashpots not in melts",
+    "contact.normal_damping stands instead of it, or grains in melts have no inertia"};
 
 }  // namespace sph::keys

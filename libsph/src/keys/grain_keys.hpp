@@ -26,13 +26,13 @@ inline constexpr auto contact_keys = std::to_array<Key>({
      "k_n while a contact loads, k_n / e^2 as it unloads.",
      at<&ContactControl::law>, required},
     {"normal_damping", Number{dimension::rate, not_negative}, "gamma_n of the linear law, for all contacts.",
-     at<&ContactControl::normal_damping>, Default{"from the restitution of the groups"}},
+     at<&ContactControl::normal_damping>, of_inertia, Default{"from the restitution of the groups"}},
     {"tangential_damping", Number{dimension::none, up_to(1, "it is a fraction of the normal dashpot,")},
      "Dashpot along the contact plane, as a fraction of the normal one.",
      at<&ContactControl::tangential_damping>, of_dashpots},
     {"rolling_damping", Number{dimension::none, up_to(1, "it is a fraction of the critical dashpot,")},
      "Dashpot of the rolling resistance, as a fraction of the critical one.",
-     at<&ContactControl::rolling_damping>},
+     at<&ContactControl::rolling_damping>, of_inertia},
     {"pull", Flag{}, "A dashpot may pull while a contact opens.", at<&ContactControl::pull>, of_dashpots},
     {"largest_overlap",
      Number{dimension::none,
@@ -46,17 +46,22 @@ inline constexpr Table<ContactControl> contact{
 inline constexpr auto drag_keys = std::to_array<Key>({
     {"law", law_words<DragLaw>,
      "\"stokes\": a sphere alone in a creeping flow; \"di_felice\": any Reynolds number and porosity; "
-     "\"gidaspow\": Ergun in beds, Wen and Yu where grains are few; \"none\": fluid and grains do not act on "
-     "each other.",
+     "\"gidaspow\": Ergun in beds, Wen and Yu where grains are few; \"richardson_zaki\" and \"beetstra\": "
+     "slow "
+     "flow at any porosity; \"none\": fluid and grains do not act on each other.",
      at<&DragControl::law>, required},
     {"own_disturbance", Flag{},
      "Takes out what a grain itself does to the fluid that it is dragged by, without which one grain settles "
      "too fast.",
      at<&DragControl::own_disturbance>},
+    {"packed_fraction",
+     Number{dimension::none, {.least = 0.1, .most = 1, .is = "it is a share of the volume,"}},
+     "phi_m: viscosity rises with the share phi of grains as 1 + 2.5 phi / (1 - phi / phi_m), 30 at most.",
+     at<&DragControl::packed_fraction>, of_suspensions},
 });
 inline constexpr Table<DragControl> drag{{"drag", false,
-                                          "Grains in a fluid, both averaged over the kernel: the force of "
-                                          "the fluid on the grains and theirs on it.",
+                                          "Grains in a fluid or in melts, both averaged over a kernel: the "
+                                          "force of the fluid on the grains and theirs on it.",
                                           drag_keys}};
 
 inline constexpr Where of_boxes = where("shape", "box");

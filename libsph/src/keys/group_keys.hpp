@@ -30,8 +30,7 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"name", Text{}, "A letter, then letters, digits, _ or -.", at<&Group::name>, required},
     {"kind", Words{group_kind_words},
      "At least one group is a fluid, a solid, of grains or a melt: \"melt\" is slow flow without inertia on "
-     "a grid, of one "
-     "or two melts and nothing else.",
+     "a grid, of one or two melts, and grains in them.",
      at<&Group::kind>, required},
     {"eos", law_words<EquationOfState>,
      "\"linear\": p = K (rho/rho_0 - 1). Fluids only: \"bubbly\", Ida eqs. (12)-(15), and \"ideal_gas\": p "

@@ -136,10 +136,11 @@ void refuse_bad_company(const std::vector<GroupReader>& tables, const std::vecto
     return std::ranges::any_of(groups, [k](const Group& g) { return g.kind == k; });
   };
   for (std::size_t k = 0; k < tables.size(); ++k)
-    if (has(GroupKind::melt) && groups[k].kind != GroupKind::melt)
+    if (has(GroupKind::melt) && groups[k].kind != GroupKind::melt && groups[k].kind != GroupKind::grain)
       tables[k].fail(
           "kind", "is no melt, and the scene has some",
-          "melts share a scene with melts alone; their walls are the sides of the domain, [[melt.side]]");
+          "melts share a scene with melts and grains alone; their walls are the sides of the domain, "
+          "[[melt.side]]");
   if (!has(GroupKind::grain)) return;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     if (groups[k].kind == GroupKind::solid)

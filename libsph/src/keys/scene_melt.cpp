@@ -20,9 +20,11 @@ using SideReader = Reader<keys::melt_side>;
 
 void read_melt_groups(const TopReader& top, Scene& scene) {
   const std::vector<GroupReader> tables = top.tables<keys::group>();
+  std::size_t melts = 0;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     Group& group = scene.groups[k];
-    if (k >= most_melts) tables[k].fail("kind", "is a third melt", "there are two at most");
+    if (group.kind != GroupKind::melt) continue;
+    if (++melts > most_melts) tables[k].fail("kind", "is a third melt", "there are two at most");
     tables[k].read(group);
     tables[k].require("density");
     tables[k].require("viscosity");
@@ -30,6 +32,29 @@ void read_melt_groups(const TopReader& top, Scene& scene) {
       tables[k].fail("viscosity", fmt::format("is {}", group.viscosity), "a melt must have some");
     tables[k].finish();
   }
+}
+
+/// What has no meaning where nothing has inertia.
+void check_grains_in_melt(const TopReader& top, const Scene& scene) {
+  const std::vector<GroupReader> groups = top.tables<keys::group>();
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const Group& g = scene.groups[k];
+    if (g.grain.fixed) groups[k].fail("fixed", "is true", "grains move with the melt that they are in");
+    const double d = 2 * g.grain.largest_radius;
+    if (d > scene.start.spacing)
+      groups[k].fail(
+          "diameter", fmt::format("reaches {:.4g} m, more than a cell of {:.4g} m", d, scene.start.spacing),
+          "the grid sees grains averaged over cells: make these wider, at best two diameters or more");
+  }
+  for (const auto& wall : top.tables<keys::wall>()) {
+    constexpr std::string_view why = "walls beside melts stay where they are";
+    wall.only_if(wall.vector("velocity").value_or(Double3{}) == Double3{}, "velocity", why);
+    wall.only_if(false, "servo_gain", why);
+  }
+  for (const auto& stage : top.tables<keys::stage>())
+    for (const auto& wall : stage.tables<keys::stage_wall>())
+      wall.only_if(wall.vector("velocity").value_or(Double3{}) == Double3{}, "velocity",
+                   "walls beside melts stay where they are");
 }
 
 MeltSide read_side(const SideReader& table, const Scene& scene, const MeltControl& melt) {
@@ -55,9 +80,9 @@ void check_heat(const MeltReader& table, const Scene& scene) {
   const MeltControl& melt = scene.domain.melt;
   if (melt.diffusivity == 0) {
     constexpr std::string_view why = "there is no heat: give diffusivity";
-    table.only_if(false, "expansion", why);
-    table.only_if(false, "viscosity_fall", why);
-    table.only_if(false, "profile", why);
+    table.only_if(melt.expansion == 0, "expansion", why);
+    table.only_if(melt.viscosity_fall == 0, "viscosity_fall", why);
+    table.only_if(melt.profile == MeltProfile::groups, "profile", why);
   }
   if (melt.profile != MeltProfile::conductive) return;
   int given = 0;
@@ -102,6 +127,7 @@ void read_melt(const TopReader& top, const DomainReader& domain, const StartRead
   table.only_if(scene.domain.melt.wave_height != 0, "wave_length", "it is of wave_height");
   table.finish();
   if (scene.domain.central_pull > 0) domain.only_if(false, "central_pull", "it is of fluids");
+  if (scene.has_grains()) check_grains_in_melt(top, scene);
 }
 
 void check_melt_grid(const StartReader& start, const Scene& scene) {

@@ -45,7 +45,10 @@ void read_drag(const TopReader& top, const Reader<keys::drag>& table, Scene& sce
   table.read(scene.grains.drag);
   table.only_if(scene.grains.drag.law->resistance != nullptr, "own_disturbance",
                 "with law = \"none\" fluid and grains do not act on each other");
+  if (scene.is_suspension() && scene.grains.drag.law->resistance == nullptr)
+    table.fail("law", "is \"none\"", "melts drag the grains in them: give another");
   table.finish();
+  if (scene.is_suspension()) return;
   if (scene.terms.formulation == Formulation::ida)
     top.fail("formulation", "is \"ida\"", "it knows no grains: use \"conservative\"");
   const std::vector<GroupReader> groups = top.tables<keys::group>();
@@ -65,7 +68,7 @@ void read_drag(const TopReader& top, const Reader<keys::drag>& table, Scene& sce
 std::vector<GrainFill> read_fills(const StartReader& start, const Scene& scene) {
   std::vector<GrainFill> fills;
   for (const auto& table : start.tables<keys::fill>()) fills.push_back(read_fill(table, scene));
-  if (fills.empty() && scene.is_mixture())
+  if (fills.empty() && scene.has_grains_in_flow())
     start.fail_missing("grains", "place grains in the fluid with [[start.grains]]");
   return fills;
 }

@@ -73,9 +73,10 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
   if (!grains && (*kind == MonitorKind::wall || *kind == MonitorKind::contacts))
     table.fail("kind", "is of grains, and the scene has none",
                "give \"particle\", \"group\", \"energy\" or \"momentum\"");
-  if ((*kind == MonitorKind::melt) != (scene.has_melt() && *kind != MonitorKind::particle))
-    table.fail("kind", scene.has_melt() ? "is not of melts" : "is of melts, and the scene has none",
-               scene.has_melt() ? "give \"melt\", or \"particle\" for a cell" : "give another");
+  if (*kind == MonitorKind::melt && !scene.has_melt())
+    table.fail("kind", "is of melts, and the scene has none", "give another");
+  if (scene.has_melt() && !grains && *kind != MonitorKind::melt && *kind != MonitorKind::particle)
+    table.fail("kind", "is not of melts", "give \"melt\", or \"particle\" for a cell");
   Monitor monitor;
   table.read(monitor);
   if (!table.has("name")) monitor.name = *table.text("kind");

@@ -22,7 +22,7 @@ Region read_region(const Reader<keys::region>& table, const Scene& scene) {
   table.read(region);
   if (const Group* g = region.group < 0 ? nullptr : &scene.groups[static_cast<std::size_t>(region.group)];
       g != nullptr && g->kind == GroupKind::grain) {
-    if (scene.is_mixture())
+    if (scene.has_grains_in_flow())
       table.fail("group", fmt::format("names \"{}\", which is of grains", g->name),
                  "this lattice is that of the fluid: place grains with [[start.grains]]");
     if (!(g->grain.largest_radius > 0))

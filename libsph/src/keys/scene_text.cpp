@@ -64,7 +64,7 @@ std::string to_toml(const Scene& scene) {
   if (scene.domain.central_pull > 0) out.vector("pull_centre", scene.domain.pull_centre);
   if (scene.has_matter()) out.table(keys::kernel, scene.kernel);
   if (scene.has_grains()) write_contacts(out, scene);
-  if (scene.is_mixture()) write_drag(out, scene.grains.drag);
+  if (scene.has_grains_in_flow()) write_drag(out, scene);
   for (const Group& g : scene.groups)
     if (g.kind == GroupKind::grain)
       write_material(out, g, *scene.grains.contact.law);

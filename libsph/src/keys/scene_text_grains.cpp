@@ -35,10 +35,11 @@ void write_contacts(SceneWriter& out, const Scene& scene) {
   for (const ContactPair& pair : scene.grains.contact.pairs) out.table(keys::contact_pair, pair);
 }
 
-void write_drag(SceneWriter& out, DragControl drag) {
+void write_drag(SceneWriter& out, const Scene& scene) {
+  const DragControl& drag = scene.grains.drag;
+  if (drag.law->resistance != nullptr) return out.table(keys::drag, drag);
   out.header(keys::drag);
   out.text("law", drag.law->word);
-  if (drag.law->resistance != nullptr) out.raw("own_disturbance", fmt::format("{}", drag.own_disturbance));
 }
 
 void write_walls(SceneWriter& out, const Scene& scene) {

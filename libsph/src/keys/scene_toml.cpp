@@ -173,9 +173,10 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
 
 void read_grains(const Tables& tables, Scene& scene) {
   read_contact_law(tables.contact, scene);
+  if (scene.has_melt()) scene.grains.contact.rolling_damping = 0;
   read_grain_groups(tables.top, scene);
   scene.grains.contact.pairs = read_contact_pairs(tables.contact);
-  if (!scene.is_mixture()) {
+  if (scene.of_grains()) {
     scene.start.spacing = tables.start.number("spacing").value_or(diameters_apart * scene.support());
     check_extent(tables.domain, scene);
   }
@@ -210,7 +211,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
     read_melt(tables.top, tables.domain, tables.start, scene);
     check_extent(tables.domain, scene);
   }
-  if (scene.is_mixture()) read_drag(tables.top, tables.drag, scene);
+  if (scene.has_grains_in_flow()) read_drag(tables.top, tables.drag, scene);
   read_start(tables.start, scene);
   if (scene.has_matter()) read_terms(tables.terms, scene);
   read_time(tables.time, end, scene);

@@ -50,7 +50,7 @@ class SceneWriter {
 
 /// [contact] and its pairs.
 void write_contacts(SceneWriter& out, const Scene& scene);
-void write_drag(SceneWriter& out, DragControl drag);
+void write_drag(SceneWriter& out, const Scene& scene);
 /// A [[group]] of grains.
 void write_material(SceneWriter& out, const Group& group, const ContactLaw& law);
 /// [[wall]] and [[stage]]

@@ -45,9 +45,13 @@ inline constexpr auto fill_keys = std::to_array<Key>({
     {"upper", Vector{dimension::length}, "Its other corner.", at<&GrainFill::upper>, required},
     {"spacing", Number{dimension::length, positive}, "Between the grains of a cubic lattice.",
      at<&GrainFill::spacing>, required},
+    {"jitter",
+     Number{dimension::none, {.least = 0, .most = 0.5, .below_most = true, .is = "it is in spacings,"}},
+     "Uniform random displacement in each direction, in spacings; start.seed draws it.",
+     at<&GrainFill::jitter>},
 });
 inline constexpr Table<GrainFill> fill{
-    {"start.grains", true, "Grains in a fluid: a lattice of their own, in a box.", fill_keys}};
+    {"start.grains", true, "Grains in a fluid or in melts: a lattice of their own, in a box.", fill_keys}};
 
 inline constexpr auto start_keys = std::to_array<Key>({
     {"spacing", Number{dimension::length, positive}, "dx, the distance between particles at the start.",
@@ -93,8 +97,8 @@ inline constexpr auto start_keys = std::to_array<Key>({
     {"layer", Inner{&layer}, "Hydrostatic, instead of surface_height.", of_fluids},
     {"region", Inner{&region}, "Paints the lattice.", of_lattices,
      Default{"required, unless file or tile is given"}},
-    {"grains", Inner{&fill}, "Places grains in a fluid.", of_mixtures,
-     Default{"required of grains in a fluid"}},
+    {"grains", Inner{&fill}, "Places grains in a fluid or in melts.", of_mixtures,
+     Default{"required of them"}},
 });
 inline constexpr Table<Start> start{
     {"start", false, "The first state: a lattice painted by regions, a file, or a tile of grains.",

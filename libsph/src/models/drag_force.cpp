@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/screening.hpp"
 #include "sph/laws/drag/law.hpp"
 
 namespace sph {
@@ -23,23 +24,6 @@ double self_mobility(const Scene& scene) {
       break;
   }
   return symmetric ? 0.0472 : 0.0492;
-}
-
-/// Share of a grain's own disturbance that grains around it leave: the structure factor of hard spheres for
-/// long waves (Carnahan & Starling 1969).
-double unscreened(double solid) {
-  const double e = 1 - solid, e2 = e * e, a = 1 + 2 * solid;
-  return e2 * e2 / (a * a + solid * solid * solid * (solid - 4));
-}
-
-/// Of a grain at random among others the averages see its own share whole and, where it keeps them out, less of the
-/// others: solid = c + unscreened(c) own, c that of them all far and wide; 0 if it is alone.
-double solid_around(double solid, double own) {
-  constexpr int rounds = 8;
-  constexpr double most = 0.74;
-  double c = 0;
-  for (int round = 0; round < rounds; ++round) c = std::clamp(solid - unscreened(c) * own, 0.0, most);
-  return c;
 }
 
 }  // namespace

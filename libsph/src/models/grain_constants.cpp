@@ -35,13 +35,14 @@ std::array<double, 8> constants_of(const Scene& scene, std::size_t a, std::size_
           rolling,     control.rolling_damping, k.damping_change};
 }
 
-double stiffest_contact(const Scene& scene, double radius) {
+double stiffest_contact(const Scene& scene, double radius, std::optional<double> overlap) {
   const ContactLaw& law = contact_law(scene);
   double stiffest = 0;
   for (std::size_t a = 0; a < scene.groups.size(); ++a)
     for (std::size_t b = a; b < scene.groups.size(); ++b)
-      stiffest = std::max(stiffest, law.stiffness(law_part(constants_of(scene, a, b, 0)), radius,
-                                                  scene.grains.contact.largest_overlap * radius));
+      stiffest =
+          std::max(stiffest, law.stiffness(law_part(constants_of(scene, a, b, 0)), radius,
+                                           overlap.value_or(scene.grains.contact.largest_overlap) * radius));
   return stiffest;
 }
 

@@ -10,6 +10,7 @@
 #include "sph/laws/contact/law.hpp"
 #include "sph/models/grain_limits.hpp"
 #include "sph/models/models.hpp"
+#include "sph/models/suspension.hpp"
 #include "sph/plan/plan.hpp"
 #include "start/start_overlaps.hpp"
 
@@ -36,6 +37,7 @@ struct GrainDrift {
 FieldSet grain_fields(const Scene& scene) {
   FieldSet fields{Field::id, Field::position, Field::velocity, Field::mass, Field::group, Field::radius};
   if (contact_fusion(scene).spins) fields |= FieldSet{Field::spin};
+  if (scene.is_suspension()) fields |= Suspension::fields(scene);
   if (scene.output.average_time > 0) fields |= FieldSet{Field::velocity_mean};
   return fields;
 }
@@ -46,8 +48,8 @@ Grains::Grains(std::size_t set, const Scene& scene, const PositionScale& scale)
       scale_(scale),
       fusion_(contact_fusion(scene)),
       alone_(!scene.has_matter()),
-      dt_(grain_step(scene)),
-      table_(scene, dt_),
+      dt_(scene.has_melt() ? any_step : grain_step(scene)),
+      table_(scene, scene.has_melt() ? 0 : dt_),
       walls_(scene, scale, table_.force_quantum()),
       pairs_(set, scene, scale, walls_) {}
 
@@ -68,9 +70,13 @@ Plan Grains::plan() {
   append(plan.sums, {"contacts to forget", decomp::Region::contacts, {}, {}, [this](StepState& s, Side) {
                        begin_step(s.particles, s.global);
                      }});
-  const FieldSet writes = alone_ ? pairs_.swept() : pairs_.swept().without({Field::position});
-  append(plan.kick, {alone_ ? "contacts, kick, drift" : "contacts, kick", decomp::Region::contacts,
-                     pairs_.swept(), writes, [this](StepState& s, Side side) {
+  const FieldSet writes = !alone_              ? pairs_.swept().without({Field::position})
+                          : scene_->has_melt() ? pairs_.swept() | FieldSet{Field::contact_force, Field::way}
+                                               : pairs_.swept();
+  append(plan.kick, {!alone_              ? "contacts, kick"
+                     : scene_->has_melt() ? "contacts, drift"
+                                          : "contacts, kick, drift",
+                     decomp::Region::contacts, pairs_.swept(), writes, [this](StepState& s, Side side) {
                        sweep(s.particles,
                              side == Side::interior ? pairs_.lists().interior() : pairs_.lists().boundary(),
                              s.ranges, s.global.dt);
@@ -85,6 +91,7 @@ Plan Grains::plan() {
 
 double Grains::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
   walls_.start(global);
+  if (scene_->has_melt()) return any_step;
   check_start_speeds(comm, *scene_, particles);
   if (alone_) return dt_;
   // What drifts first needs to know how far.
@@ -121,7 +128,10 @@ ContactContext Grains::context(Particles& particles, double dt) {
           dt,
           {scene_->domain.gravity[0], scene_->domain.gravity[1], scene_->domain.gravity[2]},
           scene_->grains.contact.largest_overlap,
-          alone_};
+          alone_,
+          {particles.data<Field::free_velocity>(), particles.data<Field::free_spin>(),
+           particles.data<Field::mobility>(), particles.data<Field::contact_force>(),
+           particles.data<Field::way>()}};
 }
 
 void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges,

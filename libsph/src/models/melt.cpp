@@ -15,28 +15,11 @@
 namespace sph {
 namespace {
 
-constexpr std::array side_names{"x0", "x1", "y0", "y1", "z0", "z1"};
 constexpr double least_force = 1e-10;  // of the weight: less is what rounding leaves where all is at rest
 constexpr double usual_iterations = 20;
 constexpr double grids_and_scratch = 24;  // numbers of each component of a cell
-
-template <class Work>
-void for_cells(const stokes::Patch& p, Work work) {
-  stokes::for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
-    for (std::ptrdiff_t k = first; k < first + n; ++k) work(static_cast<std::size_t>(k));
-  });
-}
-
-stokes::ThermalWalls walls_of(const Scene& scene) {
-  stokes::ThermalWalls walls{};
-  for (const MeltSide& s : scene.domain.melt.sides) {
-    const auto face = static_cast<std::size_t>(s.side);
-    stokes::ThermalWall& wall = walls[face / 2][face % 2];
-    if (s.temperature) wall = {stokes::ThermalWall::Kind::temperature, *s.temperature};
-    if (s.heat_flux) wall = {stokes::ThermalWall::Kind::flux, *s.heat_flux};
-  }
-  return walls;
-}
+constexpr double longer = 1.25;           // than the last flow's interval no next one is by more
+constexpr double rounding = 1e-9;         // of an interval in equal steps
 
 /// A tenth of the time in which heat crosses the domain [s].
 double conduction_step(const Scene& scene) {
@@ -64,24 +47,14 @@ Melt::Melt(std::size_t set, const decomp::Comm& comm, const Scene& scene, const 
       comm_(&comm),
       scene_(&scene),
       scale_(scale),
-      rows_(melt_grid(scene), scale, stokes::even_boxes(melt_grid(scene), comm.size())) {}
-
-Melt::Work::Work(const decomp::Comm& comm, const Scene& scene, const std::vector<decomp::Box>& boxes)
-    : solver(comm, melt_grid(scene), boxes),
-      transport(comm, melt_grid(scene), boxes),
-      flow(solver.make_flow()),
-      temperature(patch().size, 0.0),
-      composition(patch().size, 0.0),
-      share(patch().size, 1.0) {
-  if (scene.domain.melt.diffusivity > 0)
-    conduction.emplace(comm, melt_grid(scene), boxes, scene.domain.melt.diffusivity, walls_of(scene));
-}
+      rows_(melt_grid(scene), scale, stokes::even_boxes(melt_grid(scene), comm.size())),
+      has_grains_(scene.has_grains()) {}
 
 FieldSet Melt::fields(const Scene& scene) {
   FieldSet f{Field::id,    Field::position,      Field::velocity,  Field::mass,
              Field::group, Field::flow_pressure, Field::melt_share};
   if (scene.domain.melt.diffusivity > 0) f |= FieldSet{Field::temperature};
-  if (scene.groups.size() > 1) f |= FieldSet{Field::composition};
+  if (const auto [first, last] = melts_of(scene); first != last) f |= FieldSet{Field::composition};
   return f;
 }
 
@@ -95,8 +68,7 @@ double Melt::bytes_of_cell() const {
 
 Plan Melt::plan() {
   const auto stage = [](std::string name, FieldSet writes, auto work) {
-    return Stage{
-        std::move(name), decomp::Region::update, {}, writes, [work](StepState& s, Side) { work(s); }};
+    return Stage{std::move(name), decomp::Region::grid, {}, writes, [work](StepState& s, Side) { work(s); }};
   };
   Plan plan;
   append(plan.sums,
@@ -115,8 +87,12 @@ double Melt::longest_step(const Reduction& reduction) const {
   return std::min(scene_->time.dt.value_or(any_step), scene_->domain.melt.courant / reduction[courant_rate_]);
 }
 
-void Melt::load(const Particles& cells) {
-  if (!work_) work_ = std::make_unique<Work>(*comm_, *scene_, rows_.boxes());
+bool Melt::is_last(const GlobalState& global) const {
+  return !has_grains_ || global.flow.left <= (1 + rounding) * global.dt;
+}
+
+MeltWork& Melt::load(const Particles& cells) {
+  if (!work_) work_ = std::make_unique<MeltWork>(*comm_, *scene_, rows_.boxes());
   rows_.find(cells, work_->patch());
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a)
     rows_.load(cells, Field::velocity, work_->flow.u[a], a);
@@ -124,103 +100,38 @@ void Melt::load(const Particles& cells) {
   rows_.load(cells, Field::melt_share, work_->share);
   if (cells.has(Field::temperature)) rows_.load(cells, Field::temperature, work_->temperature);
   if (cells.has(Field::composition)) rows_.load(cells, Field::composition, work_->composition);
-}
-
-stokes::Field Melt::densities() const {
-  const MeltControl& m = scene_->domain.melt;
-  const double first = scene_->groups.front().density, more = scene_->groups.back().density - first;
-  stokes::Field rho(work_->patch().size, 0.0);
-  for_cells(work_->patch(), [&](std::size_t k) {
-    const double warmer = work_->conduction ? work_->temperature[k] - m.reference_temperature : 0.0;
-    rho[k] = (first + more * work_->composition[k]) * (1 - m.expansion * warmer);
-  });
-  return rho;
-}
-
-stokes::Field Melt::viscosities() const {
-  const MeltControl& m = scene_->domain.melt;
-  const double first = scene_->groups.front().viscosity;
-  const double more = exact_log(scene_->groups.back().viscosity / first);
-  stokes::Field eta(work_->patch().size, first);
-  for_cells(work_->patch(), [&](std::size_t k) {
-    const double warmer = work_->conduction ? work_->temperature[k] - m.reference_temperature : 0.0;
-    const double c = std::clamp(work_->composition[k], 0.0, 1.0);
-    eta[k] = first * exact_exp(more * c - m.viscosity_fall * warmer);
-  });
-  return eta;
-}
-
-// What holds layers at rest is a gradient: without it the tolerance is a share of what makes melts flow.
-void Melt::take_off_layers(std::size_t axis, stokes::Field& force) const {
-  const stokes::Patch& p = work_->patch();
-  std::vector<decomp::ExactSum> sums(static_cast<std::size_t>(p.grid.cells[axis]));
-  const auto for_layers = [&](auto work) {
-    stokes::for_lines(p, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t y, std::int64_t z) {
-      for (std::int64_t i = 0; i < n; ++i) {
-        const decomp::Int3 x{p.own.lo[0] + i, y, z};
-        work(static_cast<std::size_t>(x[axis]), force[static_cast<std::size_t>(first + i)]);
-      }
-    });
-  };
-  for_layers([&](std::size_t layer, double& f) { sums[layer].add(f); });
-  decomp::ExactSum::all_reduce(*comm_, sums);
-  const double faces = cells_of(p.grid) / static_cast<double>(p.grid.cells[axis]);
-  std::vector<double> means;
-  for (const decomp::ExactSum& s : sums) means.push_back(s.value() / faces);
-  for_layers([&](std::size_t layer, double& f) { f -= means[layer]; });
-}
-
-stokes::Velocity Melt::driving_force(const stokes::Field& rho) {
-  const stokes::Patch& p = work_->patch();
-  stokes::Velocity force = work_->solver.make_flow().u;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a) {
-    const double g = 0.5 * scene_->domain.gravity[a];
-    if (g == 0) continue;
-    const auto below = static_cast<std::size_t>(p.stride[a]);
-    for_cells(p, [&](std::size_t k) { force[a][k] = g * (rho[k] + rho[k - below]); });
-    take_off_layers(a, force[a]);
-  }
-  return force;
-}
-
-// Where light lies on heavy, what rises in a step is pulled back at its end: with the force of its beginning alone the
-// interface would slosh, from dt = 16 pi eta / (drho g wavelength) on ever higher. Of composition alone, which nothing
-// evens out: where heat is conducted a flow may stand still in a stratification that it pays for.
-stokes::Resistance Melt::stratification(double dt) {
-  stokes::Resistance out;
-  const stokes::Patch& p = work_->patch();
-  const double more = scene_->groups.back().density - scene_->groups.front().density;
-  if (more == 0) return out;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a) {
-    const double g = scene_->domain.gravity[a];
-    if (g == 0) continue;
-    out.along[a] = true;
-    out.faces[a].assign(p.size, 0.0);
-    const auto below = static_cast<std::size_t>(p.stride[a]);
-    const double scale = dt * g * more / p.grid.edge[a];
-    for_cells(p, [&](std::size_t k) {
-      out.faces[a][k] = std::max(0.0, scale * (work_->composition[k] - work_->composition[k - below]));
-    });
-  }
-  return out;
+  return *work_;
 }
 
 void Melt::flow(StepState& state) {
+  if (!is_due(state.global)) return;
   const MeltControl& m = scene_->domain.melt;
   load(state.particles);
   const stokes::Patch& p = work_->patch();
   work_->solver.refresh(work_->composition);
-  stokes::Field rho = densities();
+  stokes::Field rho = work_->densities();
   work_->solver.refresh(rho);
-  const double before = std::isfinite(state.global.dt) ? state.global.dt : 0.0;
-  work_->solver.set_viscosity(viscosities(), stratification(before));
+  FlowClock& clock = state.global.flow;
+  const double before = has_grains_ ? clock.interval : std::isfinite(state.global.dt) ? state.global.dt : 0.0;
+  stokes::Field eta = work_->viscosities();
+  if (has_grains_) {
+    work_->solver.refresh(work_->suspended->excess);
+    work_->thicken(eta, before);
+    work_->thick = eta;
+    if (state.global.step == 0)
+      stokes::for_own(p, [&](std::size_t k) { work_->share[k] = 1 - work_->suspended->solid[k]; });
+  }
+  work_->solver.set_viscosity(std::move(eta), work_->stratification(before));
   // What the tolerance left in cells flows out of them in the next step.
   stokes::Field source(p.size, 0.0);
-  if (before > 0) for_cells(p, [&](std::size_t k) { source[k] = (work_->share[k] - 1) / before; });
+  if (before > 0)
+    stokes::for_own(p, [&](std::size_t k) {
+      source[k] = (work_->share[k] + (has_grains_ ? work_->suspended->solid[k] : 0.0) - 1) / before;
+    });
   double g2 = 0;
   for (const double g : scene_->domain.gravity) g2 += g * g;
-  const double weight = scene_->groups.front().density * std::sqrt(g2 * cells_of(p.grid));
-  effort_ = work_->solver.solve(driving_force(rho), work_->flow, m.tolerance,
+  const double weight = scene_->groups[melts_of(*scene_)[0]].density * std::sqrt(g2 * cells_of(p.grid));
+  effort_ = work_->solver.solve(work_->driving_force(rho), work_->flow, m.tolerance,
                                 static_cast<int>(m.most_iterations), &source, least_force * weight);
   if (!effort_.converged)
     throw GuardError(fmt::format(
@@ -231,6 +142,12 @@ void Melt::flow(StepState& state) {
     rows_.store(work_->flow.u[a], Field::velocity, state.particles, a);
   rows_.store(work_->flow.p, Field::flow_pressure, state.particles);
   courant_step_ = std::min(work_->transport.longest_step(work_->flow.u, m.courant), conduction_step(*scene_));
+  if (has_grains_) {  // Suspension shares it out
+    clock.interval = std::min(scene_->time.dt.value_or(any_step), courant_step_);
+    if (before > 0) clock.interval = std::min(clock.interval, longer * before);
+    rows_.store(work_->share, Field::melt_share, state.particles);
+    return;
+  }
   state.global.dt = std::min(state.global.dt, courant_step_);
   if (!std::isfinite(state.global.dt) || !(state.global.dt > 0))
     throw GuardError(step_text(state.global.step) +
@@ -240,57 +157,37 @@ void Melt::flow(StepState& state) {
 
 // Half of the conduction, what the flow carries, the other half (Strang 1968): steady states keep the second order.
 void Melt::carry(StepState& state) {
-  const double dt = state.global.dt;
+  if (!is_last(state.global)) return;
+  const double dt = has_grains_ ? state.global.flow.interval : state.global.dt;
   const bool two = state.particles.has(Field::composition);
-  std::vector<stokes::Field*> carried;
-  if (work_->conduction) carried.push_back(&work_->temperature);
-  if (two) carried.push_back(&work_->composition);
+  std::vector<stokes::Field*> with_all, with_melt;
+  if (work_->conduction) (has_grains_ ? with_all : with_melt).push_back(&work_->temperature);
+  if (two) with_melt.push_back(&work_->composition);
   const auto conduct = [&] {
     if (!work_->conduction) return;
     const double theta = implicitness(work_->patch().grid, scene_->domain.melt.diffusivity, 0.5 * dt);
     (void)work_->conduction->advance(0.5 * dt, work_->temperature, theta);
   };
   conduct();
-  work_->transport.advect(work_->flow.u, dt, work_->share, carried);
+  if (has_grains_) advect_beside_grains(dt, with_all);
+  work_->transport.advect(work_->flow.u, dt, work_->share, with_melt);
   conduct();
   if (work_->conduction) rows_.store(work_->temperature, Field::temperature, state.particles);
   if (two) rows_.store(work_->composition, Field::composition, state.particles);
   rows_.store(work_->share, Field::melt_share, state.particles);
 }
 
-std::vector<std::string> Melt::columns() const {
-  std::vector<std::string> out{"iterations", "residual", "v_rms"};
-  if (scene_->domain.melt.diffusivity > 0) out.emplace_back("temperature");
-  if (scene_->groups.size() > 1) out.emplace_back("composition");
-  for (const MeltSide& s : scene_->domain.melt.sides)
-    if (s.temperature || s.heat_flux)
-      out.push_back(std::string("heat_") + side_names[static_cast<std::size_t>(s.side)]);
-  return out;
-}
-
-std::vector<double> Melt::values(const Particles& cells) {
-  load(cells);
-  const stokes::Patch& p = work_->patch();
-  std::array<decomp::ExactSum, 3> sums;
-  for_cells(p, [&](std::size_t k) {
-    double square = 0;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a)
-      square += work_->flow.u[a][k] * work_->flow.u[a][k];
-    sums[0].add(square);
-    sums[1].add(work_->temperature[k]);
-    sums[2].add(work_->composition[k] * work_->share[k]);
-  });
-  decomp::ExactSum::all_reduce(*comm_, sums);
-  const double n = cells_of(p.grid);
-  std::vector<double> out{static_cast<double>(effort_.iterations), effort_.residual,
-                          std::sqrt(sums[0].value() / n)};
-  if (work_->conduction) out.push_back(sums[1].value() / n);
-  if (scene_->groups.size() > 1) out.push_back(sums[2].value() / n);
-  for (const MeltSide& s : scene_->domain.melt.sides)
-    if (s.temperature || s.heat_flux)
-      out.push_back(work_->conduction->mean_inflow(work_->temperature, static_cast<int>(s.side) / 2,
-                                                   static_cast<int>(s.side) % 2));
-  return out;
+// Heat is that of both, who share a volume that stays; the melt's own flux is what grains leave of that of both.
+void Melt::advect_beside_grains(double dt, std::span<stokes::Field* const> with_all) {
+  stokes::Field both(work_->patch().size, 1.0);
+  stokes::for_own(work_->patch(),
+                  [&](std::size_t k) { both[k] = work_->share[k] + work_->suspended->solid[k]; });
+  if (!with_all.empty()) work_->transport.advect(work_->flow.u, dt, both, with_all);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a) {
+    const double speed = work_->patch().grid.edge[a] / dt;
+    stokes::for_own(work_->patch(),
+                    [&](std::size_t k) { work_->flow.u[a][k] -= speed * work_->suspended->passed[a][k]; });
+  }
 }
 
 }  // namespace sph

@@ -46,6 +46,8 @@ struct CellMeans {
 CellMeans means_of(const Scene& scene, const std::array<double, 3>& edge, const Double3& centre) {
   CellMeans sum;
   int count = 0;
+  const auto [first, last] = melts_of(scene);
+  const std::size_t second = first == last ? scene.groups.size() : last;
   const int deep = scene.dim == 3 ? samples : 1;
   for (int z = 0; z < deep; ++z)
     for (int y = 0; y < samples; ++y)
@@ -63,7 +65,7 @@ CellMeans means_of(const Scene& scene, const std::array<double, 3>& edge, const 
         sum.temperature += scene.domain.melt.profile == MeltProfile::conductive
                                ? conducted(scene, at)
                                : scene.groups[static_cast<std::size_t>(group)].melt.temperature;
-        sum.composition += group;
+        sum.composition += static_cast<std::size_t>(group) == second ? 1 : 0;
       }
   return {sum.temperature / count, sum.composition / count};
 }
@@ -83,7 +85,6 @@ double Melt::start(const decomp::Comm&, Particles& cells, GlobalState&) {
     if (composition != nullptr) composition[i] = means.composition;
     cells.data<Field::melt_share>()[i] = 1;
     cells.data<Field::flow_pressure>()[i] = 0;
-    cells.data<Field::group>()[i] = 0;
   }
   return scene_->time.dt.value_or(any_step);
 }

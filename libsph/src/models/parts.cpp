@@ -37,6 +37,11 @@ Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
                     [rows = &melt->rows()](const Particles& cells) { return rows->owners(cells); }});
     models.push_back(&*melt);
   }
+  if (scene.is_suspension()) {
+    suspension.emplace(grains->set(), melt->set(), comm, scene, scale, *grains, *melt);
+    models.push_back(&*suspension);
+    pairs.push_back(&*suspension);
+  }
   if (physics) {
     Plan of_fluid = physics->built().plan();
     if (drag) drag->add_porosity_to(of_fluid);
@@ -44,7 +49,10 @@ Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
   }
   if (grains) append(plan, grains->plan(), grains->set());
   if (drag) append(plan, drag->force_plan());
-  if (melt) append(plan, melt->plan(), melt->set());
+  if (suspension)
+    append(plan, suspension->plan());
+  else if (melt)
+    append(plan, melt->plan(), melt->set());
   for (Model* m : models) m->reserve(reduction);
 }
 

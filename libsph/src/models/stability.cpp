@@ -37,7 +37,7 @@ void check_contact_step(const Scene& scene) {
 }  // namespace
 
 void check_time_step(const Scene& scene) {
-  if (scene.has_grains()) check_contact_step(scene);
+  if (scene.has_grains() && !scene.has_melt()) check_contact_step(scene);
   if (!scene.has_matter()) return;
   // What stiffens under pressure is looked at once it is there, by a start and by `check`.
   if (std::ranges::any_of(scene.groups, stiffens)) return;

@@ -18,6 +18,7 @@
 #include "sph/laws/drag/law.hpp"
 #include "sph/laws/eos/law.hpp"
 #include "sph/models/grain_limits.hpp"
+#include "sph/models/suspension_need.hpp"
 #include "sph/start/placement.hpp"
 #include "sph/step/simulation.hpp"
 #include "start/start_count.hpp"
@@ -248,7 +249,29 @@ std::string drag_text(const Scene& scene, const Parts& parts) {
   return out;
 }
 
+/// Of the weight of what all grains make when they lie on the floor; of one grain that touches another.
+std::string suspension_text(const Scene& scene, const Parts& parts, const StartCount& count) {
+  if (!parts.suspension) return {};
+  const SuspensionNeed need = suspension_need(scene, count.by_group);
+  std::string out = fmt::format(
+      "grains in melts: {} drag, cells are {:.3g} to {:.3g} diameters wide; a grain alone sinks with {:.3g} "
+      "m/s;\n"
+      "  a bed of all of them would press them {:.3g} radii into each other; a contact relaxes in {:.3g} s\n",
+      scene.grains.drag.law->word, need.cells_per_grain[0], need.cells_per_grain[1], need.speed, need.overlap,
+      need.relaxation);
+  if (need.cells_per_grain[0] < 2)
+    out += "warning: cells narrower than two diameters see grains one by one: make them wider\n";
+  if (need.overlap > 0.5 * scene.grains.contact.largest_overlap)
+    out += fmt::format("warning: contacts are soft: contact.largest_overlap is {}; raise their stiffness\n",
+                       scene.grains.contact.largest_overlap);
+  return out;
+}
+
 std::string steps_text(const Scene& scene, double dt) {
+  if (scene.is_suspension())
+    return fmt::format(
+        "steps: flows {}melt.courant cells apart; contacts in steps that their stiffness bears\n",
+        scene.time.dt ? fmt::format("at most {:.6g} s or ", *scene.time.dt) : "");
   if (!std::isfinite(dt)) return "time step: from the flow, melt.courant cells; time.dt would bound it\n";
   double steps = scene.time.until ? std::ceil(*scene.time.until / dt) : HUGE_VAL;
   if (scene.time.steps) steps = std::min(steps, static_cast<double>(*scene.time.steps));
@@ -292,14 +315,15 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       dt = std::min(dt, parts.physics->steps().resting(start.sounds));
     }
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
                  particles_text(scene, start.count), unlooked_text(scene, placed),
                  memory_text(scene, parts, need, machine), gas_text(scene), tension_text(scene),
                  options.plan ? plan_text(scene, parts) : "",
-                 parts.grains ? contact_step_text(scene, dt) : "",
+                 parts.grains && !parts.suspension ? contact_step_text(scene, dt) : "",
                  parts.physics ? courant_text(scene, parts.physics->steps(), start.sounds, dt) : "",
-                 drag_text(scene, parts), speed_warnings(scene, start.count.heights, start.speed),
-                 steps_text(scene, dt), ranks_text(scene, grid, start.count.all));
+                 drag_text(scene, parts), suspension_text(scene, parts, start.count),
+                 speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
+                 ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);
   });
 }

@@ -55,7 +55,7 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
   for (const std::int64_t n : grid.cells()) need.cells *= static_cast<double>(n);
   double grains =
       parts.physics || parts.melt ? 0 : need.particles;  // of a file they are not counted by group
-  for (std::size_t g = 0; parts.physics && parts.grains && g < scene.groups.size(); ++g)
+  for (std::size_t g = 0; scene.has_grains_in_flow() && g < scene.groups.size(); ++g)
     if (scene.groups[g].kind == GroupKind::grain) grains += static_cast<double>(count.by_group[g]);
   // Kernels of a gas are mostly as wide as at the start, and lists go by each.
   const double range = has_eos(scene, EosKind::ideal_gas) ? scene.kernel_radius() : scene.list_range();

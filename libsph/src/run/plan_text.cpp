@@ -21,9 +21,10 @@ std::string terms_of(const Stage& stage) {
   return out;
 }
 
-/// "fluid: " and "grains: " where a scene has both.
+/// "fluid: ", "cells: " and "grains: " where a scene has two of them.
 std::string name_of(const Parts& parts, std::size_t set) {
   if (parts.sets.size() == 1) return {};
+  if (parts.sets[set].owners) return "cells: ";
   return parts.sets[set].fields.has(Field::radius) ? "grains: " : "fluid: ";
 }
 

@@ -48,15 +48,18 @@ std::string method_of(const Simulation& simulation) {
   if (simulation.grains() != nullptr)
     methods.push_back(fmt::format("grains, {} contacts", scene.grains.contact.law->name));
   if (simulation.melt() != nullptr) methods.emplace_back("slow flow of melts");
-  if (has_drag(scene)) methods.back() += fmt::format(", {} drag", scene.grains.drag.law->word);
+  if (has_drag(scene) || scene.is_suspension())
+    methods.back() += fmt::format(", {} drag", scene.grains.drag.law->word);
   return fmt::format("{}", fmt::join(methods, "; "));
 }
 
 std::string formulation_of(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  if (scene.is_suspension()) return "grains in melts";
   if (simulation.melt() != nullptr) return "slow flow of melts";
   if (simulation.physics() == nullptr) return "grains";
   if (simulation.grains() != nullptr) return "grains in a fluid";
-  return name_of(simulation.scene().terms.formulation);
+  return name_of(scene.terms.formulation);
 }
 
 void print(const decomp::Comm& comm, const std::string& text) {

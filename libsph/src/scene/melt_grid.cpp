@@ -2,6 +2,18 @@
 
 namespace sph {
 
+std::array<std::size_t, 2> melts_of(const Scene& scene) {
+  std::array<std::size_t, 2> out{};
+  bool any = false;
+  for (std::size_t k = 0; k < scene.groups.size(); ++k) {
+    if (scene.groups[k].kind != GroupKind::melt) continue;
+    if (!any) out[0] = k;
+    out[1] = k;
+    any = true;
+  }
+  return out;
+}
+
 stokes::Grid melt_grid(const Scene& scene) {
   stokes::Grid grid;
   grid.dim = scene.dim;

@@ -23,11 +23,10 @@ const Group& first_fluid(const Scene& scene) {
 
 }  // namespace
 
-void displace_by_jitter(const Scene& scene, NewParticle& p) {
-  if (scene.start.lattice.jitter == 0) return;
+void displace(const Scene& scene, double amplitude, NewParticle& p) {
+  if (amplitude == 0) return;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    p.position[a] += scene.start.lattice.jitter * scene.start.spacing *
-                     uniform_minus_one_to_one(scene.start.seed, p.id, a);
+    p.position[a] += amplitude * uniform_minus_one_to_one(scene.start.seed, p.id, a);
 }
 
 double random_radius(const Scene& scene, const NewParticle& p) {

@@ -23,8 +23,8 @@ struct NewParticle {
   Double3 spin{};     ///< of grains [rad/s]
 };
 
-/// Uniform in +-jitter spacings on every axis, from a counter-based generator on (seed, id, axis).
-void displace_by_jitter(const Scene& scene, NewParticle& p);
+/// Uniform in +-amplitude [m] on every axis, from a counter-based generator on (start.seed, id, axis).
+void displace(const Scene& scene, double amplitude, NewParticle& p);
 
 /// Uniform between the least and the largest of the grain's group, a function of seed and id alone [m].
 [[nodiscard]] double random_radius(const Scene& scene, const NewParticle& p);

@@ -35,6 +35,7 @@ void fill_with_grains(const Scene& scene, const GrainFill& fill, const PositionS
     for (k[1] = 0; k[1] < points_of(fill, 1); ++k[1])
       for (k[0] = 0; k[0] < points_of(fill, 0); ++k[0], ++id) {
         NewParticle p{id, point(fill, k), {}, static_cast<std::uint32_t>(fill.group), 0, 0};
+        displace(scene, fill.jitter * fill.spacing, p);
         decomp::Int3 q{};
         for (std::size_t a = 0; a < 3; ++a) q[a] = scale.quanta(p.position[a]);
         q = distribution.grid().wrap(q);
@@ -55,7 +56,7 @@ int painted_group(const Scene& scene, const Double3& x) {
 
 void place_particles(const Scene& scene, const PositionScale& scale, Distribution& distribution,
                      Particles& particles) {
-  if (particles.has(Field::radius) && scene.has_matter()) {
+  if (particles.has(Field::radius) && !scene.of_grains()) {
     for (const GrainFill& fill : scene.start.fills)
       fill_with_grains(scene, fill, scale, distribution, particles);
     return;
@@ -97,11 +98,13 @@ void place_particles(const Scene& scene, const PositionScale& scale, Distributio
       for (k[0] = lo[0]; k[0] < hi[0]; ++k[0]) {
         const Double3 x = lattice.point(k);
         if (!lattice.inside(x)) continue;
-        const int group = scene.has_melt() ? 0 : painted_group(scene, x);  // cells may hold two melts
+        // A cell may hold two melts.
+        const int group = scene.has_melt() ? static_cast<int>(melts_of(scene)[0]) : painted_group(scene, x);
         if (group < 0) continue;
         NewParticle p{lattice.id(k), x, {}, static_cast<std::uint32_t>(group), 0, 0};
         const Group& g = scene.groups[p.group];
-        if (g.kind != GroupKind::wall && !g.grain.fixed) displace_by_jitter(scene, p);
+        if (g.kind != GroupKind::wall && !g.grain.fixed)
+          displace(scene, scene.start.lattice.jitter * scene.start.spacing, p);
         decomp::Int3 q{};
         for (std::size_t a = 0; a < d; ++a) q[a] = scale.quanta(p.position[a]);
         q = grid.wrap(q);

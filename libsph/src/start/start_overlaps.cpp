@@ -99,7 +99,7 @@ std::array<std::string, 2> rows_of(const decomp::Comm& comm, const Scene& scene,
 
 std::string advice(const Scene& scene) {
   if (!scene.start.file.empty()) return "move them apart";
-  if (scene.is_mixture())
+  if (!scene.start.fills.empty())
     return "raise start.grains.spacing, make it divide periods, or keep [[start.grains]] apart";
   return scene.start.tile.file.empty() ? "raise start.spacing or lessen start.jitter"
                                        : "settle the tile with walls or periods where its copies meet";
@@ -112,11 +112,13 @@ bool may_overlap(const Scene& scene) {
   if (!start.file.empty() || !start.tile.file.empty()) return true;
   // Two of the largest stand deepest in each other: R + r - limit r grows with both.
   const double allowed = (2 - scene.grains.contact.largest_overlap) * 0.5 * scene.largest_diameter();
-  if (scene.is_mixture())  // a fill knows nothing of another, nor of its own image
+  const auto nearest = [](double spacing, double jitter) {
+    return spacing * (1 - 2 * std::sqrt(3.0) * jitter);
+  };
+  if (!start.fills.empty())  // a fill knows nothing of another, nor of its own image
     return start.fills.size() > 1 || scene.domain.periodic != std::array{false, false, false} ||
-           start.fills.front().spacing < allowed;
-  const double nearest = scene.start.spacing * (1 - 2 * std::sqrt(3.0) * start.lattice.jitter);
-  return nearest < allowed;
+           nearest(start.fills.front().spacing, start.fills.front().jitter) < allowed;
+  return nearest(start.spacing, start.lattice.jitter) < allowed;
 }
 
 void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale,

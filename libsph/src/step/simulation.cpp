@@ -98,6 +98,7 @@ void Simulation::rebuild() {
 ListSetting Simulation::list_setting(const SetPair& pair) {
   return {comm_,
           distribution_.grid(),
+          distribution_.partition(),
           distribution_.own_cells(),
           distribution_.list_radius(),
           distribution_.skin(),

@@ -67,6 +67,11 @@ enum class Field : std::uint8_t {
   composition,
   melt_share,
   flow_pressure,
+  free_velocity,
+  free_spin,
+  mobility,
+  contact_force,
+  way,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -221,6 +226,15 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "volume of melt that flowed into a cell, over the cell's: 1 but for what the flow's tolerance leaves"},
     {Field::flow_pressure, "flow_pressure", "Pa", Type::f64, Shape::scalar, true, true,
      "of slow flow, less what holds layers at rest"},
+    {Field::free_velocity, "free_velocity", "m/s", Type::f64, Shape::vector, true, false,
+     "of a grain in melts that nothing touches"},
+    {Field::free_spin, "free_spin", "rad/s", Type::f64, Shape::vector, true, false, "the same of its spin"},
+    {Field::mobility, "mobility", "s/kg", Type::f64, Shape::two, true, false,
+     "of a grain in melts: velocity per force, spin per torque [s/kg/m^2]"},
+    {Field::contact_force, "contact_force", "N", Type::f64, Shape::vector, true, true,
+     "on a grain in melts, of what it touched in the last step"},
+    {Field::way, "way", "quantum", Type::i64, Shape::vector, true, false,
+     "of a grain since the flow around it was found"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

@@ -93,6 +93,13 @@ struct MotionSums {
   double largest = 0;  ///< of the differences [m/s]
 };
 
+/// When the flow around grains in melts is found anew, in scenes of these; else 0.
+struct FlowClock {
+  double interval = 0;  ///< from the last flow to the next [s]
+  double left = 0;      ///< of it; 0: the next step begins with a flow [s]
+  friend bool operator==(const FlowClock&, const FlowClock&) = default;
+};
+
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {
   std::int64_t step = 0;
@@ -103,6 +110,7 @@ struct GlobalState {
   std::vector<WallState> walls;
   FluidVolume fluid_volume;
   CommonMotion motion;
+  FlowClock flow;
   friend bool operator==(const GlobalState&, const GlobalState&) = default;
 };
 

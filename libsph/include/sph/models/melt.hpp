@@ -1,20 +1,22 @@
 // Melts that flow slowly on a grid, with heat and composition: -div 2 eta eps(U) + grad p = rho g, div U = 0,
 //   rho = rho_0(C) (1 - alpha (T - T_0)),   ln eta = ln eta_0(C) - b (T - T_0),
 // rho_0 and ln eta_0 linear in the share C of the second melt; d_t T + div U T = kappa lap T, d_t C + div U C = 0. Its
-// rows are the cells. A step takes the flow of its beginning.
+// rows are the cells. A step takes the flow of its beginning. With grains in it (suspension.hpp) U is the velocity of
+// both, the melt has the share M = 1 - phi of a cell, what it carries goes with d_t (C M) + div (u_m C) = 0, u_m its own
+// flux of volume, and a flow serves for several steps of the grains.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sph/models/cell_rows.hpp"
+#include "sph/models/melt_work.hpp"
 #include "sph/models/model.hpp"
 #include "sph/scene/scene.hpp"
-#include "stokes/conduction.hpp"
-#include "stokes/solver.hpp"
-#include "stokes/transport.hpp"
 
 namespace sph {
 
@@ -24,7 +26,16 @@ class Melt final : public Model {
   [[nodiscard]] static FieldSet fields(const Scene& scene);
   [[nodiscard]] Plan plan();
   [[nodiscard]] const CellRows& rows() const { return rows_; }
-  [[nodiscard]] double bytes_of_cell() const;  ///< of what a step works with
+
+  /// A flow is found in the step that begins.
+  [[nodiscard]] bool is_due(const GlobalState& global) const { return !has_grains_ || global.flow.left == 0; }
+  /// The step at hand is the last one of a flow.
+  [[nodiscard]] bool is_last(const GlobalState& global) const;
+  /// From the rows; the first time it makes the work. Collective.
+  MeltWork& load(const Particles& cells);
+  [[nodiscard]] MeltWork& work() { return *work_; }  ///< once it is loaded
+  /// Of what a step works with.
+  [[nodiscard]] double bytes_of_cell() const;
 
   void reserve(Reduction& r) override { courant_rate_ = r.add_maximum(); }
   [[nodiscard]] double start(const decomp::Comm&, Particles& cells, GlobalState&) override;
@@ -38,31 +49,16 @@ class Melt final : public Model {
   [[nodiscard]] std::vector<double> values(const Particles& cells);
 
  private:
-  /// What a step works with, over the patch; not made where a scene is only looked at.
-  struct Work {
-    Work(const decomp::Comm& comm, const Scene& scene, const std::vector<decomp::Box>& boxes);
-    [[nodiscard]] const stokes::Patch& patch() const { return solver.patch(); }
-    stokes::Solver solver;
-    stokes::Transport transport;
-    std::optional<stokes::Conduction> conduction;
-    stokes::Flow flow;
-    stokes::Field temperature, composition, share;
-  };
   void flow(StepState& state);
   void carry(StepState& state);
-  /// From the rows; the first time it makes the work. Collective.
-  void load(const Particles& cells);
-  [[nodiscard]] stokes::Field densities() const;
-  [[nodiscard]] stokes::Field viscosities() const;
-  [[nodiscard]] stokes::Velocity driving_force(const stokes::Field& densities);
-  void take_off_layers(std::size_t axis, stokes::Field& force) const;
-  [[nodiscard]] stokes::Resistance stratification(double dt);
+  void advect_beside_grains(double dt, std::span<stokes::Field* const> with_all);
 
   const decomp::Comm* comm_;
   const Scene* scene_;
   PositionScale scale_;
   CellRows rows_;
-  std::unique_ptr<Work> work_;
+  bool has_grains_;
+  std::unique_ptr<MeltWork> work_;  ///< not made where a scene is only looked at
   stokes::Effort effort_;
   double courant_step_ =
       any_step;  ///< in which the flow passes `courant` cells, and heat not much of the domain [s]

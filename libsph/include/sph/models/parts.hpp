@@ -11,6 +11,7 @@
 #include "sph/models/melt.hpp"
 #include "sph/models/physics.hpp"
 #include "sph/models/sph_pairs.hpp"
+#include "sph/models/suspension.hpp"
 #include "sph/plan/particle_set.hpp"
 #include "sph/plan/plan.hpp"
 #include "sph/plan/reduction.hpp"
@@ -34,6 +35,7 @@ struct Parts {
   std::optional<Grains> grains;
   std::optional<Drag> drag;  ///< of grains in a fluid
   std::unique_ptr<Melt> melt;
+  std::optional<Suspension> suspension;  ///< of grains in melts
   std::vector<Model*> models;
   std::vector<SetPair*> pairs;
   Plan plan;

@@ -30,6 +30,14 @@ struct ContactQuanta {
   double length, force, torque;
 };
 
+/// How grains move that have no inertia, columns of the grains: v = free + mobility F (models/suspension.hpp). Null
+/// where they have.
+struct Gliding {
+  const double *free_velocity = nullptr, *free_spin = nullptr, *mobility = nullptr;
+  double* force = nullptr;      ///< of the contacts, kept [N]
+  std::int64_t* way = nullptr;  ///< added to [quanta]
+};
+
 /// Everything a compiled contact pass needs besides its laws.
 struct ContactContext {
   Particles* particles;
@@ -42,6 +50,7 @@ struct ContactContext {
   double gravity[3];
   double largest_overlap;  ///< in radii of the smaller grain
   bool drifts;             ///< grains drift once they are kicked, while they are in the cache
+  Gliding gliding{};
 };
 
 /// A contact that must not be: that of the lowest ids is kept.

@@ -16,17 +16,10 @@
 #include "sph/pairs/contact.hpp"
 #include "sph/pairs/contact_context.hpp"
 #include "sph/pairs/friction.hpp"
+#include "sph/pairs/grain_motion.hpp"
 #include "sph/pairs/rolling.hpp"
 
 namespace sph {
-
-/// Sums in whole quanta, whose bits depend on no order. benchmarks/contacts.cpp has what they cost.
-struct QuantumSums {
-  using Sum = std::uint64_t;
-  static Int64x8 lanes(Simd<double> quanta) { return to_integers(quanta); }
-  static Sum scalar(double quanta) { return static_cast<Sum>(round_to_quanta(quanta)); }
-  static double value(Sum sum) { return static_cast<double>(static_cast<std::int64_t>(sum)); }
-};
 
 template <class NormalLaw, class FrictionLaw, class RollingLaw, bool one_material, class Sums = QuantumSums>
 struct ContactPass {
@@ -56,8 +49,9 @@ struct ContactPass {
         return block.first >= r.first && block.last <= r.last;
       };
       if (moves(RowClass::interior_movers) || moves(RowClass::boundary_movers))
-        c.drifts ? move<true>(c, rows, block.first, block.last, sweep)
-                 : move<false>(c, rows, block.first, block.last, sweep);
+        c.gliding.mobility != nullptr ? Motion::glide(c, rows, block.first, block.last, sweep)
+        : c.drifts                    ? Motion::template move<true>(c, rows, block.first, block.last, sweep)
+                                      : Motion::template move<false>(c, rows, block.first, block.last, sweep);
       else
         std::fill(rows.sums + std::size_t{block.first} * stride, rows.sums + std::size_t{block.last} * stride,
                   Sum{});
@@ -65,21 +59,8 @@ struct ContactPass {
   }
 
  private:
-  struct Rows {
-    std::int64_t* x;
-    double *v, *w;
-    const double *radius, *mass;
-    const std::uint32_t* group;
-    Sum* sums;
-    explicit Rows(const ContactContext& c)
-        : x(c.particles->data<Field::position>()),
-          v(c.particles->data<Field::velocity>()),
-          w(c.particles->data<Field::spin>()),
-          radius(c.particles->data<Field::radius>()),
-          mass(c.particles->data<Field::mass>()),
-          group(c.particles->data<Field::group>()),
-          sums(reinterpret_cast<Sum*>(c.sums)) {}
-  };
+  using Rows = ContactRows<Sum>;
+  using Motion = GrainMotion<spins, stride, Sums>;
 
   /// Forces and torques of eight contacts. Torque on j: roll - r_j couple, on i: -roll - r_i couple.
   struct Answer {
@@ -350,38 +331,6 @@ struct ContactPass {
       if constexpr (!one_material) __builtin_prefetch(rows.group + r);
       __builtin_prefetch(rows.sums + r * stride, 1);
     }
-  }
-
-  // v += (F/m + g) dt, omega += T/I dt with I = 2/5 m r^2, then x += v dt in whole quanta.
-  template <bool drifts>
-  static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
-                   ContactSweep& sweep) {
-    const double dt = c.dt;
-    [[maybe_unused]] const double quanta = dt / c.quantum.length;
-    double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
-    for (std::size_t r = first; r < last; ++r) {
-      Sum* sums = rows.sums + r * stride;
-      const double inverse_mass = 1 / rows.mass[r];
-      double v2 = 0, a2 = 0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const double force = Sums::value(sums[a]) * c.quantum.force;
-        const double acceleration = force * inverse_mass + c.gravity[a];
-        const double v = rows.v[r * 3 + a] + acceleration * dt;
-        rows.v[r * 3 + a] = v;
-        if constexpr (drifts) rows.x[r * 3 + a] = moved_by(rows.x[r * 3 + a], round_to_quanta(v * quanta));
-        v2 += v * v;
-        a2 += acceleration * acceleration;
-      }
-      if constexpr (spins) {
-        const double turn = 2.5 * inverse_mass / (rows.radius[r] * rows.radius[r]) * c.quantum.torque * dt;
-        for (std::size_t a = 0; a < 3; ++a) rows.w[r * 3 + a] += Sums::value(sums[4 + a]) * turn;
-      }
-      for (int k = 0; k < stride; ++k) sums[k] = 0;
-      speed2 = v2 <= speed2 ? speed2 : v2;
-      acceleration2 = a2 <= acceleration2 ? acceleration2 : a2;
-    }
-    sweep.speed2 = speed2;
-    sweep.acceleration2 = acceleration2;
   }
 };
 

@@ -9,6 +9,7 @@
 #include "decomp/comm.hpp"
 #include "decomp/grid.hpp"
 #include "decomp/migrate.hpp"
+#include "decomp/partition.hpp"
 #include "decomp/timer.hpp"
 #include "sph/core/particles.hpp"
 #include "sph/pairs/neighbour_lists.hpp"
@@ -19,6 +20,7 @@ namespace sph {
 struct ListSetting {
   const decomp::Comm& comm;
   const decomp::CellGrid& grid;
+  const decomp::JaggedPartition& partition;
   decomp::Box own_cells;
   std::int64_t radius = 0;  ///< range and skin [quanta]
   double skin = 0;          ///< [m]

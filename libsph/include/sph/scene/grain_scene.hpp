@@ -52,7 +52,8 @@ struct ContactControl {
 /// How a fluid and the grains in it act on each other.
 struct DragControl {
   const DragLaw* law = no_drag();
-  bool own_disturbance = true;  ///< what a grain itself does to the fluid around it is taken out
+  bool own_disturbance = true;     ///< what a grain itself does to the fluid around it is taken out
+  double packed_fraction = 0.585;  ///< phi_m, of which grains in melts do not flow any more
   friend bool operator==(const DragControl&, const DragControl&) = default;
 };
 
@@ -97,6 +98,7 @@ struct GrainFill {
   int group = -1;            ///< of grains
   Double3 lower{}, upper{};  ///< points sit at lower + (k + 1/2) spacing, below upper [m]
   double spacing = 0;        ///< [m]
+  double jitter = 0;         ///< amplitude of a uniform displacement, in spacings
   friend bool operator==(const GrainFill&, const GrainFill&) = default;
 };
 

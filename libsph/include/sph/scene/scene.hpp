@@ -35,8 +35,11 @@ struct Scene {
   [[nodiscard]] bool open() const { return terms.shifting && start.has_surface; }
   /// Fluids, and grains that act on them.
   [[nodiscard]] bool is_mixture() const { return has_grains() && has_matter(); }
+  /// Melts, and grains in them.
+  [[nodiscard]] bool is_suspension() const { return has_grains() && has_melt(); }
+  [[nodiscard]] bool has_grains_in_flow() const { return is_mixture() || is_suspension(); }
   /// Of grains alone.
-  [[nodiscard]] bool of_grains() const { return has_grains() && !has_matter(); }
+  [[nodiscard]] bool of_grains() const { return has_grains() && !has_matter() && !has_melt(); }
   [[nodiscard]] bool has_grains() const { return has_kind(GroupKind::grain); }
   [[nodiscard]] bool has_melt() const { return has_kind(GroupKind::melt); }
   [[nodiscard]] bool has_matter() const;          ///< fluids or solids
