@@ -87,7 +87,7 @@ def add_output(d, case, kind):
         if d.chance(key, 0.2):
             out[key] = d.one(f"{key} value", values)
     mixture = "drag" in scene
-    for key in ["contacts"] * (grains or mixture) + ["average_space"] * (not grains and not melts):
+    for key in ["contacts"] * (grains or mixture) + ["average_space"] * (not grains and "melt" not in scene):
         if d.chance(key, 0.2):
             out[key] = d.chance(f"{key} value", 0.8)
     if out:

@@ -12,7 +12,7 @@ class MeltScene:
     def make(self):
         d, dim = self.d, self.dim
         least = [d.one(f"m/{a}", [4, 5, 6, 7]) for a in self.axes]
-        halvings = d.one("k", [1, 2, 3]) if dim == 2 else d.one("k3", [0, 1, 1, 1])
+        halvings = d.one("k", [1, 2, 3]) if dim == 2 else d.weighted("k3", {1: 12, 0: 1})
         cells = [m * 2**halvings for m in least]
         edge = d.log("edge", 1e-3, 1e3)
         stretch = [d.real(f"stretch/{a}", 1, 1.2) for a in self.axes]

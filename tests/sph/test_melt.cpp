@@ -206,6 +206,24 @@ TEST(Melt, AStableInterfaceDoesNotSloshHoweverLongTheStep) {
   EXPECT_LT(before, 0.1 * first);
 }
 
+// Cells need not be square, whatever repeats.
+TEST(Melt, PeriodsHoldCellsOfAnyWidth) {
+  const Scene scene = melts("melts3d.toml", {"domain.upper=[1.1, 1.25, 1]"});
+  EXPECT_TRUE(scene.domain.periodic[0]);
+  Simulation s(world(), scene);
+  s.step();
+  EXPECT_GT(mean_square_speed(s), 0);
+  const Scene again = parse_scene(to_toml(scene), "again", {});
+  EXPECT_EQ(to_toml(again), to_toml(scene));
+}
+
+// What is resolved of a scene without heat can be read again, as a run that is resumed does.
+TEST(Melt, AResolvedSceneWithoutHeatCanBeRead) {
+  const Scene scene = parse_scene(layers, "layers", {});
+  const Scene again = parse_scene(to_toml(scene), "again", {});
+  EXPECT_EQ(to_toml(again), to_toml(scene));
+}
+
 TEST(Melt, AFlowThatIsNotFoundEndsTheRun) {
   Simulation s(world(), melts("melts2d.toml", {"melt.most_iterations=2"}));
   const std::string text = guard_text([&] { s.step(); });

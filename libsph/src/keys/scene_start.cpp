@@ -94,7 +94,7 @@ void read_lattice(const StartReader& table, Scene& scene) {
     table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\"");
   if (!table.has("origin")) start.lattice.origin = start.lattice.lower;
   check_fill(table, scene);
-  check_seam(table, scene);
+  if (!scene.has_melt()) check_seam(table, scene);  // cells fit, however wide
   const std::vector<Reader<keys::region>> regions = table.tables<keys::region>();
   if (regions.empty()) table.fail_missing("region", "paint groups with [[start.region]], or give start.file");
   bool matter = false;
