@@ -1,13 +1,14 @@
 #!/bin/sh
-# Installs what is missing, builds, and runs the buoyant fluid cylinder and the sandbox until its first thrust on
-# two ranks: five to ten minutes on a fresh machine with two cores, half of it for packages and compiler.
+# Installs what is missing, builds, and runs the buoyant fluid cylinder, the sandbox until its first thrust and the first
+# hour of the magma chamber on two ranks: ten minutes on a fresh machine with two cores, half of it for packages and compiler.
 #
-#     sh cmake/demo.sh [UNTIL [UNTIL_SAND]]     seconds of the cylinder and of the sandbox, default: 10 2
+#     sh cmake/demo.sh [UNTIL [UNTIL_SAND [UNTIL_CHAMBER]]]     seconds of each, default: 10 2 3600
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/environment.sh
 until=${1:-10}      # of the scene's 20: ten seconds of run
 until_sand=${2:-2}  # of the scene's 6.75, 2.4 cm of shortening: two minutes of run
+until_chamber=${3:-3600}  # of the scene's seven hours: two minutes of run
 
 sh cmake/packages.sh
 configure -DPEPERITE_TESTS=OFF -DPEPERITE_BENCHMARKS=OFF
@@ -27,7 +28,10 @@ mpirun -np 2 build/bin/buoyant_cylinder apps/buoyant_cylinder/fluid.toml --until
 mpirun -np 2 build/bin/sandbox apps/sandbox/sandbox.toml --until "$until_sand" --out "$out/sandbox"
 /usr/bin/python3 apps/sandbox/plot.py "$out/sandbox"
 
-for run in cylinder sandbox; do
+mpirun -np 2 build/bin/magma_chamber apps/magma_chamber/chamber.toml --until "$until_chamber" --out "$out/chamber"
+/usr/bin/python3 apps/magma_chamber/plot.py "$out/chamber"
+
+for run in cylinder sandbox chamber; do
   echo
   echo "In $PWD/$out/$run:"
   ls -1 "$out/$run" | sed 's/^/  /'
