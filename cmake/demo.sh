@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 . cmake/environment.sh
 until=${1:-10}      # of the scene's 20: ten seconds of run
 until_sand=${2:-2}  # of the scene's 6.75, 2.4 cm of shortening: two minutes of run
-until_chamber=${3:-3600}  # of the scene's seven hours: two minutes of run
+until_chamber=${3:-3600}  # of the scene's seven hours
 
 sh cmake/packages.sh
 configure -DPEPERITE_TESTS=OFF -DPEPERITE_BENCHMARKS=OFF
