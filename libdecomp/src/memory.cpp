@@ -11,6 +11,10 @@ void return_freed_memory() {
 #if defined(M_MMAP_THRESHOLD)
   mallopt(M_MMAP_THRESHOLD, 16 << 20);  // setting it stops it from growing
 #endif
+#if defined(M_TRIM_THRESHOLD)
+  mallopt(M_TRIM_THRESHOLD,
+          64 << 20);  // smaller blocks, taken again and again, would cost page faults each time
+#endif
 }
 
 void* allocate_large(std::size_t bytes) {

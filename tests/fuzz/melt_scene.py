@@ -115,6 +115,8 @@ class MeltScene:
         fill = {"group": "sand", "lower": lower, "upper": upper, "spacing": spacing}
         if d.chance("jitter", 0.5):
             fill["jitter"] = d.real("jitter is", 0, 0.2)
+        if d.chance("sparse", 0.3):
+            fill["occupied"] = d.real("share", 0.2, 1)
         return fill
 
     def add_heat(self, melt, groups, diffusivity):

@@ -56,7 +56,7 @@ double residual(const decomp::Comm& comm, const Solver& solver, const Problem& p
   level.refresh_cells(x.p);
   Velocity without_pressure = f.u;
   add_gradient(p, x.p, -1, without_pressure);
-  level.residual(without_pressure, x.u, r.u);
+  r.u = level.residual(without_pressure, x.u);
   for (int a = 0; a < g.dim; ++a)
     if (g.slides(a)) take_off_mean(comm, p, r.u[static_cast<std::size_t>(a)]);
   minus_divergence(p, x.u, r.p);

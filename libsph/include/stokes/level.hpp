@@ -29,13 +29,14 @@ class Level {
   void set_viscosity(Field cells, EdgeMean mean, Resistance resistance);
   [[nodiscard]] const Viscosity& viscosity() const { return viscosity_; }
 
-  /// r = f - A u; refreshes u.
-  void residual(const Velocity& f, Velocity& u, Velocity& r);
+  /// f - A u with its copies, until the next call of the level; refreshes u.
+  [[nodiscard]] const Velocity& residual(const Velocity& f, Velocity& u);
   /// Improves u towards A u = f; `from_zero`: it is 0.
   void smooth(const Velocity& f, Velocity& u, bool from_zero);
 
  private:
   [[nodiscard]] double largest_eigenvalue();
+  void find_residual(const Velocity& f, Velocity& u);
 
   const decomp::Comm* comm_;
   std::vector<Box> boxes_;

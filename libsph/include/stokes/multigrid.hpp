@@ -32,6 +32,7 @@ class Multigrid {
   struct Transfer {
     Patch half;
     decomp::BoxExchange down, up;
+    Velocity halves, force, velocity;  ///< scratch: over `half`, and over the coarser grid's patch
   };
   void cycle(std::size_t k, const Velocity& f, Velocity& u);
   /// The values of a finer grid's coarse cells go to those who have them.

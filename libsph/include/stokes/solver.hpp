@@ -4,6 +4,7 @@
 // rounded once, updates read old values only, and the grid's cuts meet no arithmetic: the same bits on any number of ranks.
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "stokes/multigrid.hpp"
@@ -54,12 +55,17 @@ class Solver {
   void take_off_mean(Field& values);
   void take_off_free_means(Velocity& u);
   void take_off_resisted_means(Velocity& u);
-  /// One cycle of the Krylov method from `r`.
-  void improve(Flow& x, Flow r, double beta, double wanted, int most, bool thorough, Effort& effort);
+  /// One cycle of the Krylov method from the residual that is first in the basis.
+  void improve(Flow& x, double beta, double wanted, int most, bool thorough, Effort& effort);
+
+  /// The k-th of flows that stay allocated from one solution to the next.
+  [[nodiscard]] Flow& kept(std::deque<Flow>& flows, std::size_t k) const;
 
   const decomp::Comm* comm_;
   Multigrid multigrid_;
-  double per_divergence_ = 1;  ///< least eta / h, squared [(Pa s/m)^2]
+  double per_divergence_ = 1;       ///< least eta / h, squared [(Pa s/m)^2]
+  std::deque<Flow> basis_, steps_;  ///< of the Krylov space, before and after preconditioning; scratch
+  Velocity driven_;                 ///< scratch
 };
 
 }  // namespace stokes

@@ -49,6 +49,10 @@ inline constexpr auto fill_keys = std::to_array<Key>({
      Number{dimension::none, {.least = 0, .most = 0.5, .below_most = true, .is = "it is in spacings,"}},
      "Uniform random displacement in each direction, in spacings; start.seed draws it.",
      at<&GrainFill::jitter>},
+    {"occupied",
+     Number{dimension::none,
+            {.least = 0, .most = 1, .above_least = true, .is = "it is a share of the points,"}},
+     "Share of these points that get a grain; start.seed draws them.", at<&GrainFill::occupied>},
 });
 inline constexpr Table<GrainFill> fill{
     {"start.grains", true, "Grains in a fluid or in melts: a lattice of their own, in a box.", fill_keys}};

@@ -35,6 +35,13 @@ double random_radius(const Scene& scene, const NewParticle& p) {
   return std::min(grain.least_radius + (grain.largest_radius - grain.least_radius) * u, grain.largest_radius);
 }
 
+bool is_occupied(const Scene& scene, const GrainFill& fill, std::uint64_t id) {
+  if (fill.occupied == 1) return true;
+  // A seed of its own: the streams of start.seed are taken.
+  const double u = uniform_minus_one_to_one(decomp::splitmix_mix(scene.start.seed), id, 0);
+  return 0.5 * (u + 1) < fill.occupied;
+}
+
 InitialFields::InitialFields(const Scene& scene) : scene_(scene) {
   if (scene.start.pressure == InitialPressure::hydrostatic) hydrostatic_.emplace(scene);
 }

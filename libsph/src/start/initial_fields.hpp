@@ -29,6 +29,9 @@ void displace(const Scene& scene, double amplitude, NewParticle& p);
 /// Uniform between the least and the largest of the grain's group, a function of seed and id alone [m].
 [[nodiscard]] double random_radius(const Scene& scene, const NewParticle& p);
 
+/// Whether this point of a fill gets a grain, a function of start.seed and id alone.
+[[nodiscard]] bool is_occupied(const Scene& scene, const GrainFill& fill, std::uint64_t id);
+
 class InitialFields {
  public:
   explicit InitialFields(const Scene& scene);

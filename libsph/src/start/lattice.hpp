@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "decomp/types.hpp"
+#include "scene/grain_fill.hpp"
 #include "sph/scene/melt_grid.hpp"
 #include "sph/scene/scene.hpp"
 
@@ -72,6 +73,19 @@ inline bool contains(const Region& r, const Double3& x, std::size_t dim) {
     distance2 += (x[a] - r.centre[a]) * (x[a] - r.centre[a]);
   }
   return r.shape == RegionShape::box || distance2 < r.radius * r.radius;
+}
+
+/// Of the first point of a fill: ids of fills follow on those of the lattice, one fill after the other.
+[[nodiscard]] inline std::uint64_t first_id(const Scene& scene, const GrainFill& fill) {
+  const Lattice lattice(scene);
+  std::uint64_t id = 1;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    id *= static_cast<std::uint64_t>(lattice.count(a));
+  for (const GrainFill& before : scene.start.fills) {
+    if (&before == &fill) break;
+    id += static_cast<std::uint64_t>(count(before));
+  }
+  return id;
 }
 
 }  // namespace sph

@@ -12,19 +12,6 @@
 namespace sph {
 namespace {
 
-/// Ids of fills follow on those of the lattice, one fill after the other.
-std::uint64_t first_id(const Scene& scene, const GrainFill& fill) {
-  const Lattice lattice(scene);
-  std::uint64_t id = 1;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    id *= static_cast<std::uint64_t>(lattice.count(a));
-  for (const GrainFill& before : scene.start.fills) {
-    if (&before == &fill) break;
-    id += static_cast<std::uint64_t>(count(before));
-  }
-  return id;
-}
-
 void fill_with_grains(const Scene& scene, const GrainFill& fill, const PositionScale& scale,
                       Distribution& distribution, Particles& particles) {
   const InitialFields fields(scene);
@@ -34,6 +21,7 @@ void fill_with_grains(const Scene& scene, const GrainFill& fill, const PositionS
   for (k[2] = 0; k[2] < points_of(fill, 2); ++k[2])
     for (k[1] = 0; k[1] < points_of(fill, 1); ++k[1])
       for (k[0] = 0; k[0] < points_of(fill, 0); ++k[0], ++id) {
+        if (!is_occupied(scene, fill, id)) continue;
         NewParticle p{id, point(fill, k), {}, static_cast<std::uint32_t>(fill.group), 0, 0};
         displace(scene, fill.jitter * fill.spacing, p);
         decomp::Int3 q{};

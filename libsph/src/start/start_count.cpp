@@ -138,10 +138,20 @@ void count_lattice(const decomp::Comm& comm, const Scene& scene, StartCount& cou
   count.heights = std::move(tally.heights);
 }
 
-void count_fills(const Scene& scene, StartCount& start) {
+std::int64_t count_occupied(const decomp::Comm& comm, const Scene& scene, const GrainFill& fill) {
+  if (fill.occupied == 1) return count(fill);
+  const std::uint64_t first = first_id(scene, fill);
+  std::array<std::int64_t, 1> n{0};
+  for (std::int64_t k = comm.rank(); k < count(fill); k += comm.size())
+    n[0] += is_occupied(scene, fill, first + static_cast<std::uint64_t>(k)) ? 1 : 0;
+  comm.sum(std::span<std::int64_t>(n));
+  return n[0];
+}
+
+void count_fills(const decomp::Comm& comm, const Scene& scene, StartCount& start) {
   for (const GrainFill& fill : scene.start.fills) {
     const auto group = static_cast<std::size_t>(fill.group);
-    start.by_group[group] += count(fill);
+    start.by_group[group] += count_occupied(comm, scene, fill);
     start.heights[group].add(scene, point(fill, {0, 0, 0}));
     start.heights[group].add(
         scene, point(fill, {points_of(fill, 0) - 1, points_of(fill, 1) - 1, points_of(fill, 2) - 1}));
@@ -195,7 +205,7 @@ StartCount count_start(const decomp::Comm& comm, const Scene& scene) {
     count_lattice(comm, scene, count);
   else
     count.by_group = count_tiles(comm, scene);
-  count_fills(scene, count);
+  count_fills(comm, scene, count);
   count.all = std::accumulate(count.by_group.begin(), count.by_group.end(), std::int64_t{0});
   return count;
 }

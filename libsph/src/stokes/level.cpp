@@ -90,12 +90,18 @@ double Level::largest_eigenvalue() {
   return largest;
 }
 
-void Level::residual(const Velocity& f, Velocity& u, Velocity& r) {
+void Level::find_residual(const Velocity& f, Velocity& u) {
   refresh(u);
-  apply(patch_, viscosity_, u, r);
+  apply(patch_, viscosity_, u, r_);
   for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a)
     for_own(patch_,
-            [&](std::ptrdiff_t k) { r[a][k] = inverse_diagonal_[a][k] != 0 ? f[a][k] - r[a][k] : 0.0; });
+            [&](std::ptrdiff_t k) { r_[a][k] = inverse_diagonal_[a][k] != 0 ? f[a][k] - r_[a][k] : 0.0; });
+}
+
+const Velocity& Level::residual(const Velocity& f, Velocity& u) {
+  find_residual(f, u);
+  refresh(r_);
+  return r_;
 }
 
 void Level::smooth(const Velocity& f, Velocity& u, bool from_zero) {
@@ -104,7 +110,7 @@ void Level::smooth(const Velocity& f, Velocity& u, bool from_zero) {
   double rho = 1 / sigma;
   for (int step = 0; step < degree; ++step) {
     const bool zero = from_zero && step == 0;
-    if (!zero) residual(f, u, r_);
+    if (!zero) find_residual(f, u);
     const double next = 1 / (2 * sigma - rho);
     const double keep = step == 0 ? 0 : next * rho, take = step == 0 ? 1 / middle : 2 * next / half;
     if (step > 0) rho = next;

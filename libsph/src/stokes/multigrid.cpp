@@ -80,8 +80,15 @@ Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box
     transfers_.push_back(std::make_unique<Transfer>(
         Transfer{Patch(coarse, halves[me]),
                  decomp::BoxExchange(fine.comm(), coarse.cells, coarse.periodic_axes(), halves, wanted_down),
-                 decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up)}));
+                 decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up),
+                 {},
+                 {},
+                 {}}));
     levels_.push_back(std::make_unique<Level>(whose, coarse, next));
+    Transfer& t = *transfers_.back();
+    for (std::size_t a = 0; a < static_cast<std::size_t>(coarse.dim); ++a)
+      t.halves[a].assign(t.half.size, 0.0);
+    t.force = t.velocity = levels_.back()->make_velocity();
   }
 }
 
@@ -131,30 +138,25 @@ void Multigrid::cycle(std::size_t k, const Velocity& f, Velocity& u) {
   if (k + 1 == levels_.size()) return solve_coarsest(f, u);
   level.smooth(f, u, true);
   Transfer& t = *transfers_[k];
-  Level& coarse = *levels_[k + 1];
-  Velocity r = level.make_velocity(), f_coarse = coarse.make_velocity(), u_coarse = coarse.make_velocity();
-  level.residual(f, u, r);
-  level.refresh(r);
-  Velocity halves;
+  const Velocity& r = level.residual(f, u);
   std::vector<Field*> from, to;
   for (int a = 0; a < level.grid().dim; ++a) {
     const auto axis = static_cast<std::size_t>(a);
-    halves[axis].assign(t.half.size, 0.0);
-    restrict_faces(level.patch(), a, r[axis], t.half, halves[axis]);
-    from.push_back(&halves[axis]);
-    to.push_back(&f_coarse[axis]);
+    restrict_faces(level.patch(), a, r[axis], t.half, t.halves[axis]);
+    from.push_back(&t.halves[axis]);
+    to.push_back(&t.force[axis]);
   }
   restrict_to(k + 1, from, to);
-  cycle(k + 1, f_coarse, u_coarse);
+  cycle(k + 1, t.force, t.velocity);
   std::vector<decomp::CellValues> owned, around;
   for (std::size_t a = 0; a < from.size(); ++a) {
-    owned.push_back(decomp::cell_values(std::span(u_coarse[a]), coarse.patch().frame));
-    around.push_back(decomp::cell_values(std::span(halves[a]), t.half.frame));
+    owned.push_back(decomp::cell_values(std::span(t.velocity[a]), levels_[k + 1]->patch().frame));
+    around.push_back(decomp::cell_values(std::span(t.halves[a]), t.half.frame));
   }
   t.up.copy(owned, around);
-  mirror_velocity(t.half, halves);
+  mirror_velocity(t.half, t.halves);
   for (int a = 0; a < level.grid().dim; ++a)
-    add_prolonged(t.half, a, halves[static_cast<std::size_t>(a)], level.patch(),
+    add_prolonged(t.half, a, t.halves[static_cast<std::size_t>(a)], level.patch(),
                   u[static_cast<std::size_t>(a)]);
   level.smooth(f, u, false);
 }

@@ -71,6 +71,11 @@ class LeastSquares {
 Solver::Solver(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes)
     : comm_(&comm), multigrid_(comm, grid, std::move(boxes)) {}
 
+Flow& Solver::kept(std::deque<Flow>& flows, std::size_t k) const {
+  while (flows.size() <= k) flows.push_back(make_flow());
+  return flows[k];
+}
+
 Flow Solver::make_flow() const { return {multigrid_.finest().make_velocity(), Field(patch().size, 0.0)}; }
 
 void Solver::set_viscosity(Field cells, Resistance resistance) {
@@ -97,13 +102,13 @@ int Solver::precondition(const Flow& r, bool thorough, Flow& z) {
   const Field& eta = level.viscosity().cells;
   for_own(patch(), [&](std::ptrdiff_t k) { z.p[k] = -eta[k] * r.p[k]; });
   level.refresh_cells(z.p);
-  Velocity f = r.u;
-  add_gradient(patch(), z.p, -1, f);
+  driven_ = r.u;
+  add_gradient(patch(), z.p, -1, driven_);
   int cycles = 1;
   if (thorough)
-    cycles = conjugate_gradients(*comm_, multigrid_, f, close_enough, most_cycles, z.u);
+    cycles = conjugate_gradients(*comm_, multigrid_, driven_, close_enough, most_cycles, z.u);
   else
-    multigrid_.cycle(f, z.u);
+    multigrid_.cycle(driven_, z.u);
   take_off_resisted_means(z.u);
   return cycles;
 }
@@ -163,7 +168,7 @@ Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterati
   int begun = 0;
   bool thorough = false;
   while (true) {
-    Flow r = make_flow();
+    Flow& r = kept(basis_, 0);
     apply_all(x, r);
     scale(p, -1, r);
     add(p, 1, f, r);
@@ -174,39 +179,36 @@ Effort Solver::solve(Velocity force, Flow& x, double tolerance, int most_iterati
     thorough = thorough || (effort.iterations == begun + restart && beta > slow * before);
     before = beta;
     begun = effort.iterations;
-    improve(x, std::move(r), beta, wanted, most_iterations, thorough, effort);
+    improve(x, beta, wanted, most_iterations, thorough, effort);
   }
   take_off_free_means(x.u);
   take_off_mean(x.p);
   return effort;
 }
 
-void Solver::improve(Flow& x, Flow r, double beta, double wanted, int most, bool thorough, Effort& effort) {
+void Solver::improve(Flow& x, double beta, double wanted, int most, bool thorough, Effort& effort) {
   const Patch& p = patch();
-  scale(p, 1 / beta, r);
-  std::vector<Flow> v, z;
-  v.push_back(std::move(r));
+  scale(p, 1 / beta, basis_[0]);
+  std::vector<const Flow*> v{&basis_[0]};
   LeastSquares least(beta);
   double left = beta;
-  while (z.size() < restart && effort.iterations < most && left > 0.9 * wanted) {
-    z.push_back(make_flow());
-    effort.cycles += precondition(v.back(), thorough, z.back());
-    Flow w = make_flow();
-    apply_all(z.back(), w);
-    std::vector<const Flow*> all;
-    for (const Flow& q : v) all.push_back(&q);
-    std::vector<double> column = dots(w, all);
-    for (std::size_t i = 0; i < v.size(); ++i) add(p, -column[i], v[i], w);
+  while (v.size() <= restart && effort.iterations < most && left > 0.9 * wanted) {
+    Flow& z = kept(steps_, v.size() - 1);
+    effort.cycles += precondition(*v.back(), thorough, z);
+    Flow& w = kept(basis_, v.size());
+    apply_all(z, w);
+    std::vector<double> column = dots(w, v);
+    for (std::size_t i = 0; i < v.size(); ++i) add(p, -column[i], *v[i], w);
     column.push_back(norm(w));
     const double length = column.back();
     left = least.add(std::move(column));
     ++effort.iterations;
     if (!(length > 0)) break;
     scale(p, 1 / length, w);
-    v.push_back(std::move(w));
+    v.push_back(&w);
   }
   const std::vector<double> y = least.solve();
-  for (std::size_t i = 0; i < y.size(); ++i) add(p, y[i], z[i], x);
+  for (std::size_t i = 0; i < y.size(); ++i) add(p, y[i], steps_[i], x);
 }
 
 }  // namespace stokes

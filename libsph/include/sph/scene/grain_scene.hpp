@@ -99,6 +99,7 @@ struct GrainFill {
   Double3 lower{}, upper{};  ///< points sit at lower + (k + 1/2) spacing, below upper [m]
   double spacing = 0;        ///< [m]
   double jitter = 0;         ///< amplitude of a uniform displacement, in spacings
+  double occupied = 1;       ///< share of the points that get a grain, at random
   friend bool operator==(const GrainFill&, const GrainFill&) = default;
 };
 
