@@ -1,7 +1,9 @@
 // Grains in melts: the speed of one grain, what is conserved, beds at rest, what contacts make of them, refusals in a run.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "decomp/exact_sum.hpp"
@@ -90,6 +92,66 @@ TEST(Suspension, NeutralGrainsStayWhereTheyAre) {
   Simulation s(world(), scene({"group.crystal.density=1", "time.dt=1", "time.steps=3"}));
   for (int k = 0; k < 3; ++k) s.step();
   EXPECT_LT(std::fabs(mean_speed_down(s)), 1e-12);
+}
+
+// Its springs touch nothing: neither their stiffness nor how thin the melt is may show in what cells add up.
+TEST(Suspension, WhatGrainsPutOnCellsIsInUnitsOfItsOwn) {
+  constexpr double alone_in_space = 0.25 / 18;
+  for (const char* stiffness : {"1e3", "1e-2", "1e-3"}) {
+    Simulation s(world(), scene({std::string("group.crystal.normal_stiffness=") + stiffness}));
+    s.step();
+    EXPECT_NEAR(mean_speed_down(s) / alone_in_space, 1 - 2.837 * 0.25 / 16, 0.03) << stiffness;
+  }
+  for (const double warmer : {500.0, 1000.0}) {
+    Simulation s(world(), scene({"melt.diffusivity=1e-3", "melt.viscosity_fall=0.01", "time.dt=1e-6",
+                                 "group.magma.temperature=" + std::to_string(warmer)}));
+    s.step();
+    EXPECT_NEAR(mean_speed_down(s) / (alone_in_space * std::exp(0.01 * warmer)), 1 - 2.837 * 0.25 / 16, 0.03);
+  }
+}
+
+// All that has a mass, by a power of two: no place and no time may change.
+TEST(Suspension, NothingDependsOnTheUnitOfMass) {
+  const auto run = [](double factor) {
+    std::vector<std::string> more;
+    for (const auto& [key, value] : {std::pair{"group.magma.density", 1.0},
+                                     {"group.magma.viscosity", 1.0},
+                                     {"group.crystal.density", 2.0},
+                                     {"group.crystal.normal_stiffness", 1.0}}) {
+      std::array<char, 80> text{};
+      std::snprintf(text.data(), text.size(), "%s=%.17g", key, value * factor);
+      more.emplace_back(text.data());
+    }
+    Simulation s(world(), scene(more));
+    s.step();
+    return std::pair{mean_speed_down(s), s.global().time};
+  };
+  const auto si = run(1);
+  EXPECT_EQ(run(0x1p-40), si);
+  EXPECT_EQ(run(0x1p40), si);
+}
+
+// Steps are counted: subtracted seconds left a rest of rounding, and a step too many, from some thousand steps on.
+TEST(Suspension, AFlowServesAsManySteps) {
+  Simulation s(world(), scene({"group.crystal.normal_stiffness=3e4", "time.dt=1"}));
+  s.step();
+  const std::int64_t steps = s.global().flow.left + 1;
+  ASSERT_GT(steps, 7000);
+  while (s.global().flow.left > 0) s.step();
+  EXPECT_EQ(s.global().step, steps);
+  EXPECT_NEAR(s.global().time, 1, 1e-9);
+}
+
+TEST(Suspension, WhatHasNoMeaningIsSaid) {
+  Simulation light(world(),
+                   scene({"melt.diffusivity=1e-3", "melt.expansion=0.1", "time.dt=1e4",
+                          "melt.side=[{side=\"z0\", heat_flux=1}]", "domain.periodic=[true, true, false]"}));
+  EXPECT_SAYS(guard_text([&] {
+                for (int k = 0; k < 2000; ++k) light.step();
+              }),
+              "melt.expansion");
+  Simulation soft(world(), scene({"group.magma.viscosity=1e-300"}));
+  EXPECT_SAYS(guard_text([&] { soft.step(); }), "viscosities are");
 }
 
 /// tests/scenes/chamber.toml

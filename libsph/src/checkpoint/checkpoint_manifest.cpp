@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* format = "peperite checkpoint 6";
+constexpr const char* format = "peperite checkpoint 7";
 
 /// The bits are what counts; the value is for readers with eyes.
 Json exact(double x) { return {{"bits", to_hex(std::bit_cast<std::uint64_t>(x))}, {"value", x}}; }
@@ -105,7 +105,7 @@ std::string to_text(const Manifest& m) {
                   {"walls", walls},
                   {"fluid_volume", {g.fluid_volume.start, g.fluid_volume.now}},
                   {"motion", motion},
-                  {"flow", {exact(g.flow.interval), exact(g.flow.left)}},
+                  {"flow", {exact(g.flow.interval), g.flow.left, g.flow.iterations, exact(g.flow.residual)}},
                   {"quantum", exact(m.record.scale.quantum)},
                   {"origin", m.record.scale.origin},
                   {"dim", m.dim},
@@ -143,7 +143,8 @@ Manifest manifest_from_text(const std::string& text) {
       {{exact(json.at("motion").at(0)), exact(json.at("motion").at(1)), exact(json.at("motion").at(2))},
        exact(json.at("motion").at(3)),
        exact(json.at("motion").at(4))},
-      {exact(json.at("flow").at(0)), exact(json.at("flow").at(1))}};
+      {exact(json.at("flow").at(0)), json.at("flow").at(1), json.at("flow").at(2),
+       exact(json.at("flow").at(3))}};
   for (const Json& wall : json.at("walls")) m.record.global.walls.push_back(wall_of(wall));
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();

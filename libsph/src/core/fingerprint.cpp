@@ -104,9 +104,9 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
     words.push_back(std::bit_cast<std::uint64_t>(global.motion.unlike));
     words.push_back(std::bit_cast<std::uint64_t>(global.motion.largest));
   }
-  if (global.flow != FlowClock{}) {
+  if (global.flow.interval != 0) {
     words.push_back(std::bit_cast<std::uint64_t>(global.flow.interval));
-    words.push_back(std::bit_cast<std::uint64_t>(global.flow.left));
+    words.push_back(static_cast<std::uint64_t>(global.flow.left));
   }
   for (const WallState& wall : global.walls)
     for (std::size_t a = 0; a < 3; ++a) {

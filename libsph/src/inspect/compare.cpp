@@ -133,7 +133,7 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
       return unequal("largest_motion", g.motion.largest, h.motion.largest);
     if (differ(g.flow.interval, h.flow.interval))
       return unequal("flow_interval", g.flow.interval, h.flow.interval);
-    if (differ(g.flow.left, h.flow.left)) return unequal("flow_left", g.flow.left, h.flow.left);
+    if (g.flow.left != h.flow.left) return unequal("flow_left", g.flow.left, h.flow.left);
   }
   if (a.kind == b.kind)  // a snapshot does not have the walls
     if (std::string text = wall_difference(g.walls, h.walls); !text.empty()) return text;

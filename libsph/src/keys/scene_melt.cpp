@@ -84,6 +84,14 @@ void check_heat(const MeltReader& table, const Scene& scene) {
     table.only_if(melt.viscosity_fall == 0, "viscosity_fall", why);
     table.only_if(melt.profile == MeltProfile::groups, "profile", why);
   }
+  const auto too_warm = [&](double t) { return melt.expansion * (t - melt.reference_temperature) >= 1; };
+  bool weightless = false;
+  for (const Group& g : scene.groups)
+    weightless = weightless || (g.kind == GroupKind::melt && too_warm(g.melt.temperature));
+  for (const MeltSide& s : melt.sides) weightless = weightless || (s.temperature && too_warm(*s.temperature));
+  if (weightless)
+    table.fail("expansion", fmt::format("is {} 1/K: the warmest melt would weigh nothing", melt.expansion),
+               "reduce it, or raise reference_temperature");
   if (melt.profile != MeltProfile::conductive) return;
   int given = 0;
   for (const MeltSide& s : melt.sides)

@@ -19,7 +19,6 @@ constexpr double least_force = 1e-10;  // of the weight: less is what rounding l
 constexpr double usual_iterations = 20;
 constexpr double grids_and_scratch = 24;  // numbers of each component of a cell
 constexpr double longer = 1.25;           // than the last flow's interval no next one is by more
-constexpr double rounding = 1e-9;         // of an interval in equal steps
 
 /// A tenth of the time in which heat crosses the domain [s].
 double conduction_step(const Scene& scene) {
@@ -38,6 +37,11 @@ double implicitness(const stokes::Grid& g, double diffusivity, double dt) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(g.dim); ++a)
     share += 3 * diffusivity * dt / (g.edge[a] * g.edge[a]);  // at walls; inside 2
   return std::max(0.5, 1 - 1 / std::max(share, 1.0));
+}
+
+std::string not_finite(const GlobalState& global) {
+  return step_text(global.step) +
+         "the slow flow is not finite: check densities, viscosities, gravity and stiffnesses";
 }
 
 }  // namespace
@@ -87,9 +91,7 @@ double Melt::longest_step(const Reduction& reduction) const {
   return std::min(scene_->time.dt.value_or(any_step), scene_->domain.melt.courant / reduction[courant_rate_]);
 }
 
-bool Melt::is_last(const GlobalState& global) const {
-  return !has_grains_ || global.flow.left <= (1 + rounding) * global.dt;
-}
+bool Melt::is_last(const GlobalState& global) const { return !has_grains_ || global.flow.left <= 1; }
 
 MeltWork& Melt::load(const Particles& cells) {
   if (!work_) work_ = std::make_unique<MeltWork>(*comm_, *scene_, rows_.boxes());
@@ -121,6 +123,7 @@ void Melt::flow(StepState& state) {
     if (state.global.step == 0)
       stokes::for_own(p, [&](std::size_t k) { work_->share[k] = 1 - work_->suspended->solid[k]; });
   }
+  refuse_senseless(state.global, rho, eta);
   work_->solver.set_viscosity(std::move(eta), work_->stratification(before));
   // What the tolerance left in cells flows out of them in the next step.
   stokes::Field source(p.size, 0.0);
@@ -131,13 +134,17 @@ void Melt::flow(StepState& state) {
   double g2 = 0;
   for (const double g : scene_->domain.gravity) g2 += g * g;
   const double weight = scene_->groups[melts_of(*scene_)[0]].density * std::sqrt(g2 * cells_of(p.grid));
-  effort_ = work_->solver.solve(work_->driving_force(rho), work_->flow, m.tolerance,
-                                static_cast<int>(m.most_iterations), &source, least_force * weight);
-  if (!effort_.converged)
+  const stokes::Effort effort =
+      work_->solver.solve(work_->driving_force(rho), work_->flow, m.tolerance,
+                          static_cast<int>(m.most_iterations), &source, least_force * weight);
+  if (std::isnan(effort.residual)) throw GuardError(not_finite(state.global));
+  if (!effort.converged)
     throw GuardError(fmt::format(
         "{}the slow flow has a residual of {:.3g} after {} iterations, wanted {}: viscosities may "
         "differ too sharply, raise melt.most_iterations or melt.tolerance",
-        step_text(state.global.step), effort_.residual, effort_.iterations, m.tolerance));
+        step_text(state.global.step), effort.residual, effort.iterations, m.tolerance));
+  clock.iterations = effort.iterations;
+  clock.residual = effort.residual;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a)
     rows_.store(work_->flow.u[a], Field::velocity, state.particles, a);
   rows_.store(work_->flow.p, Field::flow_pressure, state.particles);
@@ -150,9 +157,33 @@ void Melt::flow(StepState& state) {
   }
   state.global.dt = std::min(state.global.dt, courant_step_);
   if (!std::isfinite(state.global.dt) || !(state.global.dt > 0))
-    throw GuardError(step_text(state.global.step) +
-                     (state.global.dt > 0 ? "nothing flows, and there is no time.dt: give one"
-                                          : "the slow flow is not finite: check densities and viscosities"));
+    throw GuardError(state.global.dt > 0
+                         ? step_text(state.global.step) + "nothing flows, and there is no time.dt: give one"
+                         : not_finite(state.global));
+}
+
+void Melt::refuse_senseless(const GlobalState& global, const stokes::Field& rho,
+                            const stokes::Field& eta) const {
+  constexpr double most = std::numeric_limits<double>::infinity();
+  std::array<double, 3> ends{-most, -most, -most};  // - least density, - least and largest viscosity
+  stokes::for_own(work_->patch(), [&](std::size_t k) {
+    ends[0] = std::max(ends[0], -rho[k]);
+    ends[1] = std::max(ends[1], -eta[k]);
+    ends[2] = std::max(ends[2], eta[k]);
+  });
+  comm_->max(ends);
+  if (!(ends[0] < 0))
+    throw GuardError(
+        fmt::format("{}a melt's density is {:.4g} kg/m^3: melt.expansion is too much for so warm a "
+                    "melt, reduce it or raise melt.reference_temperature",
+                    step_text(global.step), -ends[0]));
+  // The solver squares viscosities and divides by them.
+  constexpr double least_viscosity = 1e-100, most_viscosity = 1e100;
+  if (!(-ends[1] >= least_viscosity && ends[2] <= most_viscosity))
+    throw GuardError(
+        fmt::format("{}viscosities are {:.4g} to {:.4g} Pa s, springs of grains included: check "
+                    "those of melts, melt.viscosity_fall and normal_stiffness",
+                    step_text(global.step), -ends[1], ends[2]));
 }
 
 // Half of the conduction, what the flow carries, the other half (Strang 1968): steady states keep the second order.

@@ -23,7 +23,7 @@ std::vector<std::string> Melt::columns() const {
   return out;
 }
 
-std::vector<double> Melt::values(const Particles& cells) {
+std::vector<double> Melt::values(const Particles& cells, const GlobalState& global) {
   load(cells);
   const stokes::Patch& p = work_->patch();
   std::array<decomp::ExactSum, 3> sums;
@@ -37,7 +37,7 @@ std::vector<double> Melt::values(const Particles& cells) {
   });
   decomp::ExactSum::all_reduce(*comm_, sums);
   const double n = static_cast<double>(p.grid.cells[0] * p.grid.cells[1] * p.grid.cells[2]);
-  std::vector<double> out{static_cast<double>(effort_.iterations), effort_.residual,
+  std::vector<double> out{static_cast<double>(global.flow.iterations), global.flow.residual,
                           std::sqrt(sums[0].value() / n)};
   if (work_->conduction) out.push_back(sums[1].value() / n);
   if (melts_of(*scene_)[0] != melts_of(*scene_)[1]) out.push_back(sums[2].value() / n);

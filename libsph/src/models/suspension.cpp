@@ -38,7 +38,6 @@ FieldSet Suspension::fields(const Scene& scene) {
   return out;
 }
 
-// What is spread is in units of which the largest that contacts can be makes 2^50.
 Suspension::Suspension(std::size_t grains, std::size_t cells, const decomp::Comm& comm, const Scene& scene,
                        const PositionScale& scale, const Grains& contacts, Melt& melt)
     : Model(grains),
@@ -52,14 +51,8 @@ Suspension::Suspension(std::size_t grains, std::size_t cells, const decomp::Comm
       grid_(comm, cells_, scale, domain_length(scene, scale), melt.rows().boxes()) {
   const double r = 0.5 * scene.largest_diameter();
   size_.cell = exact_pow(cells_.volume(), 1.0 / 3);
-  unit_.force = contacts.table().force_quantum();
   unit_.stiffness = std::ldexp(1.0, std::ilogb(stiffest_contact(scene, r)) + 1 - 50);
-  double thinnest = std::numeric_limits<double>::infinity();
-  for (const Group& g : scene.groups)
-    if (g.kind == GroupKind::melt) thinnest = std::min(thinnest, g.viscosity);
   size_.least_radius = least_radius(scene);
-  const double slip = unit_.force / (thinnest * size_.least_radius) * volume_of(r);
-  unit_.slip = std::ldexp(1.0, std::ilogb(slip) + 1);
   size_.to_come =
       contacts_to_come * stiffest_contact(scene, r, usual_overlap * scene.grains.contact.largest_overlap);
 }
@@ -106,11 +99,38 @@ void Suspension::rebuild(const Particles&, const ListSetting& s, const decomp::P
 }
 
 Suspension::Around Suspension::around(const Particles& grains, std::size_t i) const {
-  Around at{grid_.kernel(grains.data<Field::position>() + 3 * i), volume_of(grains.data<Field::radius>()[i])};
-  at.excess =
-      scene_->groups[grains.data<Field::group>()[i]].density - grid_.mean(at.kernel, centres, seen_.density);
+  Around at{grid_.kernel(grains.data<Field::position>() + 3 * i), volume_of(grains.data<Field::radius>()[i]),
+            excess_[i]};
   for (std::size_t a = 0; a < 3; ++a) at.weight[a] = at.volume * at.excess * scene_->domain.gravity[a];
   return at;
+}
+
+// Cells add integers: 2^40 for the largest of all grains, of which a cell may have millions.
+double Suspension::unit_of(const GlobalState& global, double largest) const {
+  std::array<double, 1> all{std::isnan(largest) ? std::numeric_limits<double>::infinity() : largest};
+  comm_->max(all);
+  if (!std::isfinite(all[0]))
+    throw GuardError(step_text(global.step) +
+                     "forces of grains in melts are not finite: check densities, stiffnesses and time.dt");
+  return all[0] > 0 ? std::ldexp(1.0, std::max(std::ilogb(all[0]) - 39, -1022)) : 1.0;
+}
+
+/// Sets the excess of each grain, and the unit of what drives them.
+void Suspension::weigh(const GlobalState& global, const Particles& grains) {
+  excess_.resize(grains.owned());
+  double largest = 0;
+  for (std::size_t i = 0; i < grains.owned(); ++i) {
+    const GridKernel kernel = grid_.kernel(grains.data<Field::position>() + 3 * i);
+    excess_[i] =
+        scene_->groups[grains.data<Field::group>()[i]].density - grid_.mean(kernel, centres, seen_.density);
+    const double weight = volume_of(grains.data<Field::radius>()[i]) * excess_[i];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double force = std::fabs(weight * scene_->domain.gravity[a]) +
+                           std::fabs(grains.data<Field::contact_force>()[3 * i + a]);
+      largest = std::isnan(force) ? force : std::max(largest, force);
+    }
+  }
+  unit_.force = unit_of(global, largest);
 }
 
 void Suspension::spread(const StepState& s) {
@@ -124,11 +144,12 @@ void Suspension::spread(const StepState& s) {
   grid_.copy(of_melt, melt_->work().patch());
   stiffness_ = stiffness_of_rows(*scene_, contacts_->pairs().lists(), grains, contacts_->table(),
                                  contacts_->walls().now(s.global), scale_.quantum, unit_.stiffness);
+  weigh(s.global, grains);
   std::array<GrainGrid::Deposit, 6> sums;
   for (GrainGrid::Deposit& d : sums) d = grid_.make_deposit();
   auto& [solid, excess, stiffness, fx, fy, fz] = sums;
   const double in_cell = 1 / (cells_.volume() * volume_unit);
-  const double heaviest = std::max(1.0, std::ranges::max(scene_->groups, {}, &Group::density).density);
+  const double heaviest = std::ranges::max(scene_->groups, {}, &Group::density).density;
   for (std::size_t i = 0; i < grains.owned(); ++i) {
     const Around at = around(grains, i);
     const double volume = at.volume * in_cell, d = 2 * grains.data<Field::radius>()[i];
@@ -157,7 +178,7 @@ void Suspension::spread(const StepState& s) {
 
 void Suspension::act(const Reduction&, GlobalState& global) {
   const bool last = melt_->is_last(global);
-  global.flow.left = last ? 0 : global.flow.left - global.dt;
+  global.flow.left = last ? 0 : global.flow.left - 1;
   next_step_ = last ? global.flow.interval : global.dt;
 }
 

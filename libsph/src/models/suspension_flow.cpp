@@ -71,6 +71,8 @@ void Suspension::see_flow(StepState& s) {
   double* free = grains.data<Field::free_velocity>();
   double* spin = grains.data<Field::free_spin>();
   double* mobility = grains.data<Field::mobility>();
+  std::vector<Double3> slip(grains.owned());  // times the volume
+  double largest = 0;
   for (std::size_t i = 0; i < grains.owned(); ++i) {
     const Around at = around(grains, i);
     const Seen seen = look(grains, i, at);
@@ -80,16 +82,21 @@ void Suspension::see_flow(StepState& s) {
       const double of_contacts = seen.mobility * grains.data<Field::contact_force>()[3 * i + a];
       free[3 * i + a] = seen.velocity[a] + seen.slip[a];
       if (spin != nullptr) spin[3 * i + a] = 0.5 * seen.curl[a];
-      grid_.spread(at.kernel, static_cast<int>(a), at.volume * (seen.slip[a] + of_contacts) / unit_.slip,
-                   sums[a]);
+      slip[i][a] = at.volume * (seen.slip[a] + of_contacts);
+      largest = std::isnan(slip[i][a]) ? slip[i][a] : std::max(largest, std::fabs(slip[i][a]));
       grains.data<Field::way>()[3 * i + a] = 0;
     }
   }
+  const double unit = unit_of(s.global, largest);
+  for (std::size_t i = 0; i < grains.owned(); ++i) {
+    const GridKernel kernel = grid_.kernel(grains.data<Field::position>() + 3 * i);
+    for (std::size_t a = 0; a < 3; ++a) grid_.spread(kernel, static_cast<int>(a), slip[i][a] / unit, sums[a]);
+  }
   stokes::Velocity back = {};
-  const double unit = unit_.slip / cells_.volume();
-  const std::array<GrainGrid::Folded, 3> folded{{{sums.data(), 0, back.data(), unit, true},
-                                                 {&sums[1], 1, &back[1], unit, true},
-                                                 {&sums[2], 2, &back[2], unit, true}}};
+  const double per_cell = unit / cells_.volume();
+  const std::array<GrainGrid::Folded, 3> folded{{{sums.data(), 0, back.data(), per_cell, true},
+                                                 {&sums[1], 1, &back[1], per_cell, true},
+                                                 {&sums[2], 2, &back[2], per_cell, true}}};
   grid_.fold(folded, melt_->work().patch());
   const std::array<GrainGrid::Copied, 3> copied{{{back.data(), 0, Behind::flux, seen_.slip.data()},
                                                  {&back[1], 1, Behind::flux, &seen_.slip[1]},
@@ -148,7 +155,7 @@ void Suspension::share_interval(const StepState& s) {
         fmt::format("{}contacts relax in {:.3g} s, and the flow would wait for {:.3g} steps of them; "
                     "reduce the stiffness of grains, or time.dt",
                     step_text(s.global.step), 1 / shortest, steps));
-  clock.left = clock.interval;
+  clock.left = static_cast<std::int64_t>(steps);
   s.global.dt = clock.interval / steps;
 }
 

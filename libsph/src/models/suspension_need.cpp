@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "models/grain_constants.hpp"
+#include "sph/core/exact_math.hpp"
 #include "sph/laws/drag/law.hpp"
 #include "sph/models/drag_force.hpp"
 #include "sph/scene/melt_grid.hpp"
@@ -29,6 +31,42 @@ double floor_area(const Scene& scene) {
   return area;
 }
 
+/// Of those that the scene names, of which alone the start is made: between them all others [K].
+std::vector<double> temperatures_of(const Scene& scene) {
+  const MeltControl& melt = scene.domain.melt;
+  if (melt.diffusivity == 0) return {melt.reference_temperature};
+  std::vector<double> out;
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::melt) out.push_back(g.melt.temperature);
+  for (const MeltSide& s : melt.sides)
+    if (s.temperature) out.push_back(*s.temperature);
+  return out;
+}
+
+/// Where the scene is warmest [Pa s].
+double thinnest_melt(const Scene& scene) {
+  const MeltControl& melt = scene.domain.melt;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Group& m : scene.groups)
+    for (const double t : temperatures_of(scene))
+      if (m.kind == GroupKind::melt)
+        least =
+            std::min(least, m.viscosity * exact_exp(-melt.viscosity_fall * (t - melt.reference_temperature)));
+  return least;
+}
+
+/// Beside the melt that differs most from grains of `density` [kg/m^3].
+double largest_excess(const Scene& scene, double density) {
+  const MeltControl& melt = scene.domain.melt;
+  double most = 0;
+  for (const Group& m : scene.groups)
+    for (const double t : temperatures_of(scene))
+      if (m.kind == GroupKind::melt)
+        most = std::max(
+            most, std::fabs(density - m.density * (1 - melt.expansion * (t - melt.reference_temperature))));
+  return most;
+}
+
 }  // namespace
 
 // A bed of the pressure p presses its grains together with about p d^2.
@@ -37,12 +75,8 @@ SuspensionNeed suspension_need(const Scene& scene, std::span<const std::int64_t>
   const stokes::Grid grid = melt_grid(scene);
   const auto [least_edge, most_edge] = std::ranges::minmax(grid.edge);
   const double g = gravity_of(scene);
-  double pressure = 0, thinnest = std::numeric_limits<double>::infinity(), lightest = thinnest;
-  for (const Group& m : scene.groups) {
-    if (m.kind != GroupKind::melt) continue;
-    thinnest = std::min(thinnest, m.viscosity);
-    lightest = std::min(lightest, m.density);
-  }
+  double pressure = 0;
+  const double thinnest = thinnest_melt(scene);
   const double largest = scene.largest_diameter();
   double smallest = largest;
   for (std::size_t k = 0; k < scene.groups.size(); ++k) {
@@ -50,7 +84,7 @@ SuspensionNeed suspension_need(const Scene& scene, std::span<const std::int64_t>
     if (grains.kind != GroupKind::grain || !(grains.grain.least_radius > 0)) continue;
     smallest = std::min(smallest, 2 * grains.grain.least_radius);
     const double r = grains.grain.largest_radius,
-                 weight = std::fabs(grains.density - lightest) * g * volume_of(r);
+                 weight = largest_excess(scene, grains.density) * g * volume_of(r);
     pressure += static_cast<double>(count[k]) * weight / floor_area(scene);
     need.speed = std::max(need.speed, weight / scene.grains.drag.law->resistance({1, 0, 0, thinnest, 2 * r}));
   }

@@ -201,7 +201,7 @@ std::vector<double> Monitors::values(Simulation& s) const {
         for (double value : values_of_wall(s, monitors[k].wall)) out.push_back(value);
         break;
       case MonitorKind::melt:
-        for (double value : s.melt()->values(s.particles(s.melt()->set()))) out.push_back(value);
+        for (double value : s.melt()->values(s.particles(s.melt()->set()), s.global())) out.push_back(value);
         break;
       case MonitorKind::contacts:
         out.insert(out.end(), {sum[0], sum[1], sum[2] > 0 ? (2 * sum[0] + sum[1]) / sum[2] : none});

@@ -87,7 +87,9 @@ Findings Distribution::outside(const Particles& particles) const {
       std::vector<double> at;
       for (std::size_t a = 0; a < d; ++a) at.push_back(scale_.metres(grid_.wrap(p)[a]));
       return "particle " + std::to_string(id) + " is outside the domain " + place_text(at) +
-             ": enlarge domain.lower or domain.upper";
+             (particles.has(Field::radius)
+                  ? ": give a [[wall]] there, or enlarge domain.lower or domain.upper"
+                  : ": enlarge domain.lower or domain.upper");
     });
   }
   return found;

@@ -254,14 +254,14 @@ std::string suspension_text(const Scene& scene, const Parts& parts, const StartC
   if (!parts.suspension) return {};
   const SuspensionNeed need = suspension_need(scene, count.by_group);
   std::string out = fmt::format(
-      "grains in melts: {} drag, cells are {:.3g} to {:.3g} diameters wide; a grain alone sinks with {:.3g} "
-      "m/s;\n"
+      "grains in melts: {} drag, cells are {:.3g} to {:.3g} diameters wide; a grain alone moves with at most "
+      "{:.3g} m/s;\n"
       "  a bed of all of them would press them {:.3g} radii into each other; a contact relaxes in {:.3g} s\n",
       scene.grains.drag.law->word, need.cells_per_grain[0], need.cells_per_grain[1], need.speed, need.overlap,
       need.relaxation);
   if (need.cells_per_grain[0] < 2)
     out += "warning: cells narrower than two diameters see grains one by one: make them wider\n";
-  if (need.overlap > 0.5 * scene.grains.contact.largest_overlap)
+  if (!(need.overlap < HUGE_VAL) || need.overlap > 0.5 * scene.grains.contact.largest_overlap)
     out += fmt::format("warning: contacts are soft: contact.largest_overlap is {}; raise their stiffness\n",
                        scene.grains.contact.largest_overlap);
   return out;

@@ -93,10 +93,12 @@ struct MotionSums {
   double largest = 0;  ///< of the differences [m/s]
 };
 
-/// When the flow around grains in melts is found anew, in scenes of these; else 0.
+/// The last flow of melts; and in scenes of grains in melts, when it is found anew.
 struct FlowClock {
-  double interval = 0;  ///< from the last flow to the next [s]
-  double left = 0;      ///< of it; 0: the next step begins with a flow [s]
+  double interval = 0;          ///< from the last flow to the next [s]
+  std::int64_t left = 0;        ///< steps of it; 0: the next step begins with a flow
+  std::int64_t iterations = 0;  ///< that the last flow took
+  double residual = 0;          ///< that it was left with
   friend bool operator==(const FlowClock&, const FlowClock&) = default;
 };
 

@@ -46,10 +46,12 @@ class Melt final : public Model {
   /// [K] and C, and the mean of what comes in through each side that is not insulated [K m/s].
   [[nodiscard]] std::vector<std::string> columns() const;
   /// Collective.
-  [[nodiscard]] std::vector<double> values(const Particles& cells);
+  [[nodiscard]] std::vector<double> values(const Particles& cells, const GlobalState& global);
 
  private:
   void flow(StepState& state);
+  /// Throws GuardError.
+  void refuse_senseless(const GlobalState& global, const stokes::Field& rho, const stokes::Field& eta) const;
   void carry(StepState& state);
   void advect_beside_grains(double dt, std::span<stokes::Field* const> with_all);
 
@@ -59,7 +61,6 @@ class Melt final : public Model {
   CellRows rows_;
   bool has_grains_;
   std::unique_ptr<MeltWork> work_;  ///< not made where a scene is only looked at
-  stokes::Effort effort_;
   double courant_step_ =
       any_step;  ///< in which the flow passes `courant` cells, and heat not much of the domain [s]
   Reduction::Maximum courant_rate_;  ///< courant over it is the longest step [1/s]

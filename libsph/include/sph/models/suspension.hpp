@@ -61,6 +61,8 @@ class Suspension final : public Model, public SetPair {
   [[nodiscard]] Around around(const Particles& grains, std::size_t i) const;
   [[nodiscard]] Seen look(const Particles& grains, std::size_t i, const Around& at) const;
 
+  [[nodiscard]] double unit_of(const GlobalState& global, double largest) const;
+  void weigh(const GlobalState& global, const Particles& grains);
   void spread(const StepState& s);
   void see_flow(StepState& s);
   void share_interval(const StepState& s);
@@ -74,7 +76,7 @@ class Suspension final : public Model, public SetPair {
   stokes::Grid cells_;
   GrainGrid grid_;
   struct Units {
-    double force, stiffness, slip;
+    double force, stiffness;
   } unit_{};  ///< of what grains put down
   struct Sizes {
     double cell;          ///< width [m]
@@ -86,6 +88,7 @@ class Suspension final : public Model, public SetPair {
     stokes::Velocity velocity, force, slip;
     stokes::Field solid, viscosity, density, melt_viscosity;
   } seen_;                                              ///< where grains look
+  std::vector<double> excess_;                          ///< of each row, rho_s - rho_f [kg/m^3]
   std::vector<std::array<std::int64_t, 2>> stiffness_;  ///< of each row, normal and tangential [its unit]
 };
 
