@@ -31,8 +31,8 @@ class Level {
 
   /// f - A u with its copies, until the next call of the level; refreshes u.
   [[nodiscard]] const Velocity& residual(const Velocity& f, Velocity& u);
-  /// Improves u towards A u = f; `from_zero`: it is 0.
-  void smooth(const Velocity& f, Velocity& u, bool from_zero);
+  /// Improves u towards A u = f by a polynomial of A; `from_zero`: u is 0.
+  void smooth(const Velocity& f, Velocity& u, int degree, bool from_zero);
 
  private:
   [[nodiscard]] double largest_eigenvalue();

@@ -9,8 +9,6 @@
 namespace stokes {
 namespace {
 
-constexpr int degree = 4;        // of the polynomial
-constexpr double span = 12;      // it smooths [largest / span, largest]
 constexpr int power_steps = 12;  // towards the largest eigenvalue
 constexpr double margin = 1.1;   // above what they find
 
@@ -104,8 +102,11 @@ const Velocity& Level::residual(const Velocity& f, Velocity& u) {
   return r_;
 }
 
-void Level::smooth(const Velocity& f, Velocity& u, bool from_zero) {
-  const double least = largest_ / span, middle = 0.5 * (least + largest_), half = 0.5 * (largest_ - least);
+// Chebyshev's polynomial of degree n divides all within [largest / s, largest] by T_n((s + 1) / (s - 1)): with s = 3/4 n^2
+// by 5, whatever n.
+void Level::smooth(const Velocity& f, Velocity& u, int degree, bool from_zero) {
+  const double span = 0.75 * (degree * degree), least = largest_ / span, middle = 0.5 * (least + largest_),
+               half = 0.5 * (largest_ - least);
   const double sigma = middle / half;
   double rho = 1 / sigma;
   for (int step = 0; step < degree; ++step) {
