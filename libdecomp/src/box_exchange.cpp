@@ -62,11 +62,16 @@ std::size_t cell_count(const Box& box) {
   return n;
 }
 
-BoxExchange::BoxExchange(const Comm& comm, const Int3& cells, const std::array<bool, 3>& periodic,
-                         std::span<const Box> from, std::span<const Box> to)
-    : comm_(&comm) {
-  const auto size = static_cast<std::size_t>(comm.size()), me = static_cast<std::size_t>(comm.rank());
-  if (from.size() != size || to.size() != size) throw std::logic_error("boxes of all ranks are needed");
+std::size_t cell_count(std::span<const BoxPart> parts) {
+  std::size_t n = 0;
+  for (const BoxPart& part : parts) n += cell_count(part.cells);
+  return n;
+}
+
+std::vector<BoxPeer> box_peers(Rank rank, const Int3& cells, const std::array<bool, 3>& periodic,
+                               std::span<const Box> from, std::span<const Box> to) {
+  const std::size_t size = from.size();
+  const auto me = static_cast<std::size_t>(rank);
   Box most{{}, cells};
   for (std::size_t r = 0; r < size; ++r)
     if (!from[r].empty() && !holds(most, from[r])) throw std::logic_error("an owner's box leaves the grid");
@@ -84,7 +89,7 @@ BoxExchange::BoxExchange(const Comm& comm, const Int3& cells, const std::array<b
     shifts = std::move(more);
   }
   const auto overlaps = [&](const Box& owned, const Box& wanted) {
-    std::vector<Part> parts;
+    std::vector<BoxPart> parts;
     for (const Int3& s : shifts) {
       const Box common = intersection(moved(owned, s), wanted);
       if (!common.empty()) parts.push_back({moved(common, {-s[0], -s[1], -s[2]}), s});
@@ -93,54 +98,52 @@ BoxExchange::BoxExchange(const Comm& comm, const Int3& cells, const std::array<b
   };
   for (std::size_t k = 0; k < 3; ++k)
     if (!periodic[k]) most.lo[k] = INT64_MIN, most.hi[k] = INT64_MAX;
+  std::vector<BoxPeer> peers;
   for (std::size_t r = 0; r < size; ++r) {
     if (!to[r].empty() && !holds(most, to[r])) throw std::logic_error("a box reaches over a whole period");
     if (r != me && !intersection(from[r], from[me]).empty()) throw std::logic_error("a cell has two owners");
-    Peer peer{static_cast<Rank>(r), overlaps(from[me], to[r]), overlaps(from[r], to[me]), {}, {}};
-    if (!peer.send.empty() || !peer.receive.empty()) peers_.push_back(std::move(peer));
+    BoxPeer peer{static_cast<Rank>(r), overlaps(from[me], to[r]), overlaps(from[r], to[me])};
+    if (!peer.send.empty() || !peer.receive.empty()) peers.push_back(std::move(peer));
   }
+  return peers;
+}
+
+BoxExchange::BoxExchange(const Comm& comm, const Int3& cells, const std::array<bool, 3>& periodic,
+                         std::span<const Box> from, std::span<const Box> to)
+    : comm_(&comm) {
+  const auto size = static_cast<std::size_t>(comm.size());
+  if (from.size() != size || to.size() != size) throw std::logic_error("boxes of all ranks are needed");
+  for (BoxPeer& peer : box_peers(comm.rank(), cells, periodic, from, to))
+    peers_.push_back({std::move(peer), {}, {}});
 }
 
 namespace {
 
 /// Cells of a part in the frame of their owner, or of who gets them.
 struct AtOwner {
-  template <class P>
-  Box operator()(const P& part) const {
-    return part.cells;
-  }
+  Box operator()(const BoxPart& part) const { return part.cells; }
 };
 struct AtCopy {
-  template <class P>
-  Box operator()(const P& part) const {
-    return moved(part.cells, part.shift);
-  }
+  Box operator()(const BoxPart& part) const { return moved(part.cells, part.shift); }
 };
 
-template <class P>
-std::size_t cells_of(const std::vector<P>& parts) {
-  std::size_t n = 0;
-  for (const P& part : parts) n += cell_count(part.cells);
-  return n;
-}
-
-template <class P, class Place>
-void pack(std::span<const CellValues> values, const std::vector<P>& parts, Place place,
+template <class Place>
+void pack(std::span<const CellValues> values, const std::vector<BoxPart>& parts, Place place,
           std::vector<std::byte>& out) {
   out.clear();
   for (const CellValues& v : values)
-    for (const P& part : parts)
+    for (const BoxPart& part : parts)
       for_lines(v, place(part),
                 [&](const std::byte* line, std::size_t bytes) { out.insert(out.end(), line, line + bytes); });
 }
 
 /// put(line of cells, its part of the message, bytes).
-template <class P, class Place, class Put>
-void unpack(std::span<const CellValues> values, const std::vector<P>& parts, Place place,
+template <class Place, class Put>
+void unpack(std::span<const CellValues> values, const std::vector<BoxPart>& parts, Place place,
             std::span<const std::byte> in, Put put) {
   const std::byte* at = in.data();
   for (const CellValues& v : values)
-    for (const P& part : parts)
+    for (const BoxPart& part : parts)
       for_lines(v, place(part), [&](std::byte* line, std::size_t bytes) {
         put(line, at, bytes);
         at += bytes;
@@ -148,11 +151,10 @@ void unpack(std::span<const CellValues> values, const std::vector<P>& parts, Pla
 }
 
 /// Where both are one array its owner's cells are not copied onto themselves.
-template <class P>
-std::vector<P> without_own(std::vector<P> parts, std::span<const CellValues> a,
-                           std::span<const CellValues> b) {
+std::vector<BoxPart> without_own(std::vector<BoxPart> parts, std::span<const CellValues> a,
+                                 std::span<const CellValues> b) {
   if (!a.empty() && a.front().data == b.front().data)
-    std::erase_if(parts, [](const P& part) { return part.shift == Int3{}; });
+    std::erase_if(parts, [](const BoxPart& part) { return part.shift == Int3{}; });
   return parts;
 }
 
@@ -161,14 +163,14 @@ std::vector<P> without_own(std::vector<P> parts, std::span<const CellValues> a,
 std::size_t BoxExchange::cells_sent() const {
   std::size_t n = 0;
   for (const Peer& peer : peers_)
-    if (!is_self(peer)) n += cells_of(peer.send);
+    if (!is_self(peer)) n += cell_count(peer.send);
   return n;
 }
 
-void BoxExchange::start(std::vector<Part> Peer::*in, std::size_t width, int tag) {
+void BoxExchange::start(std::vector<BoxPart> BoxPeer::*in, std::size_t width, int tag) {
   for (Peer& peer : peers_) {
     if (is_self(peer)) continue;
-    peer.in.resize(cells_of(peer.*in) * width);
+    peer.in.resize(cell_count(peer.*in) * width);
     start_receive(*comm_, peer.in, peer.rank, tag, requests_);
   }
   for (Peer& peer : peers_)
@@ -182,13 +184,13 @@ void BoxExchange::begin(std::span<const CellValues> from, std::span<const CellVa
   std::size_t width = 0;
   for (const CellValues& v : from) width += v.width;
   for (Peer& peer : peers_) {
-    const std::vector<Part> parts = is_self(peer) ? without_own(peer.send, from, to) : peer.send;
+    const std::vector<BoxPart> parts = is_self(peer) ? without_own(peer.send, from, to) : peer.send;
     pack(from, parts, AtOwner{}, peer.out);
     if (is_self(peer))
       unpack(to, parts, AtCopy{}, peer.out,
              [](std::byte* line, const std::byte* in, std::size_t bytes) { std::memcpy(line, in, bytes); });
   }
-  start(&Peer::receive, width, copy_tag);
+  start(&BoxPeer::receive, width, copy_tag);
 }
 
 void BoxExchange::end() {
@@ -210,7 +212,7 @@ void BoxExchange::fold(std::span<const CellValues> to, std::span<const CellValue
   }
   for (Peer& peer : peers_)
     pack(to, is_self(peer) ? without_own(peer.receive, to, from) : peer.receive, AtCopy{}, peer.out);
-  start(&Peer::send, width, fold_tag);
+  start(&BoxPeer::send, width, fold_tag);
   wait_all(requests_);
   for (Peer& peer : peers_)
     if (is_self(peer))

@@ -29,6 +29,21 @@ template <class T>
 }
 [[nodiscard]] std::size_t cell_count(const Box& box);  ///< 0 of an empty one
 
+/// Cells of an owner, which are at x + shift in the frame of who gets them.
+struct BoxPart {
+  Box cells;
+  Int3 shift;
+};
+/// What one rank sends to another, which may be itself, and gets from it: by shift, the same order on both sides.
+struct BoxPeer {
+  Rank rank;
+  std::vector<BoxPart> send, receive;
+};
+/// Peers of rank `me`, ascending, of an exchange between boxes of all ranks (BoxExchange). Looks at every rank.
+[[nodiscard]] std::vector<BoxPeer> box_peers(Rank me, const Int3& cells, const std::array<bool, 3>& periodic,
+                                             std::span<const Box> from, std::span<const Box> to);
+[[nodiscard]] std::size_t cell_count(std::span<const BoxPart> parts);
+
 class BoxExchange {
  public:
   /// Boxes of all ranks [cells]. Those of `from` lie in the grid and share no cell. Those of `to` may overlap, and reach
@@ -52,18 +67,11 @@ class BoxExchange {
   [[nodiscard]] std::size_t cells_sent() const;  ///< to other ranks
 
  private:
-  /// Cells of an owner, which are at x + shift in the frame of who gets them.
-  struct Part {
-    Box cells;
-    Int3 shift;
-  };
-  struct Peer {
-    Rank rank;
-    std::vector<Part> send, receive;  ///< by shift, the same order on both sides
+  struct Peer : BoxPeer {
     std::vector<std::byte> out, in;
   };
   [[nodiscard]] bool is_self(const Peer& peer) const { return peer.rank == comm_->rank(); }
-  void start(std::vector<Part> Peer::*in, std::size_t width, int tag);
+  void start(std::vector<BoxPart> BoxPeer::*in, std::size_t width, int tag);
 
   const Comm* comm_;
   std::vector<Peer> peers_;  ///< ascending rank

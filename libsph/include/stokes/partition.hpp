@@ -13,4 +13,14 @@ inline constexpr std::int64_t tile = 8;  ///< cells along an axis; less where th
 /// Boxes of all ranks, those beyond as many as there are tiles for being empty.
 [[nodiscard]] std::vector<Box> even_boxes(const Grid& grid, int ranks);
 
+/// A grid of twice as wide cells. Its values are first where their finer ones are, `halves`, then go down to those who have
+/// them, `boxes`, and what is found of them back up to those around `halves`.
+struct CoarseGrid {
+  Grid grid;
+  bool everywhere = false;  ///< every rank has all of it, and nothing goes back
+  std::vector<Box> halves, boxes;
+};
+/// All that follow from the finest grid, whose boxes are those of all ranks, down to the coarsest.
+[[nodiscard]] std::vector<CoarseGrid> coarse_grids(const Grid& finest, const std::vector<Box>& boxes);
+
 }  // namespace stokes

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "decomp/box_exchange.hpp"
 #include "decomp/partition.hpp"
 
 namespace stokes {
@@ -14,7 +15,51 @@ std::int64_t tile_of(std::int64_t cells) {
   return t;
 }
 
+constexpr std::int64_t coarsest = 4;         // cells along the shortest axis, at least
+constexpr std::int64_t on_all_ranks = 4096;  // as few cells every rank has
+
+bool can_be_halved(const Grid& g) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(g.dim); ++a)
+    if (g.cells[a] % 2 != 0 || g.cells[a] / 2 < coarsest) return false;
+  return true;
+}
+
+bool are_even(const std::vector<Box>& boxes, int dim) {
+  return std::ranges::all_of(boxes, [&](const Box& b) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
+      if (b.lo[a] % 2 != 0 || b.hi[a] % 2 != 0) return false;
+    return true;
+  });
+}
+
+std::vector<Box> halves_of(std::vector<Box> boxes, int dim) {
+  for (Box& b : boxes)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) b.lo[a] /= 2, b.hi[a] /= 2;
+  return boxes;
+}
+
 }  // namespace
+
+std::vector<CoarseGrid> coarse_grids(const Grid& finest, const std::vector<Box>& boxes) {
+  std::vector<CoarseGrid> out;
+  Grid grid = finest;
+  std::vector<Box> fine = boxes;
+  while (can_be_halved(grid)) {
+    grid = grid.halved();
+    const auto ranks = static_cast<int>(fine.size());
+    CoarseGrid next{
+        grid, decomp::cell_count(grid.box()) <= on_all_ranks, halves_of(std::move(fine), grid.dim), {}};
+    if (next.everywhere)
+      next.boxes.assign(next.halves.size(), grid.box());
+    else
+      next.boxes =
+          are_even(next.halves, grid.dim) ? next.halves : even_boxes(grid, ranks / (1 << grid.dim) + 1);
+    next.boxes.resize(static_cast<std::size_t>(ranks));
+    fine = next.everywhere ? std::vector<Box>{grid.box()} : next.boxes;
+    out.push_back(std::move(next));
+  }
+  return out;
+}
 
 std::vector<Box> even_boxes(const Grid& grid, int ranks) {
   const std::int64_t row = tile_of(grid.cells[0]), column = tile_of(grid.cells[1]);
