@@ -26,6 +26,16 @@ struct Scaling {
 };
 void predict_scaling(const Scaling& options);
 
+struct FlowPrediction {
+  std::vector<int> ranks{1000, 10000, 100000};
+  int iterations = 8, cells = 32;  ///< across the grid that is measured
+  double tiles = 2;                ///< columns of 8 x 8 cells a rank, at least
+  bool check = false;              ///< one flow on this many ranks of MPI instead
+  Network network;
+};
+/// A flow of melts. Collective.
+void predict_flow(const FlowPrediction& options);
+
 /// What the model says of runs that were done, beside what they measured. Particles are where the last
 /// snapshot has them, cuts those of the end; particle and row costs are those of the first run.
 void check_model(const std::vector<std::filesystem::path>& runs, const Network& network);

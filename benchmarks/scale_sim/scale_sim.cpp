@@ -4,6 +4,8 @@
 //     build/bin/scale_sim policies [--ranks 16 64 256 484] [--noise 0.02] [--slow-rank R] [--calls 300]
 //     build/bin/scale_sim scaling RUN [--ranks 1000 10000 100000]    RUN: folder of a run on few ranks
 //     build/bin/scale_sim check RUN...                               the model beside runs that were done
+//     build/bin/scale_sim flow [--ranks 1000 10000 100000] [--tiles 2]  a flow of melts
+//     mpirun -n 4 build/bin/scale_sim flow --check                   what it sends beside what it was said to
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -48,10 +50,24 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::ExistingDirectory);
   add_network(check);
+
+  FlowPrediction flow;
+  CLI::App* of_melts = app.add_subcommand("flow", "one flow of melts by the model");
+  of_melts->add_option("--ranks", flow.ranks, "numbers of ranks")->check(CLI::Range(2, 1 << 30));
+  of_melts->add_option("--iterations", flow.iterations, "of the solver")->check(CLI::Range(1, 40));
+  of_melts->add_option("--cells", flow.cells, "across the grid that is measured")->check(CLI::Range(16, 512));
+  of_melts->add_option("--tiles", flow.tiles, "columns of 8 x 8 cells a rank, at least")
+      ->check(CLI::PositiveNumber);
+  of_melts->add_flag("--check", flow.check, "one flow, counted, on the ranks that there are");
+  add_network(of_melts);
   if (const auto code = parse(app, argc, argv)) return *code;
 
   if (table.slow_rank >= *std::ranges::min_element(table.ranks))
     return refuse(app, fmt::format("--slow-rank: there is no rank {}", table.slow_rank));
+  if (*of_melts) {
+    flow.network = network;
+    return run_under_mpi(app, argc, argv, [&] { predict_flow(flow); });
+  }
   try {
     if (*policies) compare_policies(table);
     scaling.network = network;
