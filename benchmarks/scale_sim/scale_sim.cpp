@@ -14,17 +14,33 @@
 #include "../program.hpp"
 #include "commands.hpp"
 
+namespace {
+
+void add_network(CLI::App* command, scale_sim::Network& network) {
+  command->add_option("--latency", network.latency, "of a message [s]")->check(CLI::PositiveNumber);
+  command->add_option("--bandwidth", network.bandwidth, "of a rank while all send [bytes/s]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--disk", network.disk, "of the file system [bytes/s]")->check(CLI::PositiveNumber);
+}
+
+CLI::App* add_flow(CLI::App& app, scale_sim::FlowPrediction& flow) {
+  CLI::App* of_melts = app.add_subcommand("flow", "one flow of melts by the model");
+  of_melts->add_option("--ranks", flow.ranks, "numbers of ranks")->check(CLI::Range(2, 1 << 30));
+  of_melts->add_option("--iterations", flow.iterations, "of the solver")->check(CLI::Range(1, 40));
+  of_melts->add_option("--cells", flow.cells, "across the grid that is measured")->check(CLI::Range(16, 512));
+  of_melts->add_option("--tiles", flow.tiles, "columns of 8 x 8 cells a rank, at least")
+      ->check(CLI::PositiveNumber);
+  of_melts->add_flag("--check", flow.check, "one flow, counted, on the ranks that there are");
+  return of_melts;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace scale_sim;
   CLI::App app("Balancers and scaling without particles", "scale_sim");
   app.require_subcommand(1);
   Network network;
-  const auto add_network = [&](CLI::App* command) {
-    command->add_option("--latency", network.latency, "of a message [s]")->check(CLI::PositiveNumber);
-    command->add_option("--bandwidth", network.bandwidth, "of a rank while all send [bytes/s]")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--disk", network.disk, "of the file system [bytes/s]")->check(CLI::PositiveNumber);
-  };
 
   PolicyTable table;
   CLI::App* policies = app.add_subcommand("policies", "balancers on synthetic costs");
@@ -42,24 +58,18 @@ int main(int argc, char** argv) {
   predict->add_option("--particles-per-rank", scaling.particles_per_rank, "of the weak scaling")
       ->check(CLI::PositiveNumber);
   predict->add_option("--particles", scaling.particles, "of the strong scaling")->check(CLI::PositiveNumber);
-  add_network(predict);
+  add_network(predict, network);
 
   std::vector<std::filesystem::path> runs;
   CLI::App* check = app.add_subcommand("check", "the model beside runs that were done");
   check->add_option("run", runs, "folders; the first gives the costs of a particle")
       ->required()
       ->check(CLI::ExistingDirectory);
-  add_network(check);
+  add_network(check, network);
 
   FlowPrediction flow;
-  CLI::App* of_melts = app.add_subcommand("flow", "one flow of melts by the model");
-  of_melts->add_option("--ranks", flow.ranks, "numbers of ranks")->check(CLI::Range(2, 1 << 30));
-  of_melts->add_option("--iterations", flow.iterations, "of the solver")->check(CLI::Range(1, 40));
-  of_melts->add_option("--cells", flow.cells, "across the grid that is measured")->check(CLI::Range(16, 512));
-  of_melts->add_option("--tiles", flow.tiles, "columns of 8 x 8 cells a rank, at least")
-      ->check(CLI::PositiveNumber);
-  of_melts->add_flag("--check", flow.check, "one flow, counted, on the ranks that there are");
-  add_network(of_melts);
+  CLI::App* of_melts = add_flow(app, flow);
+  add_network(of_melts, network);
   if (const auto code = parse(app, argc, argv)) return *code;
 
   if (table.slow_rank >= *std::ranges::min_element(table.ranks))

@@ -138,7 +138,9 @@ inline decomp::Payload make_history(const Particles& particles) {
   return history;
 }
 
-inline GlobalState make_global() { return {1200, 0.1, 1.0 / 3, 2.5, 9.81, {}, {}, {}, {0.4, 7, 12, 1.0 / 7}}; }
+inline GlobalState make_global() {
+  return {1200, 0.1, 1.0 / 3, 2.5, 9.81, {}, {}, {}, {0.4, 7, 12, 1.0 / 7}};
+}
 inline PositionScale make_scale() { return {0x1p-20, {-100, -200, 0}}; }
 inline Wrap make_wrap() { return {{-100, -200, 0}, {400, 0, 0}}; }
 

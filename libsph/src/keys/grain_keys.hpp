@@ -56,7 +56,8 @@ inline constexpr auto drag_keys = std::to_array<Key>({
      at<&DragControl::own_disturbance>},
     {"packed_fraction",
      Number{dimension::none, {.least = 0.1, .most = 1, .is = "it is a share of the volume,"}},
-     "phi_m: viscosity rises with the share phi of grains as 1 + 2.5 phi / (1 - phi / phi_m), with 0.05 at least below the line.",
+     "phi_m: viscosity rises with the share phi of grains as 1 + 2.5 phi / (1 - phi / phi_m), with 0.05 at "
+     "least below the line.",
      at<&DragControl::packed_fraction>, of_suspensions},
 });
 inline constexpr Table<DragControl> drag{{"drag", false,

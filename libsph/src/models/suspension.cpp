@@ -100,7 +100,7 @@ void Suspension::rebuild(const Particles&, const ListSetting& s, const decomp::P
 
 Suspension::Around Suspension::around(const Particles& grains, std::size_t i) const {
   Around at{grid_.kernel(grains.data<Field::position>() + 3 * i), volume_of(grains.data<Field::radius>()[i]),
-            excess_[i]};
+            of_.excess[i]};
   for (std::size_t a = 0; a < 3; ++a) at.weight[a] = at.volume * at.excess * scene_->domain.gravity[a];
   return at;
 }
@@ -117,13 +117,13 @@ double Suspension::unit_of(const GlobalState& global, double largest) const {
 
 /// Sets the excess of each grain, and the unit of what drives them.
 void Suspension::weigh(const GlobalState& global, const Particles& grains) {
-  excess_.resize(grains.owned());
+  of_.excess.resize(grains.owned());
   double largest = 0;
   for (std::size_t i = 0; i < grains.owned(); ++i) {
     const GridKernel kernel = grid_.kernel(grains.data<Field::position>() + 3 * i);
-    excess_[i] =
+    of_.excess[i] =
         scene_->groups[grains.data<Field::group>()[i]].density - grid_.mean(kernel, centres, seen_.density);
-    const double weight = volume_of(grains.data<Field::radius>()[i]) * excess_[i];
+    const double weight = volume_of(grains.data<Field::radius>()[i]) * of_.excess[i];
     for (std::size_t a = 0; a < 3; ++a) {
       const double force = std::fabs(weight * scene_->domain.gravity[a]) +
                            std::fabs(grains.data<Field::contact_force>()[3 * i + a]);
@@ -142,8 +142,8 @@ void Suspension::spread(const StepState& s) {
       {{&density, centres, GrainGrid::Behind::same, &seen_.density},
        {&viscosity, centres, GrainGrid::Behind::same, &seen_.melt_viscosity}}};
   grid_.copy(of_melt, melt_->work().patch());
-  stiffness_ = stiffness_of_rows(*scene_, contacts_->pairs().lists(), grains, contacts_->table(),
-                                 contacts_->walls().now(s.global), scale_.quantum, unit_.stiffness);
+  of_.stiffness = stiffness_of_rows(*scene_, contacts_->pairs().lists(), grains, contacts_->table(),
+                                    contacts_->walls().now(s.global), scale_.quantum, unit_.stiffness);
   weigh(s.global, grains);
   std::array<GrainGrid::Deposit, 6> sums;
   for (GrainGrid::Deposit& d : sums) d = grid_.make_deposit();
@@ -156,7 +156,8 @@ void Suspension::spread(const StepState& s) {
     grid_.spread(at.kernel, centres, volume, solid);
     grid_.spread(at.kernel, centres, volume * at.excess / heaviest, excess);
     // Half of a contact's (k_n + 3/2 k_t) d^2 / 15 is each partner's; d^2 / 15 comes with the unit.
-    const double k = static_cast<double>(stiffness_[i][0]) + 1.5 * static_cast<double>(stiffness_[i][1]);
+    const double k =
+        static_cast<double>(of_.stiffness[i][0]) + 1.5 * static_cast<double>(of_.stiffness[i][1]);
     const double share = d / scene_->largest_diameter();
     grid_.spread(at.kernel, centres, 0.5 * k * (share * share) * 0x1p-10, stiffness);
     const double* contacts = grains.data<Field::contact_force>() + 3 * i;

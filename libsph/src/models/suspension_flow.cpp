@@ -127,8 +127,8 @@ void Suspension::share_interval(const StepState& s) {
     const double* f = grains.data<Field::contact_force>() + 3 * i;
     const double moves = grains.data<Field::mobility>()[2 * i],
                  turns = grains.data<Field::mobility>()[2 * i + 1];
-    const double normal = static_cast<double>(stiffness_[i][0]) * unit_.stiffness;
-    const double tangential = static_cast<double>(stiffness_[i][1]) * unit_.stiffness;
+    const double normal = static_cast<double>(of_.stiffness[i][0]) * unit_.stiffness;
+    const double tangential = static_cast<double>(of_.stiffness[i][1]) * unit_.stiffness;
     rates[0] = std::max({rates[0], 2 * moves * std::max(normal, size_.to_come),
                          2 * (moves + turns * r * r) * tangential,
                          2 * 2.25 * rolling * rolling * r * r * turns * normal});

@@ -87,9 +87,11 @@ class Suspension final : public Model, public SetPair {
   struct Fields {
     stokes::Velocity velocity, force, slip;
     stokes::Field solid, viscosity, density, melt_viscosity;
-  } seen_;                                              ///< where grains look
-  std::vector<double> excess_;                          ///< of each row, rho_s - rho_f [kg/m^3]
-  std::vector<std::array<std::int64_t, 2>> stiffness_;  ///< of each row, normal and tangential [its unit]
+  } seen_;  ///< where grains look
+  struct Rows {
+    std::vector<double> excess;                          ///< rho_s - rho_f [kg/m^3]
+    std::vector<std::array<std::int64_t, 2>> stiffness;  ///< of contacts, normal and tangential [its unit]
+  } of_;                                                 ///< each grain
 };
 
 }  // namespace sph
