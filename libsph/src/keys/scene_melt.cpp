@@ -89,7 +89,7 @@ void check_heat(const MeltReader& table, const Scene& scene) {
   for (const Group& g : scene.groups)
     weightless = weightless || (g.kind == GroupKind::melt && too_warm(g.melt.temperature));
   for (const MeltSide& s : melt.sides) weightless = weightless || (s.temperature && too_warm(*s.temperature));
-  if (weightless)
+  if (weightless && scene.is_suspension())
     table.fail("expansion", fmt::format("is {} 1/K: the warmest melt would weigh nothing", melt.expansion),
                "reduce it, or raise reference_temperature");
   if (melt.profile != MeltProfile::conductive) return;
