@@ -4,14 +4,15 @@
 #include <chrono>
 
 #include "decomp/box_exchange.hpp"
+#include "stokes/multigrid.hpp"
 
 namespace scale_sim {
 namespace {
 
 using decomp::Box;
 
-// As in libsph/src/stokes: level.cpp (polynomial, power iteration), solver.cpp, exact_sum.hpp.
-constexpr double smoothing = 4, power_steps = 12, number = 8, exact_sum = 69 * 8;
+// As in libsph/src/stokes: level.cpp (power iteration), solver.cpp, exact_sum.hpp.
+constexpr double power_steps = 12, number = 8, exact_sum = 69 * 8;
 
 std::vector<int> some_of(int ranks, int most) {
   std::vector<int> out;
@@ -106,7 +107,8 @@ FlowTraffic flow_traffic(const stokes::Grid& grid, int ranks, int iterations, in
     out.reduced.times += power_steps;
     out.reduced.bytes += power_steps * number;
     if (k < coarse.size())
-      add_times(halo, n * (2 * smoothing - 1 + 2), velocity);  // two of them for the residual
+      add_times(halo, n * (2 * stokes::smoothing_degree(k) - 1 + 2),
+                velocity);  // two of them for the residual
     if (k == 0) {
       add_times(halo, n + 2, velocity);  // the operator, at the begin and the end too
       add_times(halo, 2 * n + 2, number);

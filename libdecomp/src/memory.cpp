@@ -12,8 +12,7 @@ void return_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 16 << 20);  // setting it stops it from growing
 #endif
 #if defined(M_TRIM_THRESHOLD)
-  mallopt(M_TRIM_THRESHOLD,
-          64 << 20);  // smaller blocks, taken again and again, would cost page faults each time
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);  // what is taken again and again would fault its pages in each time
 #endif
 }
 

@@ -10,6 +10,11 @@
 
 namespace stokes {
 
+/// Of the polynomial that smooths a level, 0 the finest. Coarse viscosities are means, of which a coarse grid corrects
+/// worse than the finest one: with one degree for all, iterations grow with depth where viscosity jumps. Work that grows
+/// towards coarse levels stops that (variable V-cycle, Bramble & Pasciak 1987) and costs little, as these have few cells.
+[[nodiscard]] int smoothing_degree(std::size_t level);
+
 /// Throws decomp::InputError for a number of cells that is not m 2^k with m <= 7 along each axis.
 void check_cells(const Grid& grid);
 

@@ -13,6 +13,10 @@ inline constexpr std::int64_t tile = 8;  ///< cells along an axis; less where th
 /// Boxes of all ranks, those beyond as many as there are tiles for being empty.
 [[nodiscard]] std::vector<Box> even_boxes(const Grid& grid, int ranks);
 
+inline constexpr std::int64_t least_coarsest = 4;  ///< cells along the shortest axis of the coarsest grid
+/// Halved as long as its cells are even in number and not too few.
+[[nodiscard]] Grid coarsest_grid(Grid grid);
+
 /// A grid of twice as wide cells. Its values are first where their finer ones are, `halves`, then go down to those who have
 /// them, `boxes`, and what is found of them back up to those around `halves`.
 struct CoarseGrid {

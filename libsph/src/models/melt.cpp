@@ -172,7 +172,7 @@ void Melt::refuse_senseless(const GlobalState& global, const stokes::Field& rho,
     ends[2] = std::max(ends[2], eta[k]);
   });
   comm_->max(ends);
-  if (has_grains_ && !(ends[0] < 0))  // without grains only differences count
+  if (has_grains_ && !(ends[0] < 0))  // without grains only differences of density count
     throw GuardError(
         fmt::format("{}a melt's density is {:.4g} kg/m^3: melt.expansion is too much for so warm a "
                     "melt, reduce it or raise melt.reference_temperature",

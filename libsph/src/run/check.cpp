@@ -261,7 +261,7 @@ std::string suspension_text(const Scene& scene, const Parts& parts, const StartC
       need.relaxation);
   if (need.cells_per_grain[0] < 2)
     out += "warning: cells narrower than two diameters see grains one by one: make them wider\n";
-  if (!(need.overlap < HUGE_VAL) || need.overlap > 0.5 * scene.grains.contact.largest_overlap)
+  if (!(need.overlap <= 0.5 * scene.grains.contact.largest_overlap))
     out += fmt::format("warning: contacts are soft: contact.largest_overlap is {}; raise their stiffness\n",
                        scene.grains.contact.largest_overlap);
   return out;

@@ -11,36 +11,9 @@
 namespace stokes {
 namespace {
 
-constexpr std::int64_t coarsest = 4;         // cells along the shortest axis, at least
-constexpr std::int64_t most_coarsest = 7;    // ... along any, at most
-constexpr std::int64_t on_all_ranks = 4096;  // as few cells every rank has
-
-/// Of the polynomial that smooths level k. Coarse viscosities are means, of which a coarse grid corrects worse than the
-/// finest one: with one degree for all, iterations grow with depth where viscosity jumps. Work per cycle that grows
-/// towards coarse levels stops that (variable V-cycle, Bramble & Pasciak 1987) and costs little, as these have few cells.
-int degree_of(std::size_t k) { return k == 0 ? 4 : 8; }
+constexpr std::int64_t most_coarsest = 7;  // cells along any axis of the coarsest grid, at most
 
 std::int64_t count(const Grid& g) { return g.cells[0] * g.cells[1] * g.cells[2]; }
-
-bool can_be_halved(const Grid& g) {
-  for (std::size_t a = 0; a < static_cast<std::size_t>(g.dim); ++a)
-    if (g.cells[a] % 2 != 0 || g.cells[a] / 2 < coarsest) return false;
-  return true;
-}
-
-bool are_even(const std::vector<Box>& boxes, int dim) {
-  return std::ranges::all_of(boxes, [&](const Box& b) {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
-      if (b.lo[a] % 2 != 0 || b.hi[a] % 2 != 0) return false;
-    return true;
-  });
-}
-
-std::vector<Box> halves_of(std::vector<Box> boxes, int dim) {
-  for (Box& b : boxes)
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) b.lo[a] /= 2, b.hi[a] /= 2;
-  return boxes;
-}
 
 std::string cells_text(const Grid& g) {
   std::string text = std::to_string(g.cells[0]);
@@ -51,45 +24,37 @@ std::string cells_text(const Grid& g) {
 
 }  // namespace
 
+int smoothing_degree(std::size_t level) { return level == 0 ? 4 : 8; }
+
 void check_cells(const Grid& grid) {
-  Grid last = grid;
-  while (can_be_halved(last)) last = last.halved();
+  const Grid last = coarsest_grid(grid);
   const auto [least, most] = std::minmax_element(last.cells.begin(), last.cells.begin() + grid.dim);
-  if (*most <= most_coarsest && *least >= coarsest && last.cells != grid.cells) return;
+  if (*most <= most_coarsest && *least >= least_coarsest && last.cells != grid.cells) return;
   throw decomp::InputError("makes a grid of " + cells_text(grid) + " cells, which can be halved to " +
                            cells_text(last) +
                            " only; take m 2^k cells along each axis with the same k of 1 or more, m from " +
-                           std::to_string(coarsest) + " to " + std::to_string(most_coarsest));
+                           std::to_string(least_coarsest) + " to " + std::to_string(most_coarsest));
 }
 
 Multigrid::Multigrid(const decomp::Comm& comm, const Grid& grid, std::vector<Box> boxes)
     : alone_(MPI_COMM_SELF) {
   check_cells(grid);
+  std::vector<CoarseGrid> grids = coarse_grids(grid, boxes);
   levels_.push_back(std::make_unique<Level>(comm, grid, std::move(boxes)));
-  while (can_be_halved(levels_.back()->grid())) {
-    const Level& fine = *levels_.back();
-    const Grid coarse = fine.grid().halved();
-    const bool everywhere = count(coarse) <= on_all_ranks;
-    const std::vector<Box> halves = halves_of(fine.boxes(), coarse.dim);
-    std::vector<Box> next{coarse.box()};
-    if (!everywhere)
-      next = are_even(halves, coarse.dim) ? halves
-                                          : even_boxes(coarse, fine.comm().size() / (1 << coarse.dim) + 1);
-    if (!everywhere) next.resize(static_cast<std::size_t>(fine.comm().size()));
-    const decomp::Comm& whose = everywhere ? alone_ : fine.comm();
+  for (CoarseGrid& g : grids) {
+    const decomp::Comm &fine = levels_.back()->comm(), &whose = g.everywhere ? alone_ : fine;
+    const auto me = static_cast<std::size_t>(fine.rank());
+    const Grid& coarse = g.grid;
     // Each rank gets what it needs of the coarser grid around its own cells.
-    const auto me = static_cast<std::size_t>(fine.comm().rank());
-    std::vector<Box> wanted_down = next, wanted_up = frames_of(coarse, halves);
-    if (everywhere) wanted_down.assign(static_cast<std::size_t>(fine.comm().size()), coarse.box());
-    if (everywhere) wanted_up = {wanted_up[me]};
-    transfers_.push_back(std::make_unique<Transfer>(
-        Transfer{Patch(coarse, halves[me]),
-                 decomp::BoxExchange(fine.comm(), coarse.cells, coarse.periodic_axes(), halves, wanted_down),
-                 decomp::BoxExchange(whose, coarse.cells, coarse.periodic_axes(), next, wanted_up),
-                 {},
-                 {},
-                 {}}));
-    levels_.push_back(std::make_unique<Level>(whose, coarse, next));
+    std::vector<Box> around = frames_of(coarse, g.halves);
+    if (g.everywhere) around = {around[me]};
+    Patch half(coarse, g.halves[me]);
+    decomp::BoxExchange down(fine, coarse.cells, coarse.periodic_axes(), g.halves, g.boxes);
+    if (g.everywhere) g.boxes = {coarse.box()};
+    decomp::BoxExchange up(whose, coarse.cells, coarse.periodic_axes(), g.boxes, around);
+    levels_.push_back(std::make_unique<Level>(whose, coarse, std::move(g.boxes)));
+    transfers_.push_back(
+        std::make_unique<Transfer>(Transfer{std::move(half), std::move(down), std::move(up), {}, {}, {}}));
     Transfer& t = *transfers_.back();
     for (std::size_t a = 0; a < static_cast<std::size_t>(coarse.dim); ++a)
       t.halves[a].assign(t.half.size, 0.0);
@@ -141,7 +106,7 @@ void Multigrid::cycle(const Velocity& f, Velocity& u) { cycle(0, f, u); }
 void Multigrid::cycle(std::size_t k, const Velocity& f, Velocity& u) {
   Level& level = *levels_[k];
   if (k + 1 == levels_.size()) return solve_coarsest(f, u);
-  level.smooth(f, u, degree_of(k), true);
+  level.smooth(f, u, smoothing_degree(k), true);
   Transfer& t = *transfers_[k];
   const Velocity& r = level.residual(f, u);
   std::vector<Field*> from, to;
@@ -163,7 +128,7 @@ void Multigrid::cycle(std::size_t k, const Velocity& f, Velocity& u) {
   for (int a = 0; a < level.grid().dim; ++a)
     add_prolonged(t.half, a, t.halves[static_cast<std::size_t>(a)], level.patch(),
                   u[static_cast<std::size_t>(a)]);
-  level.smooth(f, u, degree_of(k), false);
+  level.smooth(f, u, smoothing_degree(k), false);
 }
 
 // Column by column, A of a unit vector. Where a constant velocity meets no resistance, its square is added: what a

@@ -15,12 +15,11 @@ std::int64_t tile_of(std::int64_t cells) {
   return t;
 }
 
-constexpr std::int64_t coarsest = 4;         // cells along the shortest axis, at least
 constexpr std::int64_t on_all_ranks = 4096;  // as few cells every rank has
 
 bool can_be_halved(const Grid& g) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(g.dim); ++a)
-    if (g.cells[a] % 2 != 0 || g.cells[a] / 2 < coarsest) return false;
+    if (g.cells[a] % 2 != 0 || g.cells[a] / 2 < least_coarsest) return false;
   return true;
 }
 
@@ -39,6 +38,11 @@ std::vector<Box> halves_of(std::vector<Box> boxes, int dim) {
 }
 
 }  // namespace
+
+Grid coarsest_grid(Grid grid) {
+  while (can_be_halved(grid)) grid = grid.halved();
+  return grid;
+}
 
 std::vector<CoarseGrid> coarse_grids(const Grid& finest, const std::vector<Box>& boxes) {
   std::vector<CoarseGrid> out;
