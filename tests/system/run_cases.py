@@ -21,8 +21,8 @@ BUSY = ["--set", "output.series_interval=0", "--set", "output.snapshot_interval=
 OFTEN = ["--set", "output.checkpoint_interval=0.05"]
 GRAIN_STEPS = 8000
 # Random cuts at every rebuild: contacts change ranks all the time.
-BUSY_GRAINS = ["--set", "output.series_interval=0", "--set", "output.snapshot_interval=0.02",
-               "--set", "decomposition.balance=chaos"]
+CHAOS = ["--set", "output.series_interval=0", "--set", "decomposition.balance=chaos"]
+CHAMBER_STEPS = 1500
 
 
 def terminate_twice(process):
@@ -38,7 +38,8 @@ class Cases:
         self.run = run
         self.cases = Path(source) / "apps" / "buoyant_cylinder"
         self.bad_scenes = Path(source) / "tests" / "bad_scenes"
-        self.grain_scene = Path(source) / "tests" / "scenes" / "grains_servo.toml"
+        self.scenes = Path(source) / "tests" / "scenes"
+        self.grain_scene = self.scenes / "grains_servo.toml"
         self.kills = kills
         self.random = runner.generator(seed)
         self._reference = None
@@ -195,14 +196,21 @@ class Cases:
 
     def test_grain_kills(self):
         """Contact histories, walls and stages outlive kills, wherever the cuts are."""
-        def start(ranks, out, *more):
-            return self.run.start(ranks, "peperite", "run", self.grain_scene, "--steps", GRAIN_STEPS, *BUSY_GRAINS,
-                                  "--out", out, *more)
+        self.kills_of_scene("grains_servo", GRAIN_STEPS, 0.02)
 
-        whole = self.run.finish(start(1, "grains"))
-        reference = whole.fingerprint, self.run.files("grains")
-        self.kill_and_resume("grain_kill", start,
-                             lambda result, out: self.expect(result, out, "grains", reference, GRAIN_STEPS))
+    def test_chamber_kills(self):
+        """So does what a flow leaves to the steps that it serves, and its effort in the series."""
+        self.kills_of_scene("chamber", CHAMBER_STEPS, 20)
+
+    def kills_of_scene(self, name, steps, snapshot_interval):
+        def start(ranks, out, *more):
+            return self.run.start(ranks, "peperite", "run", self.scenes / f"{name}.toml", "--steps", steps, *CHAOS, "--set",
+                                  f"output.snapshot_interval={snapshot_interval}", "--out", out, *more)
+
+        whole = self.run.finish(start(1, name))
+        reference = whole.fingerprint, self.run.files(name)
+        self.kill_and_resume(f"{name}_kill", start,
+                             lambda result, out: self.expect(result, out, name, reference, steps))
 
     def kill_and_resume(self, name, start, expect):
         kills = runs = 0
