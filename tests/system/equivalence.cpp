@@ -2,7 +2,8 @@
 // arrival, the lists and the restarts. One MPI program on 8 ranks; a row on k ranks uses the first k, the
 // others sleep. Every row's fingerprints are compared with those of the scene's run on one rank.
 //
-//   equivalence --array SEED [--scenes START]   a covering array of the factors (covering_array.hpp)
+//   equivalence --array SEED [--scenes START]   a covering array of the factors (covering_array.hpp); with --part
+//                                               i/n of every n-th scene
 //   equivalence --full --part i/n --log FILE    every row in random order; those in FILE are not run again
 //   equivalence --row "scene=... ranks=..."     one row, as printed
 //
@@ -45,6 +46,7 @@ struct Options {
 constexpr const char* usage =
     "equivalence: the same bits on any number of ranks. On 8 ranks:\n"
     "  --array SEED [--scenes START]   a covering array of the factors; of scenes whose names start so\n"
+    "  --array SEED --part i/n         the same, of every n-th scene\n"
     "  --full --part i/n --log FILE    every row in random order; those in FILE are not run again\n"
     "  --row \"scene=... ranks=...\"     one row, as printed\n"
     "  --grains | --sph                scenes of which, default: sph\n"
@@ -117,8 +119,10 @@ std::vector<Row> rows_of(const Options& o) {
     std::vector<Row> rows = covering_array(o.family, o.seed, o.strength);
     if (const std::size_t missing = uncovered_triples(o.family, rows, o.strength); missing > 0)
       throw std::runtime_error(std::to_string(missing) + " combinations are not covered");
-    std::erase_if(
-        rows, [&](const Row& row) { return !o.scenes.empty() && !row[Factor::scene].starts_with(o.scenes); });
+    std::erase_if(rows, [&](const Row& row) {
+      const std::size_t scene = row.level[static_cast<std::size_t>(Factor::scene)];
+      return scene % o.parts != o.part - 1 || !row[Factor::scene].starts_with(o.scenes);
+    });
     return rows;
   }
   std::vector<Row> rows = full_product(o.family);
