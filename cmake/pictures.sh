@@ -2,7 +2,7 @@
 # Makes the pictures of the repository anew, each entered with its commit and scenes in the pictures.json beside it
 # (apps/plotting/manifest.py; the test `pictures` compares). The tree must be committed.
 #
-#     sh cmake/pictures.sh            galleries and rising bubbles: half an hour of two cores
+#     sh cmake/pictures.sh            galleries and rising bubbles: three quarters of an hour of two cores
 #     sh cmake/pictures.sh all        also the bulk behaviour of grains and the partitions: some hours
 #
 # Runs are kept in out/pictures/COMMIT: what has come to its end there is only drawn.
@@ -22,6 +22,7 @@ cmake --build build -j "$jobs"
 
 sh apps/buoyant_cylinder/gallery.sh build/bin "$runs"
 sh apps/sandbox/gallery.sh build/bin "$runs"
+sh apps/magma_chamber/gallery.sh build/bin "$runs"
 /usr/bin/python3 -B benchmarks/accuracy/accuracy.py build --cases rising_bubble rising_bubble_2 --formulations default \
   --work "$runs/accuracy" --out "$runs/accuracy"
 /usr/bin/python3 -B benchmarks/accuracy/bubbles.py "$runs/accuracy"

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+STRAGGLERS = 0.02  # share of the volume, at the densest place
+
 
 def volumes_below(heights, place, radius):
     """Of spheres at these places, below each of the heights, summed."""
@@ -33,10 +35,11 @@ def interface(grid, composition):
 
 
 def trapped_layer(edges, fractions, floor):
-    """Thickness and mean fraction of the layer above `floor`: as far from its densest place as half of that fraction."""
+    """Thickness and mean fraction of the layer above `floor`: as far from its densest place as half of that fraction.
+    A few stragglers are none."""
     centres, within = 0.5 * (edges[1:] + edges[:-1]), np.append(0, np.cumsum(fractions * np.diff(edges)))
     above = np.flatnonzero(edges[1:] > floor)
-    if not len(above) or not fractions[above].max() > 0:
+    if not len(above) or not fractions[above].max() > STRAGGLERS:
         return 0.0, np.nan
     peak = above[np.argmax(fractions[above])]
     half, ends = 0.5 * fractions[peak], []
