@@ -42,6 +42,10 @@ class FromFile:
                 gas = kinds[group]
                 u = gas["start_pressure"] / (gas["heat_ratio"] - 1) / rho if mobile else 1.0
                 row |= {"u": u * d.real(f"u/{k}", 0.8, 1.2), "mass": rho * self.dx**self.dim}
+            if "extra" in columns and mobile and "heat" in kinds[group]:
+                row["T"] = kinds[group]["temperature"] * d.real(f"T/{k}", 0.8, 1.2)
+            elif "extra" in columns and any("heat" in g for g in kinds.values()):
+                row["T"] = 0.0
             rows.append(row)
         if not any(kinds[r["group"]]["kind"] != "wall" for r in rows):
             return

@@ -3,6 +3,7 @@
 import math
 
 import boxes
+from exchange import Exchanges
 from mixture import Mixture
 from sph_rows import FromFile
 from sph_terms import Terms
@@ -15,7 +16,7 @@ def make(d):
     return Maker(d, family).scene()
 
 
-class Maker(Terms, FromFile, Mixture):
+class Maker(Terms, FromFile, Mixture, Exchanges):
     def __init__(self, d, family):
         self.d, self.mixed = d, family == "mixture"
         self.family = "fluid" if self.mixed else family
@@ -67,6 +68,8 @@ class Maker(Terms, FromFile, Mixture):
         scene["time"] = self.time()
         if self.mixed:
             self.add_grains(scene)
+        elif self.family in ("fluid", "solid"):
+            self.exchanges(scene)
         case = {"scene": scene, "skin": self.box.skin}
         if self.box.centred:
             case |= {"reach": self.box.reach, "radius": self.box.radius}

@@ -41,7 +41,15 @@ Scene scene_for(const Fusion& fusion) {
     s.groups[g].density = density[g];
     s.groups[g].eos.bulk_modulus = density[g] * sound[g] * sound[g];
     s.groups[g].viscosity = viscosity[g];
+    s.groups[g].heat.material.conductivity = 2 + 3 * static_cast<double>(g);
+    s.groups[g].bubbly.permeability.coefficient =
+        1.3 - 0.5 * static_cast<double>(g);  // solids and walls: none
+    s.groups[g].bubbly.gas_rt = 3000 + 500 * static_cast<double>(g);
   }
+  s.groups[solid].bubbly.permeability.coefficient = 0;
+  s.groups[wall].heat.temperature = 800;
+  s.groups[wall].wall.gas_pressure = 300;
+  s.groups[clamp].heat.wall_flux = 70;
   s.groups[solid].solid.shear_modulus = 0.4 * s.groups[solid].eos.bulk_modulus;
   s.groups[clamp].wall.clamps = solid;
   if (needs(Value::reference)) s.groups[solid].solid.lagrangian = Lagrangian::total;
@@ -202,6 +210,9 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   numbers(Field::wall_slope, 0, uniform(number, Field::wall_slope, 9) > 0 ? 1 : 0,
           row < particles_.owned() && !still);
   numbers(Field::curvature, 0, 0.5 / h, beside);
+  numbers(Field::temperature, 1000, 300);
+  numbers(Field::gas_mobility, 0.5, 0.4);
+  numbers(Field::gas_pressure, 6000, 4000);
 }
 
 // Pairs are taken where they were half a step ago, at most `back` farther apart.

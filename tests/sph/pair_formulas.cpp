@@ -138,6 +138,11 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       vector(Field::viscous_sums, 0, (dim_ + 2) * drag / fourth_ * dd.dot(x) * x);
       return one(Field::viscous_sums, dim_, (dim_ + 2) * drag / fourth_ * r * r / dim_);
     }
+    case key("Conduction"):
+    case key("WallConduction"):
+    case key("GasFlow"):
+    case key("WallGas"):
+      return add_exchange(pair, term, sums);
     case key("NumberDensity"):
     case key("GasMoments"): {
       const double wide = j.mover ? i.width : std::max(i.width, h_),
@@ -310,6 +315,40 @@ void PairOracle::add_force(const Pair& pair, Term term, PairSums& sums) const {
   const Vec value = force();
   for (int a = 0; a < dim_; ++a)
     sums.of[static_cast<std::size_t>(Field::force)][static_cast<std::size_t>(a)].add(value(a));
+}
+
+// Cleary & Monaghan (1999), eq. 29; Darcy's law; beside walls what is straight between the particle and the face.
+void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const {
+  const PairParticle &i = pair.i, &j = pair.j;
+  const auto one = [&](Field f, int k, double value) {
+    sums.of[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)].add(value);
+  };
+  const double weight = -2 * i.volume * j.volume * pair.slope / pair.r / second_;
+  double head = 0;
+  for (int a = 0; a < dim_; ++a) head += scene_.domain.gravity[static_cast<std::size_t>(a)] * pair.x(a);
+  const double across = -i.slope.dot(pair.x) / h_, steepness = i.slope.norm();
+  const double profile = steepness > 0 ? std::max(across, 0.0) : 1.0;
+  if (term.name == "Conduction") {
+    if (j.mover)
+      one(Field::heat_gain, 0,
+          weight * harmonic(i.conductivity, j.conductivity) * (j.temperature - i.temperature));
+  } else if (term.name == "WallConduction") {
+    if (j.mover) return;
+    if (j.warm) one(Field::wall_heat, 0, weight * i.conductivity * profile * (j.temperature - i.temperature));
+    const double way = steepness > 0 ? across / steepness * h_ : pair.r;
+    one(Field::wall_heat, 0, -2 * j.wall_flux * i.volume * j.volume * pair.slope / pair.r * way);
+  } else if (term.name == "GasFlow") {
+    if (!j.mover) return;
+    const double drive = j.gas_pressure - i.gas_pressure - 0.5 * (i.gas_density + j.gas_density) * head;
+    const double up = drive > 0 ? j.gas_mobility : i.gas_mobility;
+    const double flow = weight * harmonic(i.permeability, j.permeability) *
+                        std::min(0.5 * (i.gas_mobility + j.gas_mobility), 2 * up) * drive;
+    one(Field::gas_gain, 0, flow);
+    for (int a = 0; a < dim_; ++a) one(Field::gas_gain, 1 + a, 0.5 * flow * (j.v(a) - i.v(a)));
+  } else if (j.open) {
+    const double drive = j.gas_pressure - i.gas_pressure - i.gas_density * head;
+    one(Field::wall_gas, 0, weight * i.permeability * i.gas_mobility * profile * drive);
+  }
 }
 
 }  // namespace sph::test

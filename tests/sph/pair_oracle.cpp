@@ -82,6 +82,15 @@ void PairOracle::load() {
     q.curvature = get(Field::curvature, row, 0);
     for (std::size_t k = 0; k < 2; ++k) q.wall_pressures[k] = get(Field::wall_pressures, row, k);
     q.viscosity = g.viscosity;
+    q.temperature = get(Field::temperature, row, 0);
+    q.conductivity = g.heat.material.conductivity;
+    q.wall_flux = g.heat.wall_flux.value_or(0);
+    q.warm = g.heat.temperature.has_value();
+    q.permeability = g.bubbly.permeability.coefficient;
+    q.gas_mobility = get(Field::gas_mobility, row, 0);
+    q.gas_pressure = get(Field::gas_pressure, row, 0);
+    q.gas_density = g.kind == GroupKind::wall ? 0.0 : q.gas_pressure / g.bubbly.gas_rt;
+    q.open = g.wall.gas_pressure.has_value();
     q.group = static_cast<int>(group);
     q.body = group == clamp ? static_cast<int>(solid) : q.group;
     const Group& material = scene_.groups[static_cast<std::size_t>(q.body)];
@@ -168,6 +177,10 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("ViscousOperator"):
     case key("SymmetricViscousOperator"):
     case key("WallShare"):
+    case key("Conduction"):
+    case key("WallConduction"):
+    case key("GasFlow"):
+    case key("WallGas"):
       return p.mover;
     case key("Curvature"):  // elsewhere it is 0 or not, as the other rows of a block have it
     case key("CurvatureMean"):

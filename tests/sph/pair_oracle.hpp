@@ -29,8 +29,10 @@ struct PairParticle {
   Mat stress, bond_stress, gradient;  ///< stress: the total one
   double mass, density, pressure, volume, sound, energy, width, correction, curvature, viscosity;
   double rest_volume, modulus;
+  double temperature, conductivity, wall_flux;
+  double permeability, gas_mobility, gas_pressure, gas_density;
   std::array<double, 2> wall_pressures;
-  bool mover, shears, heavy, owned;
+  bool mover, shears, heavy, owned, warm, open;
   int side, group, body;
 };
 
@@ -71,6 +73,7 @@ class PairOracle {
   void add_force(const Pair& pair, Term term, PairSums& sums) const;
   void add_contact(const Pair& pair, Term term, PairSums& sums) const;
   void add_bond(const Pair& pair, Term term, PairSums& sums) const;
+  void add_exchange(const Pair& pair, Term term, PairSums& sums) const;
   [[nodiscard]] Vec shock(const Pair& pair) const;
 
   const PairCase& of_;

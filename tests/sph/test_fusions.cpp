@@ -121,11 +121,13 @@ std::vector<Opposites> opposites_of(const Fusion& fusion) {
   if (fusion.writes.has(Field::force)) all.push_back({Field::force, 0, -1});
   if (fusion.writes.has(Field::heating)) all.push_back({Field::heating, 1, -1});
   if (fusion.writes.has(Field::viscous_sums)) all.push_back({Field::viscous_sums, 0, fusion.dim});
+  if (fusion.writes.has(Field::heat_gain)) all.push_back({Field::heat_gain, 0, -1});
+  if (fusion.writes.has(Field::gas_gain)) all.push_back({Field::gas_gain, 0, 1});
   if (fusion.writes.has(Field::contact_energy)) all.push_back({Field::contact_energy, fusion.dim, 0});
   return all;
 }
 
-// Momentum is then conserved to the last bit of every pair.
+// Momentum, heat and gas are then conserved to the last bit of every pair.
 TEST(Fusions, have_forces_that_are_exactly_opposite) {
   std::set<Term> exempt, unlike;
   for (const Fusion& fusion : all_fusions()) {
@@ -139,7 +141,8 @@ TEST(Fusions, have_forces_that_are_exactly_opposite) {
       const std::size_t i = c.row_of(k), j = c.row_of(k + 1);
       bool opposite = true;
       for (const auto& [field, first, even] : fields) {
-        const int last = field == Field::contact_energy ? first : first + fusion.dim;
+        const bool exchange = field == Field::heat_gain || field == Field::gas_gain;
+        const int last = field == Field::contact_energy ? first : first + (exchange ? 1 : fusion.dim);
         for (int a = first; a < last; ++a) {
           opposite = opposite && component(c, field, i, a) == -component(c, field, j, a);
           forces += component(c, field, i, a) != 0 ? 1 : 0;

@@ -17,9 +17,45 @@ inline constexpr auto fragmentation_keys = std::to_array<Key>({
 inline constexpr Table<BubblyMaterial> fragmentation{
     {"group.fragmentation", false, "Bubbly fluid breaks.", fragmentation_keys}};
 
+inline constexpr auto permeability_keys = std::to_array<Key>({
+    {"law", Words{permeability_words},
+     "Of psi, the gas's share of the volume. \"power\": coefficient psi^n (Klug & Cashman 1996: 6.3e-11 m2, "
+     "n = 3.4); "
+     "\"percolation\": coefficient (psi - threshold)^n above it (Rust & Cashman 2004: 1e-11 m2, 0.3, n = 2); "
+     "\"kozeny_carman\": coefficient psi^3 / (1 - psi)^2, of spheres d^2/180.",
+     at<&Permeability::law>},
+    {"coefficient", Number{dimension::area, not_negative}, "0 is tight.", at<&Permeability::coefficient>,
+     required},
+    {"exponent", Number{dimension::none, positive}, "n.", at<&Permeability::exponent>,
+     Default{"3.4; with \"percolation\" 2"}},
+    {"threshold",
+     Number{dimension::none, {.least = 0, .most = 1, .below_most = true, .is = "it is a share,"}},
+     "Below it bubbles are not connected.", at<&Permeability::threshold>, where("law", "percolation")},
+    {"gas_viscosity", Number{dimension::viscosity, positive}, "eta_g.", at<&Permeability::gas_viscosity>},
+});
+inline constexpr Table<Permeability> permeability{
+    {"group.permeability", false, "Gas flows through bubbly fluid.", permeability_keys}};
+
+inline constexpr auto heat_keys = std::to_array<Key>({
+    {"specific_heat", Number{dimension::specific_heat, positive}, "c_p.", at<&HeatMaterial::specific_heat>,
+     required},
+    {"conductivity", Number{dimension::conductivity, not_negative},
+     "k; between two materials the harmonic mean.", at<&HeatMaterial::conductivity>},
+    {"latent_heat", Number{dimension::specific_energy, not_negative},
+     "L, that melting takes, spread evenly from solidus to liquidus.", at<&HeatMaterial::latent_heat>},
+    {"solidus", Number{dimension::temperature, positive}, "Where melting begins.", at<&HeatMaterial::solidus>,
+     Default{"required with latent_heat"}},
+    {"liquidus", Number{dimension::temperature, positive}, "Where it ends.", at<&HeatMaterial::liquidus>,
+     Default{"required with latent_heat"}},
+});
+inline constexpr Table<HeatMaterial> heat{
+    {"group.heat", false, "Heat of a fluid or a solid: all of them have it, or none.", heat_keys}};
+
 inline constexpr Where bubbly = where("eos", "bubbly"), gas = where("eos", "ideal_gas");
 inline constexpr Where solid = where("kind", "solid"), walls = where("kind", "wall");
-inline constexpr Where grain = where("kind", "grain"), melt = where("kind", "melt");
+inline constexpr Where grain = where("kind", "grain");
+inline constexpr Where not_of_grains = unless("kind", "grain", "grains have no temperature");
+inline constexpr Where matter{"kind", "fluid", {}, {}, "solid"};
 inline constexpr Where of_sph = unless(
     "kind", "grain", "it is of fluids and solids; grains have a contact law, melts flow slowly", "melt");
 inline constexpr Where of_viscous =
@@ -92,6 +128,11 @@ inline constexpr auto group_keys = std::to_array<Key>({
      at<&Group::bubbly, &BubblyMaterial::solubility_exponent>, of_sph, bubbly},
     {"fragmentation", Inner{&fragmentation}, "A bubbly fluid joins another group where it holds much gas.",
      of_sph, bubbly},
+    {"permeability", Inner{&permeability}, "Gas flows through a bubbly fluid by Darcy's law.", of_sph,
+     bubbly},
+    {"gas_pressure", Number{dimension::pressure},
+     "Of the gas beyond a wall that lets it pass, above the surface pressure. A wall without is tight.",
+     at<&Group::wall, &WallMaterial::gas_pressure>, of_sph, walls},
     {"clamps", NameOf{"group"},
      "A wall holds this total-Lagrangian solid: its particles are bonded to those of the solid, whose "
      "material it has.",
@@ -111,8 +152,14 @@ inline constexpr auto group_keys = std::to_array<Key>({
      grain},
     {"fixed", Flag{}, "Grains glued in space, which never move.", at<&Group::grain, &GrainMaterial::fixed>,
      grain},
-    {"temperature", Number{dimension::temperature}, "Of a melt at the start.",
-     at<&Group::melt, &MeltMaterial::temperature>, melt},
+    {"temperature", Number{dimension::temperature},
+     "At the start, of melts and of what has heat; a wall keeps it. A wall without lets no heat pass.",
+     at<&Group::heat, &GroupHeat::temperature>, not_of_grains,
+     Default{"0 of melts; required of what has heat; of walls none"}},
+    {"heat", Inner{&heat}, "A fluid or a solid has a temperature.", of_sph, matter},
+    {"heat_flux", Number{dimension::heat_flux},
+     "From a wall into what is beside it, instead of a temperature.", at<&Group::heat, &GroupHeat::wall_flux>,
+     of_sph, walls},
     {"restitution", Number{dimension::none, {.least = 0, .most = 1, .above_least = true}},
      "Of a head-on impact.", at<&Group::grain, &GrainMaterial::restitution>, of_restitution, grain, required},
     {"friction", Number{dimension::none, not_negative}, "Coulomb's mu.",

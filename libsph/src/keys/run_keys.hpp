@@ -68,7 +68,9 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
     {"name", Text{}, "Letters, digits, _ and -.", at<&Monitor::name>, Default{"the kind"}},
     {"kind", Words{monitor_kind_words},
      "\"group\": averages over it. Of grains: \"wall\": its place, its velocity and the force of the "
-     "grains on it; \"contacts\": their number and largest overlap. Of melts \"melt\".",
+     "grains on it; \"contacts\": their number and largest overlap. Of melts \"melt\". Of heat \"budget\": "
+     "what there is and "
+     "what walls gave.",
      at<&Monitor::kind>, required},
     {"id", Whole{}, "The particle with this id.", at<&Monitor::id>, where("kind", "particle"),
      Default{"required of a particle, or nearest_to"}},

@@ -87,7 +87,7 @@ void check_heat(const MeltReader& table, const Scene& scene) {
   const auto too_warm = [&](double t) { return melt.expansion * (t - melt.reference_temperature) >= 1; };
   bool weightless = false;
   for (const Group& g : scene.groups)
-    weightless = weightless || (g.kind == GroupKind::melt && too_warm(g.melt.temperature));
+    weightless = weightless || (g.kind == GroupKind::melt && too_warm(g.heat.temperature.value_or(0)));
   for (const MeltSide& s : melt.sides) weightless = weightless || (s.temperature && too_warm(*s.temperature));
   if (weightless && scene.is_suspension())
     table.fail("expansion", fmt::format("is {} 1/K: the warmest melt would weigh nothing", melt.expansion),

@@ -79,6 +79,13 @@ void check_terms(const TermsReader& table, const Scene& scene) {
   refuse(terms.density_diffusion != 0, "density_diffusion");
   refuse(terms.artificial_viscosity != 0, "artificial_viscosity");
   refuse(terms.shifting, "shifting");
+  if (ida && (scene.has_heat() || scene.has_gas_flow()))
+    table.fail("motion", "is of a scene with heat or gas flow",
+               "formulation = \"ida\" has none: remove group.heat and group.permeability");
+  if (!terms.exchange.motion && !scene.has_heat() && !scene.has_gas_flow())
+    table.fail("motion", "is false", "without group.heat and group.permeability nothing would happen");
+  if (!terms.exchange.motion && scene.is_mixture())
+    table.fail("motion", "is false", "grains move: remove it");
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ void write_group(SceneWriter& out, const Group& g) {
     out.raw("slip", "true");
   else if (g.kind == GroupKind::wall && g.wall.clamps < 0)
     out.vector("velocity", g.wall.velocity);
+  if (g.bubbly.permeability.coefficient > 0) out.table(keys::permeability, g.bubbly.permeability);
+  if (g.heat.material.specific_heat > 0) out.table(keys::heat, g.heat.material);
   if (g.bubbly.fragmentation_void_fraction) out.table(keys::fragmentation, g.bubbly);
 }
 

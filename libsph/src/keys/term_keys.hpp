@@ -32,6 +32,11 @@ inline constexpr auto terms_keys = std::to_array<Key>({
     {"artificial_conduction", Number{dimension::none, not_negative},
      "alpha_u. Smooths the energy where the start had a jump.", at<&Terms::gas, &GasTerms::conduction>,
      of_gases, Default{"0.3"}},
+    {"motion", Flag{},
+     "False: nothing moves, and heat and gas alone are exchanged. For what is slower than any flow.",
+     at<&Terms::exchange, &ExchangeTerms::motion>},
+    {"gas_escape", Flag{}, "Whether gas that flows (group.permeability) leaves through free surfaces.",
+     at<&Terms::exchange, &ExchangeTerms::gas_escape>},
     {"shifting", Flag{},
      "Keeps particles evenly spread, also where the pressure is negative, and a closed box as full as it "
      "was. Near a free surface, that is where the start leaves a lattice point inside empty, or has movers "

@@ -21,6 +21,7 @@ struct Unit {
 
 constexpr Dimension mass{1, 0, 0};
 constexpr Dimension energy{1, 2, -2};
+constexpr Dimension heat_rate{1, 2, -3};
 
 constexpr std::array units{
     Unit{"1", dimension::none},
@@ -57,6 +58,10 @@ constexpr std::array units{
     Unit{"J", energy},
     Unit{"kJ", energy, 3},
     Unit{"MJ", energy, 6},
+    Unit{"W", heat_rate},
+    Unit{"mW", heat_rate, -3},
+    Unit{"kW", heat_rate, 3},
+    Unit{"MW", heat_rate, 6},
     Unit{"K", dimension::temperature},
 };
 
@@ -86,6 +91,10 @@ constexpr std::array named{
     NamedDimension{dimension::temperature, "a temperature", "K"},
     NamedDimension{dimension::per_temperature, "a share per kelvin", "1/K"},
     NamedDimension{dimension::temperature_flux, "a heat flux over a heat capacity", "K m/s"},
+    NamedDimension{dimension::area, "an area", "m2"},
+    NamedDimension{dimension::specific_heat, "a heat capacity per mass", "J/kg/K"},
+    NamedDimension{dimension::conductivity, "a thermal conductivity", "W/m/K"},
+    NamedDimension{dimension::heat_flux, "a heat flux", "W/m2"},
 };
 
 constexpr int max_power = 9;

@@ -55,6 +55,10 @@ inline constexpr auto tension_form_words =
     std::to_array<Word>({{"stress", TensionForm::stress}, {"jump", TensionForm::jump}});
 inline constexpr auto viscosity_form_words =
     std::to_array<Word>({{"laplacian", ViscosityForm::laplacian}, {"symmetric", ViscosityForm::symmetric}});
+inline constexpr auto permeability_words =
+    std::to_array<Word>({{"power", PermeabilityLaw::power},
+                         {"percolation", PermeabilityLaw::percolation},
+                         {"kozeny_carman", PermeabilityLaw::kozeny_carman}});
 inline constexpr auto kernel_shape_words = std::to_array<Word>({{"quintic", KernelShape::quintic},
                                                                 {"wendland_c2", KernelShape::wendland_c2},
                                                                 {"wendland_c4", KernelShape::wendland_c4}});
@@ -87,7 +91,8 @@ inline constexpr auto monitor_kind_words = std::to_array<Word>({{"particle", Mon
                                                                 {"momentum", MonitorKind::momentum},
                                                                 {"wall", MonitorKind::wall},
                                                                 {"contacts", MonitorKind::contacts},
-                                                                {"melt", MonitorKind::melt}});
+                                                                {"melt", MonitorKind::melt},
+                                                                {"budget", MonitorKind::budget}});
 inline constexpr auto melt_side_words = std::to_array<Word>({{"x0", MeltFace::x0},
                                                              {"x1", MeltFace::x1},
                                                              {"y0", MeltFace::y0},

@@ -95,6 +95,15 @@ double BubblyEos::sound_speed(double pressure) const {
   return e / std::sqrt((1.0 + m_) * (stiffness + exsolution));
 }
 
+// d rho = rho / (1 + m) dm in a fixed volume, and at fixed rho dp/dm = rho^2 c^2 (1 + m_d) / (1 + m)^2 (RT/p - 1/rho_l)
+// where there is gas: of 1/rho = (1-xi)/rho_l + xi RT/p with d xi/dm = (1 + m_d) / (1 + m)^2.
+double BubblyEos::gas_stiffness(double pressure) const {
+  const double c = sound_speed(pressure);
+  if (is_gas_free(pressure) || !(pressure > 0)) return c * c;
+  const double rho = density(pressure), liquid = rho0_ * (1.0 + pressure / k_);
+  return c * c * (1.0 + rho * ((1.0 + dissolved(pressure)) / (1.0 + m_)) * (rt_ / pressure - 1.0 / liquid));
+}
+
 double BubblyEos::pressure(double density) const { return invert(density).pressure; }
 
 int BubblyEos::iterations(double density) const { return invert(density).steps; }

@@ -1,16 +1,23 @@
 #include "sph/models/builder.hpp"
 
+#include <utility>
+
 #include "pairs/poison_rows.hpp"
+#include "sph/models/models.hpp"
 #include "sph/pairs/fusions.hpp"
 
 namespace sph {
 
-Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms, Rows rows) {
+Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms, Rows rows,
+                               std::optional<Precision> precision) {
   const SphConstants& k = *constants_;
-  const Fusion& fusion = find_fusion(scene().dim, scene().terms.precision, scene().kernel.shape, terms);
+  const Fusion& fusion =
+      find_fusion(scene().dim, precision.value_or(scene().terms.precision), scene().kernel.shape, terms);
   fields_ |= fusion.writes;
   const auto work = [&k, &fusion, rows](StepState& s, Side side) {
-    const PassContext context = k.context(s.particles, *s.lists, s.rows, s.global.dt);
+    const PassContext context = fusion.precision == Precision::double_
+                                    ? k.double_context(s.particles, *s.lists, s.rows, s.global.dt)
+                                    : k.context(s.particles, *s.lists, s.rows, s.global.dt);
     const std::size_t owned = s.particles.owned();
     // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.
     const bool interior = side == Side::interior;
@@ -25,6 +32,11 @@ Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms,
   };
   return {std::move(name), decomp::Region::pairs, fields_behind(fusion.values), fusion.writes, work, {},
           &fusion};
+}
+
+void add_exchange(Builder& b, std::string name, Term term) {
+  b.add_loop(
+      {{b.sums_over_pairs(std::move(name), {term}, Builder::Rows::movers, Precision::double_)}, {}, {}});
 }
 
 }  // namespace sph

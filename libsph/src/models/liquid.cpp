@@ -7,6 +7,7 @@
 #include "models/trace.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/models/faults.hpp"
+#include "sph/models/gas_flow.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/stress_update.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
@@ -36,7 +37,6 @@ struct Densities {
   static constexpr FieldSet writes = Materials::writes | FieldSet{Field::density, Field::stress};
   const SphConstants* constants;
   const Materials* materials;
-  bool bulk_viscous;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
@@ -77,12 +77,25 @@ struct Densities {
       rho[i] = (rho[i] + dt * (exchanged - rho[i] * div)) * fill;
     }
     materials->derive(p, first, last);
-    if (!bulk_viscous) return;
-    // Second viscosity, Ida eq. (9): an excess pressure -zeta div v in the forces of this step only.
+  }
+};
+
+// Second viscosity, Ida eq. (9): an excess pressure -zeta div v in the forces of this step only.
+struct ExcessPressures {
+  static constexpr FieldSet reads{Field::divergence, Field::velocity_gradient, Field::group};
+  static constexpr FieldSet writes{Field::pressure};
+  const Scene* scene;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double* divergence = p.get<Field::divergence>();
+    const double* gradient = p.get<Field::velocity_gradient>();
+    const auto* group = p.get<Field::group>();
     double* pressure = p.get<Field::pressure>();
-    for (std::size_t i = first; i < last; ++i)
+    for_movers(step.ranges, [&](std::size_t i) {
       pressure[i] -= scene->groups[group[i]].bulk_viscosity *
                      (divergence != nullptr ? divergence[i] : trace_of(gradient + i * d * d, d));
+    });
   }
 };
 
@@ -109,12 +122,14 @@ void add_kinematics(Builder& b) {
                           : s.domain.central_pull > 0        ? term<PulledDensityDiffusion>
                           : single && !solid && !weighted(s) ? term<UniformDensityDiffusion>
                                                              : term<DensityDiffusion>};
-  if (s.terms.shifting) terms.push_back(term<Concentration>);
+  if (s.terms.shifting || has_escape(s)) terms.push_back(term<Concentration>);
   if (tension(s)) terms.push_back(term<ColourGradient>);
   b.add_sums("kinematics", terms);
-  b.add_update("densities", Densities{&b.constants(), &b.materials(), bulk_viscous(s)});
+  b.add_update("densities", Densities{&b.constants(), &b.materials()});
   if (weighted(s)) b.add_fields({Field::wall_pressures});
 }
+
+void add_excess_pressures(Builder& b) { b.add_update("excess pressures", ExcessPressures{&b.scene()}); }
 
 void add_forces(Builder& b) {
   const Scene& s = b.scene();

@@ -64,7 +64,7 @@ CellMeans means_of(const Scene& scene, const std::array<double, 3>& edge, const 
                            "; begin with one of shape \"everywhere\"");
         sum.temperature += scene.domain.melt.profile == MeltProfile::conductive
                                ? conducted(scene, at)
-                               : scene.groups[static_cast<std::size_t>(group)].melt.temperature;
+                               : scene.groups[static_cast<std::size_t>(group)].heat.temperature.value_or(0);
         sum.composition += static_cast<std::size_t>(group) == second ? 1 : 0;
       }
   return {sum.temperature / count, sum.composition / count};

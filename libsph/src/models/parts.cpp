@@ -15,7 +15,7 @@ Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
     sph_pairs.emplace(sets.size(), *physics);
     sets.push_back({physics->built().fields(), stays});
     models.push_back(&*physics);
-    if (Shifting* shifting = physics->shifting()) models.push_back(shifting);
+    for (Model* m : physics->models().all()) models.push_back(m);
     pairs.push_back(&*sph_pairs);
   }
   if (scene.has_grains()) {

@@ -18,6 +18,7 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
       materials_(constants_),
       body_forces_(constants_),
       builder_(constants_, materials_, body_forces_),
+      models_(set, builder_),
       steps_(constants_) {
   builder_.add_fields({Field::id, Field::position, Field::velocity, Field::density, Field::mass, Field::group,
                        Field::pressure, Field::force});
@@ -29,50 +30,7 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
   if (scene.has_kind(GroupKind::solid) || scene.terms.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
   if (gas_) reach_.emplace(scene);
-  if (scene.terms.shifting) shifting_.emplace(set, constants_, body_forces_);
-
-  add_drift(builder_);
-  if (scene.terms.formulation == Formulation::ida)
-    add_ida(builder_);
-  else if (gas_)
-    add_gas(builder_);
-  else if (scene.total_lagrangian())
-    add_bonds(builder_);
-  else
-    add_liquids_and_solids();
-  add_end_of_step();
-}
-
-void Physics::add_liquids_and_solids() {
-  const Scene& s = *scene_;
-  const bool walls = s.has_kind(GroupKind::wall), fluid = s.has_kind(GroupKind::fluid);
-  // Grains in the fluid want to know of walls before it has densities, others after the forces.
-  const bool wall_share = walls && fluid && (s.terms.viscous.implicit || s.start.has_surface || has_drag(s));
-  if (wall_share && has_drag(s)) add_wall_share(builder_);
-  add_kinematics(builder_);
-  if (walls) add_walls(builder_, s.terms.pressure_weights == PressureWeights::density);
-  const InterfaceTension& tension = s.terms.surface_tension;
-  if (tension.coefficient > 0 && tension.form == TensionForm::jump) add_curvature(builder_);
-  add_forces(builder_);
-  add_accelerations(builder_);
-  // Only where fluid flies can it come into walls.
-  if (wall_share && !has_drag(s)) add_wall_share(builder_);
-  if (wall_share && s.start.has_surface) add_walls_that_hold(builder_);
-  if (s.terms.viscous.implicit) add_implicit_viscosity(builder_, walls);
-}
-
-void Physics::add_end_of_step() {
-  const Scene& s = *scene_;
-  add_kick(builder_);
-  if (shifting_) shifting_->add_to(builder_);
-  add_drifts(builder_);
-  if (bulk_viscous(s)) add_pressures(builder_);
-  if (std::ranges::any_of(s.groups, [](const Group& g) { return g.bubbly.fragments_to >= 0; }))
-    add_fragmentation(builder_);
-  if (shifting_) shifting_->add_motion_to(builder_);
-  if (gas_) add_heat(builder_);
-  if (stiffens_) add_sound(builder_);
-  if (s.output.average_time > 0) add_averages(builder_);
+  add_stages(builder_, models_);
 }
 
 // Wall particles do not move, but their pairs are taken with the velocity of their material.

@@ -107,8 +107,17 @@ GroupTable group_table(const Scene& of) {
     groups.body.push_back(static_cast<double>(body));
     groups.modulus.push_back(of.groups[body].eos.bulk_modulus +
                              4.0 / 3.0 * of.groups[body].solid.shear_modulus);
+    groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
+    groups.heat.wall_warmth.push_back(g.kind == GroupKind::wall && g.heat.temperature ? 1.0 : 0.0);
+    groups.heat.wall_flux.push_back(g.heat.wall_flux.value_or(0));
+    groups.gas_flow.permeability.push_back(g.kind == GroupKind::wall ? 0.0
+                                                                     : g.bubbly.permeability.coefficient);
+    groups.gas_flow.inverse_rt.push_back(
+        g.kind != GroupKind::wall && g.bubbly.gas_rt > 0 ? 1 / g.bubbly.gas_rt : 0.0);
+    groups.gas_flow.wall_open.push_back(g.wall.gas_pressure ? 1.0 : 0.0);
     if (g.kind != GroupKind::grain) g.eos.law->check(g);
   }
+  groups.gas_flow.surface_pressure = of.domain.surface_pressure;
   groups.surface_tension = of.terms.surface_tension.coefficient;
   return groups;
 }
@@ -184,6 +193,13 @@ PassContext SphConstants::context(Particles& particles, const NeighbourLists& li
   now.half_step = 0.5 * dt / scene->kernel.smoothing_length;
   return {&particles,      &lists,       &groups,          row_scale, now,
           gradient_factor, force_factor, diffusion_factor, &rows};
+}
+
+PassContext SphConstants::double_context(Particles& particles, const NeighbourLists& lists,
+                                         decomp::LargeVector<std::byte>& rows, double dt) const {
+  PassContext c = context(particles, lists, rows, dt);
+  c.scale.position_unit = scale.quantum / scene->kernel.smoothing_length;
+  return c;
 }
 
 }  // namespace sph

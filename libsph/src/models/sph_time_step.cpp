@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sph/core/error.hpp"
@@ -17,6 +18,7 @@ SphTimeStep::SphTimeStep(const SphConstants& constants)
 double SphTimeStep::longest(const StepMaxima& maxima) const {
   const Scene& scene = *constants_->scene;
   if (scene.time.dt) return *scene.time.dt;
+  if (!scene.terms.exchange.motion) return std::numeric_limits<double>::infinity();
   const double h = scene.kernel.smoothing_length;
   double fastest = maxima.sound, viscous = maxima.viscosity, bulk = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {

@@ -7,6 +7,7 @@
 
 #include "models/damping_limit.hpp"
 #include "sph/models/grain_limits.hpp"
+#include "sph/models/heat.hpp"
 #include "sph/models/sph_time_step.hpp"
 #include "start/start_sounds.hpp"
 
@@ -39,6 +40,11 @@ void check_contact_step(const Scene& scene) {
 void check_time_step(const Scene& scene) {
   if (scene.has_grains() && !scene.has_melt()) check_contact_step(scene);
   if (!scene.has_matter()) return;
+  if (const double limit = longest_heat_step(scene); scene.time.dt && limit > 0 && *scene.time.dt > limit)
+    throw InputError(fmt::format(
+        "{}: time.dt: {:.6g} s is above the limit of explicit conduction, {:.6g} s; set it to that or less",
+        scene.file, *scene.time.dt, limit));
+  if (!scene.terms.exchange.motion) return;
   // What stiffens under pressure is looked at once it is there, by a start and by `check`.
   if (std::ranges::any_of(scene.groups, stiffens)) return;
   const SphConstants constants(scene, position_scale(scene));

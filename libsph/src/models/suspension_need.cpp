@@ -37,7 +37,7 @@ std::vector<double> temperatures_of(const Scene& scene) {
   if (melt.diffusivity == 0) return {melt.reference_temperature};
   std::vector<double> out;
   for (const Group& g : scene.groups)
-    if (g.kind == GroupKind::melt) out.push_back(g.melt.temperature);
+    if (g.kind == GroupKind::melt) out.push_back(g.heat.temperature.value_or(0));
   for (const MeltSide& s : melt.sides)
     if (s.temperature) out.push_back(*s.temperature);
   return out;

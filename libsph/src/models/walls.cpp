@@ -114,6 +114,36 @@ struct Hold {
   }
 };
 
+// A flow that is 0 at the wall and 1 at the particle, straight between: its gradient is the normal over the
+// distance, in units of 1/h. Particles nearer than a quarter of their spacing count as being there. Where
+// walls on both sides leave less than half of the gradient that belongs to their share there is no normal: 0.
+// Of what they hardly reach any will do.
+struct WallSlopes {
+  static constexpr FieldSet reads{Field::wall_share};
+  static constexpr FieldSet writes{Field::wall_slope};
+  const Scene* scene;
+  std::shared_ptr<const WallDistance> distance;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    constexpr double nearest = 0.25, flat = 0.5, little = 0.01;
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double h = scene->kernel.smoothing_length;
+    const double* share = p.get<Field::wall_share>();
+    double* slope = p.get<Field::wall_slope>();
+    for_movers(step.ranges, [&](std::size_t i) {
+      const double* s = share + i * (d + 1);
+      double square = 0;
+      for (std::size_t a = 0; a < d; ++a) square += s[a] * s[a];
+      const double length = std::sqrt(square), away = (*distance)(h * s[d]);
+      const bool normal =
+          length > 0 && (h * s[d] < little || h * length >= flat * distance->gradient(h * s[d]));
+      const double factor =
+          normal ? -1 / (std::fmax(away, nearest * scene->start.spacing / h) * length) : 0.0;
+      for (std::size_t a = 0; a < d; ++a) slope[i * d + a] = factor * s[a];
+    });
+  }
+};
+
 }  // namespace
 
 void add_walls(Builder& b, bool weighted) {
@@ -134,6 +164,14 @@ void add_walls(Builder& b, bool weighted) {
 }
 
 void add_wall_share(Builder& b) { b.add_sums("wall distance", {term<WallShare>}); }
+
+void add_wall_slopes(Builder& b) {
+  const Scene& s = b.scene();
+  b.add_fields({Field::wall_slope});
+  b.add_update("wall slopes",
+               WallSlopes{&s, std::make_shared<const WallDistance>(
+                                  s.kernel.shape, s.dim, s.start.spacing / s.kernel.smoothing_length)});
+}
 
 void add_walls_that_hold(Builder& b) {
   const Scene& s = b.scene();

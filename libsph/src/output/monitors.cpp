@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "output/budget.hpp"
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
 #include "sph/models/energies.hpp"
@@ -32,6 +33,8 @@ std::size_t sums_of(const Monitor& monitor, const State& s) {
       return energies_of(s).size();
     case MonitorKind::momentum:
       return static_cast<std::size_t>(p.dim());
+    case MonitorKind::budget:
+      return Budget::names(p).size();
     case MonitorKind::contacts:
       return 3;  // contacts of grains, with what is held, number of grains
     case MonitorKind::particle:
@@ -56,7 +59,10 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
   }
   const Group& group = scene.groups[of.group(row)];
   if (is_held(group)) return;
-  if (monitor.kind == MonitorKind::contacts) {
+  if (monitor.kind == MonitorKind::budget) {
+    std::size_t k = 0;
+    Budget::visit(of.particles(), row, [&](double amount) { sums[k++].add(amount); });
+  } else if (monitor.kind == MonitorKind::contacts) {
     if (group.kind == GroupKind::grain) sums[2].add(1);
   } else if (monitor.kind == MonitorKind::momentum) {
     for (std::size_t a = 0; a < sums.size(); ++a) sums[a].add(m * of.velocity(row, a));
@@ -151,6 +157,7 @@ void Monitors::make_names(const Simulation& s) {
       quantities = {"px", "py", "pz"};
       quantities.resize(static_cast<std::size_t>(s.scene().dim));
     }
+    if (m.kind == MonitorKind::budget) quantities = Budget::names(s.particles());
     if (m.kind == MonitorKind::melt) quantities = s.melt()->columns();
     for (const std::string& quantity : quantities) names_.push_back(m.name + "_" + quantity);
   }
@@ -208,6 +215,7 @@ std::vector<double> Monitors::values(Simulation& s) const {
         break;
       case MonitorKind::energy:
       case MonitorKind::momentum:
+      case MonitorKind::budget:
         out.insert(out.end(), sum.begin(), sum.end());
     }
   }

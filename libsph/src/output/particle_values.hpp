@@ -45,6 +45,7 @@ class ParticleValues {
     to[k++] = particles_.data<Field::pressure>()[row];
     if (const double* psi = particles_.data<Field::void_fraction>()) to[k++] = psi[row];
     if (const double* u = particles_.data<Field::specific_energy>()) to[k++] = u[row];
+    if (const double* t = particles_.data<Field::temperature>()) to[k++] = t[row];
   }
   [[nodiscard]] static std::vector<std::string> names(const Particles& p) {
     std::vector<std::string> out;
@@ -58,6 +59,7 @@ class ParticleValues {
     out.emplace_back("p");
     if (p.has(Field::void_fraction)) out.emplace_back("psi");
     if (p.has(Field::specific_energy)) out.emplace_back("u");
+    if (p.has(Field::temperature)) out.emplace_back("T");
     return out;
   }
   [[nodiscard]] static std::size_t count(const Particles& p) { return names(p).size(); }

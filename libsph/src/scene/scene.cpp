@@ -26,6 +26,14 @@ double Scene::list_range() const {
   return support() * (total_lagrangian() ? terms.bonds.largest_stretch : kernel.largest_growth);
 }
 
+bool Scene::has_gas_flow() const {
+  return std::ranges::any_of(groups, [](const Group& g) { return g.bubbly.permeability.coefficient > 0; });
+}
+
+bool Scene::has_heat() const {
+  return std::ranges::any_of(groups, [](const Group& g) { return g.heat.material.specific_heat > 0; });
+}
+
 bool Scene::total_lagrangian() const {
   for (const Group& g : groups)
     if (g.solid.lagrangian == Lagrangian::total) return true;

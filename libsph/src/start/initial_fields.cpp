@@ -112,6 +112,13 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
     if (p.energy > 0) particles.data<Field::density>()[i] = 0;  // not summed yet
     particles.data<Field::smoothing_length>()[i] = scene.kernel.smoothing_length;
   }
+  if (auto* t = particles.data<Field::temperature>())
+    t[i] = scene.groups[p.group].heat.temperature.value_or(0);
+  if (auto* h = particles.data<Field::enthalpy>()) h[i] = 0;  // of the temperature, once all are placed
+  if (auto* inflow = particles.data<Field::heat_inflow>()) inflow[i] = 0;
+  if (auto* liquid = particles.data<Field::liquid_mass>())
+    liquid[i] = 0;  // of mass and gas content, then too
+  if (auto* inflow = particles.data<Field::gas_inflow>()) inflow[i] = 0;
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
   if (auto* radius = particles.data<Field::radius>()) radius[i] = p.radius;

@@ -66,6 +66,7 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
   check_finite(rows, k, "rho", rows.matter.rho, 1);
   check_finite(rows, k, "m", rows.matter.gas, 1);
   check_finite(rows, k, "u", rows.matter.energy, 1);
+  check_finite(rows, k, "T", rows.matter.temperature, 1);
   check_finite(rows, k, "mass", rows.matter.mass, 1);
   check_finite(rows, k, "stress", rows.matter.stress, d * (d + 1) / 2);
   check_finite(rows, k, "radius", rows.grains.radius, 1);
@@ -82,6 +83,8 @@ void check_row(const StartRows& rows, std::size_t k, const Scene& scene) {
   if (!rows.matter.energy.empty() && scene.groups[rows.group[k]].eos.law->kind == EosKind::ideal_gas &&
       !(rows.matter.energy[k] > 0))
     fail_row(rows, k, fmt::format("u is {}; it must be positive", rows.matter.energy[k]));
+  if (!rows.matter.temperature.empty() && !(rows.matter.temperature[k] >= 0))
+    fail_row(rows, k, fmt::format("T is {} K; it must not be negative", rows.matter.temperature[k]));
   check_radius(rows, k, scene.groups[rows.group[k]]);
   // Far outside, the coordinate in quanta would overflow.
   constexpr double periods = 2;
@@ -135,6 +138,9 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
   const std::size_t i = particles.owned() - 1;
   if (auto* m = particles.data<Field::gas_content>(); m != nullptr && !rows.matter.gas.empty())
     m[i] = rows.matter.gas[k];
+  if (auto* t = particles.data<Field::temperature>();
+      t != nullptr && !rows.matter.temperature.empty() && scene.groups[p.group].kind != GroupKind::wall)
+    t[i] = rows.matter.temperature[k];
   if (auto* s = particles.data<Field::stress>(); s != nullptr && !rows.matter.stress.empty())
     std::copy_n(rows.matter.stress.data() + k * n, n, s + i * n);
 }

@@ -1,9 +1,9 @@
 // Rows of a particle file, HDF5 or CSV; the order of the rows changes nothing.
-//   CSV   header "id,x,y(,z),vx,vy(,vz),group,rho,m,u"; group is a name or an index; '#' begins a comment line
+//   CSV   header "id,x,y(,z),vx,vy(,vz),group,rho,m,u,T"; group is a name or an index; '#' begins a comment line
 //   HDF5  data sets id, x (rows x dim), v, group, rho, m, u; or a snapshot, whose position_quanta keep every
 //         bit
 // rho may be missing (then from the initial pressure) and so may m (the gas content; then the group's).
-// Without u [J/kg] an ideal gas has its start_pressure. Further columns: mass (else rho spacing^dim) and, in
+// Without u [J/kg] an ideal gas has its start_pressure, without T [K] heat that of the group. Further columns: mass (else rho spacing^dim) and, in
 // HDF5, stress (files/tensor_order.hpp). Grains have radius instead of these, and may have a spin (CSV: wx,
 // wy, wz); their mass follows from radius and density of the group.
 #pragma once
@@ -29,7 +29,7 @@ struct StartPositions {
 };
 
 struct StartMatter {
-  std::vector<double> rho, gas, energy, mass, stress;
+  std::vector<double> rho, gas, energy, temperature, mass, stress;
 };
 
 struct StartGrains {

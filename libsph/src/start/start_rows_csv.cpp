@@ -48,7 +48,7 @@ bool is_comment(std::string_view line) {
 /// Where the columns are; -1: absent.
 struct Columns {
   std::size_t count = 0;
-  int id = -1, group = -1, rho = -1, gas = -1, energy = -1, mass = -1, radius = -1;
+  int id = -1, group = -1, rho = -1, gas = -1, energy = -1, temperature = -1, mass = -1, radius = -1;
   std::array<int, 3> x{-1, -1, -1}, v{-1, -1, -1}, spin{-1, -1, -1};
 };
 
@@ -71,9 +71,11 @@ std::vector<KnownColumn> known_columns(const Scene& scene, Columns& c) {
     known.push_back({"radius", &c.radius, true});
     vector("w", c.spin, false);
   } else {
-    known.insert(
-        known.end(),
-        {{"rho", &c.rho, false}, {"m", &c.gas, false}, {"u", &c.energy, false}, {"mass", &c.mass, false}});
+    known.insert(known.end(), {{"rho", &c.rho, false},
+                               {"m", &c.gas, false},
+                               {"u", &c.energy, false},
+                               {"T", &c.temperature, false},
+                               {"mass", &c.mass, false}});
   }
   return known;
 }
@@ -150,6 +152,7 @@ void read_row(const Scene& scene, const Columns& c, std::string_view text, std::
   if (c.rho >= 0) rows.matter.rho.push_back(real(c.rho, "rho"));
   if (c.gas >= 0) rows.matter.gas.push_back(real(c.gas, "m"));
   if (c.energy >= 0) rows.matter.energy.push_back(real(c.energy, "u"));
+  if (c.temperature >= 0) rows.matter.temperature.push_back(real(c.temperature, "T"));
   if (c.radius >= 0) rows.grains.radius.push_back(real(c.radius, "radius"));
   if (c.mass >= 0) rows.matter.mass.push_back(real(c.mass, "mass"));
 }

@@ -143,6 +143,7 @@ StartRows read_hdf5_rows(const Scene& scene, const std::string& file, int rank, 
   }
   out.matter.rho = source.real({"rho", "density", "particles/density"}, 1, false);
   out.matter.gas = source.real({"m", "gas_content", "particles/gas_content"}, 1, false);
+  out.matter.temperature = source.real({"T", "temperature", "particles/temperature"}, 1, false);
   out.matter.energy = source.real({"u", "specific_energy", "particles/specific_energy"}, 1, false);
   out.matter.mass = source.real({"mass", "particles/mass"}, 1, false);
   out.matter.stress = source.real({"stress", "particles/stress"}, dim * (dim + 1) / 2, false);

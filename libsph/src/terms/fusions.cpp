@@ -10,12 +10,13 @@ std::vector<Fusion> fusions_2d_float();
 std::vector<Fusion> fusions_2d_double();
 std::vector<Fusion> fusions_3d_float();
 std::vector<Fusion> fusions_3d_double();
+std::vector<Fusion> exchange_fusions();
 
 const std::vector<Fusion>& all_fusions() {
   static const std::vector<Fusion> all = [] {
     std::vector<Fusion> list;
-    for (const auto& part :
-         {fusions_2d_float(), fusions_2d_double(), fusions_3d_float(), fusions_3d_double()})
+    for (const auto& part : {fusions_2d_float(), fusions_2d_double(), fusions_3d_float(), fusions_3d_double(),
+                             exchange_fusions()})
       list.insert(list.end(), part.begin(), part.end());
     for (const AddedTerm* t : added_terms()) list.insert(list.end(), t->fusions.begin(), t->fusions.end());
     return list;

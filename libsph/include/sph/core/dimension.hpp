@@ -31,6 +31,10 @@ inline constexpr Dimension diffusivity{0, 2, -1};
 inline constexpr Dimension temperature{0, 0, 0, 1};
 inline constexpr Dimension per_temperature{0, 0, 0, -1};
 inline constexpr Dimension temperature_flux{0, 1, -1, 1};
+inline constexpr Dimension area{0, 2, 0};
+inline constexpr Dimension specific_heat{0, 2, -2, -1};
+inline constexpr Dimension conductivity{1, 1, -3, -1};
+inline constexpr Dimension heat_flux{1, 0, -3};
 }  // namespace dimension
 
 }  // namespace sph

@@ -72,6 +72,16 @@ enum class Field : std::uint8_t {
   mobility,
   contact_force,
   way,
+  enthalpy,
+  heat_gain,
+  wall_heat,
+  heat_inflow,
+  liquid_mass,
+  gas_mobility,
+  gas_pressure,
+  gas_gain,
+  wall_gas,
+  gas_inflow,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -219,7 +229,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of the fluid on a grain in it: drag alone"},
     {Field::fluid_share, "fluid_share", "1", Type::f64, Shape::scalar, false, false,
      "of a grain: 1 over the sum of the kernel over the volumes of the fluid around it, 0 if there is none"},
-    {Field::temperature, "temperature", "K", Type::f64, Shape::scalar, true, true, "of a cell of melt"},
+    {Field::temperature, "temperature", "K", Type::f64, Shape::scalar, true, true,
+     "of a cell of melt; of a fluid or solid with heat it follows from the enthalpy"},
     {Field::composition, "composition", "1", Type::f64, Shape::scalar, true, true,
      "of a cell: share of the second melt"},
     {Field::melt_share, "melt_share", "1", Type::f64, Shape::scalar, true, false,
@@ -235,6 +246,26 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "on a grain in melts, of what it touched in the last step"},
     {Field::way, "way", "quantum", Type::i64, Shape::vector, true, false,
      "of a grain since the flow around it was found"},
+    {Field::enthalpy, "enthalpy", "J/kg", Type::f64, Shape::scalar, true, true,
+     "of fluids and solids with heat, above that at 0 K"},
+    {Field::heat_gain, "heat_gain", "W", Type::f64, Shape::scalar, false, false,
+     "heat that is conducted to a particle from others", SumScale::force},
+    {Field::wall_heat, "wall_heat", "W", Type::f64, Shape::scalar, false, false, "... and from walls",
+     SumScale::force},
+    {Field::heat_inflow, "heat_inflow", "J", Type::f64, Shape::scalar, true, false,
+     "heat that a particle has had from walls since the start"},
+    {Field::liquid_mass, "liquid_mass", "kg", Type::f64, Shape::scalar, true, false,
+     "of bubbly magma whose gas flows: mass without volatiles, which stays"},
+    {Field::gas_mobility, "gas_mobility", "s/m^2", Type::f64, Shape::scalar, false, false,
+     "density of the gas times the permeability's dependence on its share, over its viscosity"},
+    {Field::gas_pressure, "gas_pressure", "Pa", Type::f64, Shape::scalar, false, false,
+     "that drives the gas, above the surface pressure; of a wall that beyond it"},
+    {Field::gas_gain, "gas_gain", "kg/s", Type::f64, Shape::spread, false, false,
+     "gas that flows to a particle from others, and the momentum that it brings [N]", SumScale::force},
+    {Field::wall_gas, "wall_gas", "kg/s", Type::f64, Shape::scalar, false, false, "gas from walls",
+     SumScale::force},
+    {Field::gas_inflow, "gas_inflow", "kg", Type::f64, Shape::scalar, true, false,
+     "gas that a particle has had from walls since the start, less what escaped"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }
@@ -275,17 +306,23 @@ class FieldSet {
  public:
   constexpr FieldSet() = default;
   constexpr FieldSet(std::initializer_list<Field> fields) {
-    for (Field f : fields) bits_ |= bit(f);
+    for (Field f : fields) bits_[word(f)] |= bit(f);
   }
-  [[nodiscard]] constexpr bool has(Field f) const { return (bits_ & bit(f)) != 0; }
-  [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
-  constexpr FieldSet operator|(FieldSet o) const { return FieldSet(bits_ | o.bits_); }
-  constexpr FieldSet operator&(FieldSet o) const { return FieldSet(bits_ & o.bits_); }
-  constexpr FieldSet without(FieldSet o) const { return FieldSet(bits_ & ~o.bits_); }
-  constexpr FieldSet& operator|=(FieldSet o) {
-    bits_ |= o.bits_;
-    return *this;
+  [[nodiscard]] constexpr bool has(Field f) const { return (bits_[word(f)] & bit(f)) != 0; }
+  [[nodiscard]] constexpr bool empty() const { return *this == FieldSet{}; }
+  constexpr FieldSet operator|(FieldSet o) const {
+    for (std::size_t w = 0; w < words; ++w) o.bits_[w] |= bits_[w];
+    return o;
   }
+  constexpr FieldSet operator&(FieldSet o) const {
+    for (std::size_t w = 0; w < words; ++w) o.bits_[w] &= bits_[w];
+    return o;
+  }
+  constexpr FieldSet without(FieldSet o) const {
+    for (std::size_t w = 0; w < words; ++w) o.bits_[w] = bits_[w] & ~o.bits_[w];
+    return o;
+  }
+  constexpr FieldSet& operator|=(FieldSet o) { return *this = *this | o; }
   [[nodiscard]] std::vector<Field> list() const {
     std::vector<Field> out;
     for (const FieldInfo& i : field_table)
@@ -294,11 +331,12 @@ class FieldSet {
   }
   friend constexpr bool operator==(FieldSet, FieldSet) = default;
 
-  std::uint64_t bits_ = 0;  ///< public only so that a set can be a template argument
+  static constexpr std::size_t words = (static_cast<std::size_t>(field_count) + 63) / 64;
+  std::array<std::uint64_t, words> bits_{};  ///< public only so that a set can be a template argument
 
  private:
-  constexpr explicit FieldSet(std::uint64_t bits) : bits_(bits) {}
-  static constexpr std::uint64_t bit(Field f) { return std::uint64_t{1} << static_cast<int>(f); }
+  static constexpr std::size_t word(Field f) { return static_cast<std::size_t>(f) / 64; }
+  static constexpr std::uint64_t bit(Field f) { return std::uint64_t{1} << (static_cast<int>(f) % 64); }
 };
 
 /// Running averages for output. They migrate and are checkpointed like state, but no step reads them: the

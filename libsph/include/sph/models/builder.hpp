@@ -1,6 +1,7 @@
 // What the models of a scene of fluids and solids add to it: fields, the stages of its plan.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ class Builder {
   [[nodiscard]] const Plan& plan() const { return plan_; }
 
   void add_fields(FieldSet fields) { fields_ |= fields; }
+  /// In the precision of the scene, or another.
   [[nodiscard]] Stage sums_over_pairs(std::string name, const std::vector<Term>& terms,
-                                      Rows rows = Rows::movers);
+                                      Rows rows = Rows::movers, std::optional<Precision> precision = {});
   void add_sums(std::string name, const std::vector<Term>& terms, Rows rows = Rows::movers) {
     append(plan_.sums, sums_over_pairs(std::move(name), terms, rows));
   }

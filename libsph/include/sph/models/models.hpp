@@ -18,18 +18,22 @@ void add_drift(Builder& builder);
 [[nodiscard]] double longest_drift(const GlobalState& global);
 /// Fluids and updated-Lagrangian solids: densities and stresses from the velocities ...
 void add_kinematics(Builder& builder);
+/// Those of forces, where some have a second viscosity.
+void add_excess_pressures(Builder& builder);
 /// ... and the forces of pairs.
 void add_forces(Builder& builder);
 /// Walls take their pressure and velocity from what is beside them; `weighted`: by density.
 void add_walls(Builder& builder, bool weighted);
 /// Where torn fluid flies, walls stop it.
 void add_walls_that_hold(Builder& builder);
-/// How near walls are, for what needs it after the forces.
+/// How near walls are.
 void add_wall_share(Builder& builder);
+/// ... and in which direction, for what is straight between them and a particle.
+void add_wall_slopes(Builder& builder);
 /// The interface's curvature, for a tension that is a jump of the pressure.
 void add_curvature(Builder& builder);
-/// Viscous forces of the end of the step; `walls`: some are near.
-void add_implicit_viscosity(Builder& builder, bool walls);
+/// Viscous forces of the end of the step; where there are walls, after their slopes.
+void add_implicit_viscosity(Builder& builder);
 /// The literal formulation of Ida's paper.
 void add_ida(Builder& builder);
 /// Total-Lagrangian solids.
@@ -45,6 +49,8 @@ void add_accelerations(Builder& builder);
 void add_drifts(Builder& builder);
 /// The largest speed of sound where it grows with the pressure.
 void add_sound(Builder& builder);
+/// A sum of what budgets count, in double precision whatever that of the scene.
+void add_exchange(Builder& builder, std::string name, Term term);
 /// Running averages for output.
 void add_averages(Builder& builder);
 

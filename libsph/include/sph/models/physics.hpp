@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "sph/models/gas.hpp"
 #include "sph/models/model.hpp"
-#include "sph/models/shifting.hpp"
+#include "sph/models/sph_stages.hpp"
 #include "sph/models/sph_time_step.hpp"
 #include "sph/scene/scene.hpp"
 
@@ -37,14 +36,12 @@ class Physics final : public Model {
   [[nodiscard]] const Builder& built() const { return builder_; }
   [[nodiscard]] const SphConstants& constants() const { return constants_; }
   [[nodiscard]] const SphTimeStep& steps() const { return steps_; }
-  /// Models of its own, where the scene has them.
-  [[nodiscard]] Shifting* shifting() { return shifting_ ? &*shifting_ : nullptr; }
+  /// Models of its own.
+  [[nodiscard]] SphModels& models() { return models_; }
   [[nodiscard]] GasReach* reach() { return reach_ ? &*reach_ : nullptr; }
 
  private:
   [[nodiscard]] StepMaxima maxima_at_start(Particles& particles) const;
-  void add_liquids_and_solids();
-  void add_end_of_step();
 
   const Scene* scene_;
   bool gas_;               ///< there is an ideal gas
@@ -53,8 +50,8 @@ class Physics final : public Model {
   Materials materials_;
   BodyForces body_forces_;
   Builder builder_;
+  SphModels models_;
   SphTimeStep steps_;
-  std::optional<Shifting> shifting_;
   std::optional<GasReach> reach_;
   struct Places {
     Reduction::Maximum sound, viscosity, growth;

@@ -19,6 +19,9 @@ struct SphConstants {
   /// What a sum over pairs needs besides its terms.
   [[nodiscard]] PassContext context(Particles& particles, const NeighbourLists& lists,
                                     decomp::LargeVector<std::byte>& rows, double dt) const;
+  /// ... of a pass in double precision, whatever that of the scene.
+  [[nodiscard]] PassContext double_context(Particles& particles, const NeighbourLists& lists,
+                                           decomp::LargeVector<std::byte>& rows, double dt) const;
   [[nodiscard]] bool is_wall(std::uint32_t group) const {
     return scene->groups[group].kind == GroupKind::wall;
   }

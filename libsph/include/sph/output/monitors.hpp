@@ -1,16 +1,18 @@
 // What a scene's monitors say at one moment: the columns of series.csv. Sums are exact and a particle's
 // values come from its owner, so every number has the same bits on any number of ranks.
-//   particle  x, y(, z), vx, vy(, vz), then rho, p(, psi)(, u), or of a grain that spins wx, wy, wz [rad/s]
+//   particle  x, y(, z), vx, vy(, vz), then rho, p(, psi)(, u)(, T), or of a grain that spins wx, wy, wz [rad/s]
 //   group     n, then the same as means weighted by mass: sum(m a) / sum(m), each product rounded once; over
 //             the particles that belong to the group now. nan while it is empty. Fragments belong to the
 //             group they joined, so the cylinder and its spray are two groups
 //   energy    kinetic  sum m v^2/2;  potential  sum -m g.x;  elastic  compression of groups with the linear
 //             law, m K/rho_0 (ln(rho/rho_0) + rho_0/rho - 1), which is -int p dV, and V S:S/(4 mu) of the
 //             deviator S of solids (conservative formulation). Walls and bubbly groups do not enter the last.
-//             With ideal gases internal, sum m u, before the last
+//             With ideal gases internal, sum m u, before the last; with heat sum m H
 //             Of grains: kinetic, rotational  sum m r^2 w^2/5, potential, elastic  the springs of all
 //             contacts that overlap now, with walls and fixed grains too (formulas: contact_records.hpp)
 //   momentum  px, py(, pz)  sum m v
+//   budget    mass;  heat  sum m H, and heat_in, what came from walls since the start: with heat;
+//             gas  sum M m, and gas_in, what came from walls less what escaped: where gas flows
 //   wall      x, y, z, vx, vy, vz, fx, fy, fz: the plane's point now, its velocity, and the force of the
 //             grains on it in the last step [N]
 //   contacts  n  contacts between grains, each once;  walls  those of a grain with a wall or a fixed grain;

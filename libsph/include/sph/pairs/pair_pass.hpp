@@ -99,6 +99,12 @@ inline constexpr bool is_idle_without_a_value = requires {
   Term::nothing_without;
 };
 
+/// In double precision whatever that of the scene, whose lists may then have blocks of several of its own.
+template <class Term>
+inline constexpr bool is_always_double = requires {
+  Term::always_double;
+};
+
 template <class T, int D, class Kernel, class... Terms>
 struct PairPass {
   static constexpr ValueSet values = (Terms::reads | ...);
@@ -110,6 +116,7 @@ struct PairPass {
   static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
   static constexpr bool only_beside_walls = (looks_only_beside_walls<Terms> && ...);
   static constexpr bool can_be_idle = (is_idle_without_a_value<Terms> && ...);
+  static constexpr bool finer = (is_always_double<Terms> && ...);
   static constexpr int velocity = half_step_back ? Layout::offset(Value::velocity) : 0;
 
   static void pack(const PassContext& c, std::size_t first, std::size_t last) {
@@ -129,12 +136,20 @@ struct PairPass {
   }
 
   static void run(const PassContext& c, const RowRange& range) {
+    const std::size_t lanes = finer ? static_cast<std::size_t>(c.lists->lanes()) : V::lanes;
+    for (std::size_t part = 0; part < lanes; part += V::lanes) run(c, range, part, lanes);
+  }
+
+ private:
+  /// Of each block of `lanes` rows those from `part` on.
+  [[gnu::always_inline]] static void run(const PassContext& c, const RowRange& range, std::size_t part,
+                                         std::size_t lanes) {
     const T* const rows = rows_of(c);
     const TermConstants<T> constants = narrow(c.constants);
     const V unit(static_cast<T>(c.scale.position_unit));
     const V tiny(static_cast<T>(1e-30));
-    for (std::size_t first = range.first, block = range.first_block; first < range.last;
-         first += V::lanes, ++block) {
+    for (std::size_t first = range.first + part, block = range.first_block; first < range.last;
+         first += lanes, ++block) {
       Sums<T, D, writes> sums;
       for (V& s : sums.v) s = V::zero();
       if (only_beside_walls && !c.lists->beside_walls(block)) {
@@ -152,7 +167,7 @@ struct PairPass {
           continue;
         }
       const std::span<const std::uint32_t> entries = c.lists->block(block);
-      for (std::size_t k = 0; k < entries.size(); k += V::lanes) {
+      for (std::size_t k = part; k < entries.size(); k += lanes) {
         load_rows<Layout::stride>(rows, entries.data() + k, other);
         Pair<T, D, values> pair;
         pair.own = own;
@@ -175,7 +190,6 @@ struct PairPass {
     }
   }
 
- private:
   static bool all_zero(const V& value) {
     for (int l = 0; l < static_cast<int>(V::lanes); ++l)
       if (value[l] != 0) return false;

@@ -229,6 +229,46 @@ struct CorrectionColumns {
   }
 };
 
+/// Of heat.
+struct HeatColumns {
+  explicit HeatColumns(const Particles& p) : temperature(p.data<Field::temperature>()) {}
+  const double* temperature;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    const GroupTable& groups = row.groups;
+    if constexpr (S.has(Value::temperature)) row.put(Value::temperature, 0, temperature[row.i]);
+    if constexpr (S.has(Value::conductivity))
+      row.put(Value::conductivity, 0, groups.heat.conductivity[row.group] * row.scale.inverse_h);
+    if constexpr (S.has(Value::wall_warmth))
+      row.put(Value::wall_warmth, 0, groups.heat.wall_warmth[row.group]);
+    if constexpr (S.has(Value::wall_heat_flux))
+      row.put(Value::wall_heat_flux, 0, groups.heat.wall_flux[row.group]);
+  }
+};
+
+/// Of gas that flows through melt.
+struct GasFlowColumns {
+  explicit GasFlowColumns(const Particles& p)
+      : mobility(p.data<Field::gas_mobility>()), pressure(p.data<Field::gas_pressure>()) {}
+  const double *mobility, *pressure;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    const GroupTable& groups = row.groups;
+    if constexpr (S.has(Value::permeability))
+      row.put(Value::permeability, 0, groups.gas_flow.permeability[row.group] * row.scale.inverse_h);
+    if constexpr (S.has(Value::gas_mobility)) row.put(Value::gas_mobility, 0, mobility[row.i]);
+    if constexpr (S.has(Value::gas_pressure)) row.put(Value::gas_pressure, 0, pressure[row.i]);
+    if constexpr (S.has(Value::gas_density))
+      row.put(Value::gas_density, 0,
+              (pressure[row.i] + groups.gas_flow.surface_pressure) * groups.gas_flow.inverse_rt[row.group]);
+    if constexpr (S.has(Value::wall_open)) row.put(Value::wall_open, 0, groups.gas_flow.wall_open[row.group]);
+  }
+};
+
 /// Fills rows [first, last) of `rows`.
 template <class T, int D, ValueSet S>
 void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& scale, std::size_t first,
@@ -238,6 +278,8 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const BondColumns bonds(p);
   const ViscousColumns viscous(p);
   const CorrectionColumns corrections(p);
+  const HeatColumns heat(p);
+  const GasFlowColumns gas(p);
   const auto* group = p.data<Field::group>();
   for (std::size_t i = first; i < last; ++i) {
     const PackedRow<T, D, S> row{groups, scale, rows + i * RowLayout<D, S>::stride, i, group[i]};
@@ -246,6 +288,8 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     bonds.pack(row);
     viscous.pack(row);
     corrections.pack(row);
+    heat.pack(row);
+    gas.pack(row);
   }
 }
 

@@ -58,6 +58,15 @@ enum class Value : std::uint8_t {
   velocity_gradient,   ///< h d v_a / d x_b [m/s]
   shears,              ///< 1 for solids and walls, 0 for fluids
   rest_gradient,       ///< of the pressure of a fluid with grains in it (terms/head.hpp), times h [Pa]
+  temperature,         ///< [K]
+  conductivity,        ///< k / h, 0 of walls [W/m^2/K]
+  wall_warmth,         ///< 1 for walls that keep a temperature, else 0
+  permeability,        ///< its scale / h, 0 of walls and of what is tight [m]
+  gas_mobility,        ///< [s/m^2]
+  gas_pressure,        ///< [Pa]
+  gas_density,         ///< 0 of walls [kg/m^3]
+  wall_open,           ///< 1 for walls that let gas pass, else 0
+  wall_heat_flux,      ///< of walls, into what is beside them [W/m^2]
   count_
 };
 
@@ -65,7 +74,7 @@ class ValueSet {
  public:
   constexpr ValueSet() = default;
   constexpr ValueSet(std::initializer_list<Value> values) {
-    for (Value v : values) bits_ |= 1u << static_cast<int>(v);
+    for (Value v : values) bits_ |= std::uint64_t{1} << static_cast<int>(v);
   }
   [[nodiscard]] constexpr bool has(Value v) const { return ((bits_ >> static_cast<int>(v)) & 1u) != 0; }
   constexpr ValueSet operator|(ValueSet o) const {
@@ -74,7 +83,7 @@ class ValueSet {
     return r;
   }
 
-  unsigned bits_ = 0;  ///< public only so that a set can be a template argument
+  std::uint64_t bits_ = 0;  ///< public only so that a set can be a template argument
 };
 
 [[nodiscard]] constexpr int components(Value v, int dim) {
@@ -120,6 +129,13 @@ class ValueSet {
   if (values.has(Value::kernel_correction)) f |= FieldSet{Field::kernel_correction};
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   if (values.has(Value::shears)) f |= FieldSet{Field::group};
+  if (values.has(Value::temperature)) f |= FieldSet{Field::temperature};
+  if (values.has(Value::conductivity) || values.has(Value::wall_warmth) || values.has(Value::wall_heat_flux))
+    f |= FieldSet{Field::group};
+  if (values.has(Value::permeability) || values.has(Value::wall_open)) f |= FieldSet{Field::group};
+  if (values.has(Value::gas_mobility)) f |= FieldSet{Field::gas_mobility};
+  if (values.has(Value::gas_pressure)) f |= FieldSet{Field::gas_pressure};
+  if (values.has(Value::gas_density)) f |= FieldSet{Field::group, Field::gas_pressure};
   if (values.has(Value::rest_gradient)) f |= FieldSet{Field::liquid_density, Field::grain_drag};
   return f;
 }
@@ -136,6 +152,17 @@ struct GroupTable {
   std::vector<double> density;      ///< rho_0 [kg/m^3]
   std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
   std::vector<double> modulus;      ///< K + 4/3 mu [Pa]
+  struct GasFlow {
+    std::vector<double> permeability;  ///< scale [m^2]
+    std::vector<double> inverse_rt;    ///< [s^2/m^2]
+    std::vector<double> wall_open;     ///< 1 or 0
+    double surface_pressure = 0;       ///< [Pa]
+  };
+  struct Heat {
+    std::vector<double> conductivity, wall_warmth, wall_flux;  ///< as the values have them
+  };
+  GasFlow gas_flow;
+  Heat heat;
 };
 
 /// Scales of the rows; see the head of this file.

@@ -7,6 +7,19 @@
 
 namespace sph {
 
+/// How the permeability k of bubbly magma depends on the gas's share of the volume psi: coefficient times psi^n
+/// (Klug & Cashman 1996), (psi - threshold)^n above it (Rust & Cashman 2004), psi^3 / (1 - psi)^2 (Kozeny, Carman).
+enum class PermeabilityLaw { power, percolation, kozeny_carman };
+
+struct Permeability {
+  PermeabilityLaw law = PermeabilityLaw::power;
+  double coefficient = 0;       ///< 0: tight [m^2]
+  double exponent = 3.4;        ///< n
+  double threshold = 0.3;       ///< of psi
+  double gas_viscosity = 2e-5;  ///< [Pa s]
+  friend bool operator==(const Permeability&, const Permeability&) = default;
+};
+
 /// Of a group with eos = "bubbly": Ida eqs. (12) to (15), and when it breaks.
 struct BubblyMaterial {
   double gas_content = 0;                             ///< m, Ida eq. (14) [1]
@@ -15,6 +28,7 @@ struct BubblyMaterial {
   double solubility_exponent = 1;                     ///< gamma [1]
   std::optional<double> fragmentation_void_fraction;  ///< psi_f: above it a particle joins fragments_to
   int fragments_to = -1;                              ///< index of the spray group, -1 if none
+  Permeability permeability;                          ///< of its gas
   friend bool operator==(const BubblyMaterial&, const BubblyMaterial&) = default;
 };
 

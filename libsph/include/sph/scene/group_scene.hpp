@@ -1,11 +1,13 @@
 // A material of a scene, and what is one only for some kinds of matter.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "sph/scene/fluid_scene.hpp"
 #include "sph/scene/gas_scene.hpp"
 #include "sph/scene/grain_scene.hpp"
+#include "sph/scene/heat_scene.hpp"
 #include "sph/scene/melt_scene.hpp"
 #include "sph/scene/solid_scene.hpp"
 
@@ -29,7 +31,9 @@ struct Compressibility {
 struct WallMaterial {
   Double3 velocity{};  ///< of the material, with which it drags what touches it [m/s]
   bool slip = false;   ///< no shear on what flows past
-  int clamps = -1;     ///< index of the total-Lagrangian solid that is bonded to it, -1 if none
+  std::optional<double>
+      gas_pressure;  ///< beyond it, of gas that it lets pass, above that of the surface [Pa]
+  int clamps = -1;   ///< index of the total-Lagrangian solid that is bonded to it, -1 if none
   friend bool operator==(const WallMaterial&, const WallMaterial&) = default;
 };
 
@@ -45,8 +49,9 @@ struct Group {
   GasMaterial gas;
   SolidMaterial solid;
   WallMaterial wall;
-  GrainMaterial grain;  ///< besides it grains have name, density and wall.velocity
-  MeltMaterial melt;    ///< besides it melts have name, density and viscosity
+  GroupHeat heat;
+  GrainMaterial
+      grain;  ///< besides it grains have name, density and wall.velocity; melts name, density, viscosity
   friend bool operator==(const Group&, const Group&) = default;
 };
 

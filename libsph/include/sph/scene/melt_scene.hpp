@@ -22,11 +22,6 @@ struct MeltSide {
   friend bool operator==(const MeltSide&, const MeltSide&) = default;
 };
 
-struct MeltMaterial {
-  double temperature = 0;  ///< at the start [K]
-  friend bool operator==(const MeltMaterial&, const MeltMaterial&) = default;
-};
-
 struct MeltControl {
   std::array<std::int64_t, 3> cells{1, 1, 1};  ///< along each axis
   double tolerance = 1e-4;                     ///< of the flow: residual over what drives it [1]

@@ -30,7 +30,7 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-enum class MonitorKind { particle, group, energy, momentum, wall, contacts, melt };
+enum class MonitorKind { particle, group, energy, momentum, wall, contacts, melt, budget };
 
 struct Monitor {
   std::string name;

@@ -51,6 +51,8 @@ struct Scene {
   [[nodiscard]] double list_range()
       const;  ///< how far pairs of the lists may be apart [m]: support(), or more
   [[nodiscard]] bool has_kind(GroupKind k) const;
+  [[nodiscard]] bool has_gas_flow() const;                             ///< through bubbly magma
+  [[nodiscard]] bool has_heat() const;                                 ///< its fluids and solids have
   [[nodiscard]] bool total_lagrangian() const;                         ///< its solids are
   [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none
   friend bool operator==(const Scene&, const Scene&) = default;

@@ -12,11 +12,19 @@ namespace sph {
 enum class Formulation { conservative, ida };
 enum class Precision { double_, mixed };
 
+/// Of heat and of gas that flows.
+struct ExchangeTerms {
+  bool motion = true;      ///< false: nothing moves
+  bool gas_escape = true;  ///< through free surfaces
+  friend bool operator==(const ExchangeTerms&, const ExchangeTerms&) = default;
+};
+
 struct Terms {
   Formulation formulation = Formulation::conservative;
   Precision precision = Precision::double_;
   double density_diffusion = 0.1;   ///< delta
   double artificial_viscosity = 0;  ///< alpha
+  ExchangeTerms exchange;
   bool shifting = false;
   PressureWeights pressure_weights = PressureWeights::volume;
   ViscousForces viscous;

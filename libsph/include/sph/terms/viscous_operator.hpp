@@ -2,14 +2,13 @@
 // (models/viscosity.cpp): the pair forces of viscosity.hpp with u in place of v, and beside them the
 // drag on the particle alone, the operator's diagonal. Symmetric and negative semidefinite, as conjugate
 // gradients need it: mirrored velocities of wall particles would not be. A wall particle is given the
-// velocity on the straight profile through this particle and the wall's face (Morris et al. 1997, eq. 24),
-//   u_i - u_w = (u_i - u_wall) n_i.(x_i - x_w) / d_i,
-// with distance d_i and normal n_i of the face, a drag on particle i only, exact where the flow is linear
-// beside one flat wall. Between walls so near that no normal is found, u_i - u_w = u_i - u_wall.
+// velocity on the straight profile through this particle and the wall's face (wall_profile.hpp), a drag on particle i
+// only.
 #pragma once
 
 #include "sph/pairs/pair_values.hpp"
 #include "sph/terms/viscosity.hpp"
+#include "sph/terms/wall_profile.hpp"
 
 namespace sph {
 
@@ -18,15 +17,8 @@ template <class P>
 typename P::V viscous_drag(const P& p) {
   using V = typename P::V;
   const V mover = p.template j<Value::mover>(), own = p.template i<Value::viscosity>();
-  V profile = V::zero(), steepness = V::zero();
-  for (int k = 0; k < P::dim; ++k) {
-    const V slope = p.template i<Value::wall_slope>(k);
-    profile -= slope * p.e[k];
-    steepness += slope * slope;
-  }
-  profile = max(profile, V::zero()) + where_equal(steepness, V::zero(), V(1));
-  const V eta =
-      where_equal(mover, V(1), mean_viscosity(p)) + where_equal(mover, V::zero(), (own + own) * profile);
+  const V eta = where_equal(mover, V(1), mean_viscosity(p)) +
+                where_equal(mover, V::zero(), (own + own) * wall_profile(p).share());
   return -(p.template i<Value::volume>() * p.template j<Value::volume>() * eta * p.f);
 }
 

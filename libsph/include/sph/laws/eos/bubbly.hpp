@@ -18,6 +18,9 @@ class BubblyEos {
   [[nodiscard]] double pressure(double density) const;        ///< inverse of density() [Pa]
   [[nodiscard]] double void_fraction(double pressure) const;  ///< psi, eq. (14) [1]
   [[nodiscard]] double sound_speed(double pressure) const;    ///< sqrt(dp/drho) [m/s]
+  /// dp of a gain dm of gas in a fixed volume, over dm (1 + m) / rho: what a diffusivity of gas flow is made of
+  /// [m^2/s^2].
+  [[nodiscard]] double gas_stiffness(double pressure) const;
   /// Newton or bisection steps that pressure() takes for this density: for tests.
   [[nodiscard]] int iterations(double density) const;
 

@@ -1,0 +1,34 @@
+// Heat of fluids and solids: the enthalpy of a particle is state, conducted pair by pair (terms/conduction.hpp), its
+// temperature what that and the group say (laws/enthalpy.hpp). What walls give is counted for each particle, so that
+//   sum m H - sum (heat from walls) = what it was at the start,
+// but for rounding, on any number of ranks. Explicit: dt <= 0.25 h^2 rho c / k.
+#pragma once
+
+#include "sph/models/builder.hpp"
+#include "sph/models/model.hpp"
+
+namespace sph {
+
+/// Of explicit conduction, 0 if nothing conducts [s]; a pure function of the scene.
+[[nodiscard]] double longest_heat_step(const Scene& scene);
+/// Some walls keep a temperature or give a flux.
+[[nodiscard]] bool has_warm_walls(const Scene& scene);
+
+class Heat final : public Model {
+ public:
+  Heat(std::size_t set, const SphConstants& constants) : Model(set), constants_(&constants) {}
+
+  /// Its fields and stages; where walls are warm, after the wall slopes.
+  void add_to(Builder& builder) const;
+
+  [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
+  [[nodiscard]] bool report(const StepState&, Reduction&) override { return true; }
+  [[nodiscard]] double longest_step(const Reduction&) const override;
+  [[nodiscard]] std::vector<Energy> energies() const override { return {Energy::internal}; }
+  void add_energies(const Particles& particles, EnergySums& sums) const override;
+
+ private:
+  const SphConstants* constants_;
+};
+
+}  // namespace sph

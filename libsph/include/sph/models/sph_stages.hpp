@@ -1,0 +1,28 @@
+// The stages of a scene of fluids and solids: which models it has, and in which order they take part in a step.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sph/models/builder.hpp"
+#include "sph/models/gas.hpp"
+#include "sph/models/gas_flow.hpp"
+#include "sph/models/heat.hpp"
+#include "sph/models/model.hpp"
+#include "sph/models/shifting.hpp"
+
+namespace sph {
+
+/// Models of their own, where a scene has them.
+struct SphModels {
+  SphModels(std::size_t set, const Builder& builder);
+  [[nodiscard]] std::vector<Model*> all();
+
+  std::optional<Shifting> shifting;
+  std::optional<Degassing> degassing;
+  std::optional<Heat> heat;
+};
+
+void add_stages(Builder& builder, const SphModels& models);
+
+}  // namespace sph

@@ -1,0 +1,25 @@
+// What a scene says of the heat of its groups: [group.heat], temperatures, fluxes.
+#pragma once
+
+#include <optional>
+
+namespace sph {
+
+/// Enthalpy and conduction. Between solidus and liquidus the latent heat is spread evenly.
+struct HeatMaterial {
+  double specific_heat = 0;  ///< c_p; 0: the scene has no heat [J/kg/K]
+  double conductivity = 0;   ///< k [W/m/K]
+  double latent_heat = 0;    ///< L [J/kg]
+  double solidus = 0;        ///< [K]
+  double liquidus = 0;       ///< [K]
+  friend bool operator==(const HeatMaterial&, const HeatMaterial&) = default;
+};
+
+struct GroupHeat {
+  HeatMaterial material;              ///< of fluids and solids
+  std::optional<double> temperature;  ///< at the start, of melts too; of a wall always [K]
+  std::optional<double> wall_flux;    ///< from a wall into what is beside it [W/m^2]
+  friend bool operator==(const GroupHeat&, const GroupHeat&) = default;
+};
+
+}  // namespace sph

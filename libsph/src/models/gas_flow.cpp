@@ -1,0 +1,201 @@
+#include "sph/models/gas_flow.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pairs/for_rows.hpp"
+#include "sph/laws/eos/bubbly.hpp"
+#include "sph/laws/permeability.hpp"
+#include "sph/models/faults.hpp"
+#include "sph/models/models.hpp"
+#include "sph/terms/gas_flow.hpp"
+
+namespace sph {
+namespace {
+
+constexpr double share = 0.3;  // of h^2 over the diffusivity: positive to 1/2.96
+
+[[nodiscard]] bool flows(const Group& g) { return g.bubbly.permeability.coefficient > 0; }
+
+/// b of a particle: density of its gas, times f(psi), over its viscosity [s/m^2].
+double mobility(const Group& g, double absolute_pressure, double void_fraction) {
+  if (!flows(g) || !(absolute_pressure > 0)) return 0;
+  return absolute_pressure / g.bubbly.gas_rt * relative_permeability(g.bubbly.permeability, void_fraction) /
+         g.bubbly.permeability.gas_viscosity;
+}
+
+struct Mobilities {
+  static constexpr FieldSet reads{Field::pressure, Field::void_fraction, Field::group};
+  static constexpr FieldSet writes{Field::gas_mobility, Field::gas_pressure};
+  const Scene* scene;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const double *pressure = p.get<Field::pressure>(), *psi = p.get<Field::void_fraction>();
+    const auto* group = p.get<Field::group>();
+    double *b = p.get<Field::gas_mobility>(), *drives = p.get<Field::gas_pressure>();
+    for_movers(step.ranges, [&](std::size_t i) {
+      b[i] = mobility(scene->groups[group[i]], pressure[i] + scene->domain.surface_pressure, psi[i]);
+      drives[i] = pressure[i];
+    });
+    for_walls(step.ranges, [&](std::size_t i) {
+      b[i] = 0;
+      drives[i] = scene->groups[group[i]].wall.gas_pressure.value_or(0);
+    });
+  }
+};
+
+struct Contents {
+  static constexpr FieldSet reads = FaultView::reads | SurfaceEscape::reads | Materials::reads |
+                                    FieldSet{Field::gas_gain, Field::wall_gas, Field::gas_mobility,
+                                             Field::gas_pressure, Field::liquid_mass};
+  static constexpr FieldSet writes =
+      Materials::writes |
+      FieldSet{Field::gas_content, Field::mass, Field::density, Field::velocity, Field::gas_inflow};
+  const SphConstants* constants;
+  const Materials* materials;
+  std::shared_ptr<const SurfaceEscape> surface;  ///< nullptr: there is none
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+      const RowRange& r = range_of(step.ranges, c);
+      for (std::size_t i = r.first; i < r.last; ++i) exchange(p, i, step);
+      materials->derive(p, r.first, r.last);
+    }
+  }
+
+  void exchange(const View<reads, writes>& p, std::size_t i, const Step& step) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double dt = step.global.dt, liquid = p.get<Field::liquid_mass>()[i];
+    if (!(liquid > 0)) return;  // of no bubbly group
+    double &m = p.get<Field::gas_content>()[i], &mass = p.get<Field::mass>()[i],
+           &rho = p.get<Field::density>()[i];
+    const double* gain = p.get<Field::gas_gain>() + i * (d + 1);
+    const double* of_walls = p.get<Field::wall_gas>();
+    const double outside = (of_walls != nullptr ? of_walls[i] : 0.0) - escape(p, i, mass / rho);
+    if (gain[0] == 0 && outside == 0) return;
+    m += dt * (gain[0] + outside) / liquid;
+    if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += dt * outside;
+    if (!(m >= 0 && m < 1))
+      find_fault(
+          *constants, p, i, step,
+          fmt::format("has a gas content of {:.3g}; reduce time.dt, time.cfl or group.permeability", m));
+    const double now = liquid * (1 + m);
+    rho *= now / mass;
+    mass = now;
+    for (std::size_t a = 0; a < d; ++a) p.get<Field::velocity>()[i * d + a] += dt * gain[1 + a] / now;
+  }
+
+  [[nodiscard]] double escape(const View<reads, writes>& p, std::size_t i, double volume) const {
+    if (surface == nullptr) return 0;
+    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
+    const double b = p.get<Field::gas_mobility>()[i], drive = p.get<Field::gas_pressure>()[i];
+    if (!(b > 0 && drive > 0)) return 0;
+    return g.bubbly.permeability.coefficient * b * volume * (*surface)(p, i) * drive;
+  }
+};
+
+}  // namespace
+
+bool has_open_walls(const Scene& scene) {
+  return std::ranges::any_of(scene.groups, [](const Group& g) { return g.wall.gas_pressure.has_value(); });
+}
+
+bool has_escape(const Scene& scene) {
+  return scene.has_gas_flow() && scene.start.has_surface && scene.terms.exchange.gas_escape;
+}
+
+void Degassing::add_to(Builder& b) const {
+  const Scene& s = b.scene();
+  const bool walls = has_open_walls(s), escape = has_escape(s);
+  b.add_fields({Field::liquid_mass, Field::gas_mobility, Field::gas_pressure});
+  if (walls || escape) b.add_fields({Field::gas_inflow});
+  b.add_update("gas mobilities", Mobilities{&s});
+  add_exchange(b, "gas flow", term<GasFlow>);
+  if (walls) add_exchange(b, "gas of walls", term<WallGas>);
+  b.add_update("gas contents",
+               Contents{constants_, materials_,
+                        escape ? std::make_shared<const SurfaceEscape>(*constants_) : nullptr});
+}
+
+void Degassing::reserve(Reduction& r) {
+  in_.conductance = r.add_maximum();
+  in_.stiffness = r.add_maximum();
+}
+
+void Degassing::Fastest::see(double of_conductance, double of_stiffness) {
+  conductance = larger(of_conductance, conductance);
+  stiffness = larger(of_stiffness, stiffness);
+}
+
+double Degassing::start(const decomp::Comm& comm, Particles& p, GlobalState&) {
+  const Scene& scene = *constants_->scene;
+  const auto* group = p.data<Field::group>();
+  const double *mass = p.data<Field::mass>(), *m = p.data<Field::gas_content>();
+  double* liquid = p.data<Field::liquid_mass>();
+  for (std::size_t i = 0; i < p.owned(); ++i)
+    liquid[i] = scene.groups[group[i]].eos.law->kind == EosKind::bubbly ? mass[i] / (1 + m[i]) : 0.0;
+  const Fastest own = at_start(p);
+  std::array<double, 2> largest{own.conductance, own.stiffness};
+  comm.max(largest);
+  return scene.time.dt ? *scene.time.dt : limit({largest[0], largest[1]});
+}
+
+Degassing::Fastest Degassing::at_start(const Particles& p) const {
+  const Scene& scene = *constants_->scene;
+  const auto* group = p.data<Field::group>();
+  const double *rho = p.data<Field::density>(), *content = p.data<Field::gas_content>();
+  Fastest found;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const Group& g = scene.groups[group[i]];
+    if (!flows(g)) continue;
+    const BubblyEos eos = bubbly_eos(g, content[i]);
+    const double pressure = eos.pressure(rho[i]);
+    found.see(g.bubbly.permeability.coefficient * mobility(g, pressure, eos.void_fraction(pressure)),
+              eos.gas_stiffness(pressure));
+  }
+  return found;
+}
+
+double Degassing::limit(const Fastest& found) const {
+  const double h = constants_->scene->kernel.smoothing_length,
+               diffusivity = found.conductance * found.stiffness;
+  return diffusivity > 0 ? share * h * h / diffusivity : any_step;
+}
+
+// With the pressures that the gas has flowed by in this step.
+bool Degassing::report(const StepState& s, Reduction& r) {
+  const Scene& scene = *constants_->scene;
+  const Particles& p = s.particles;
+  const auto* group = p.data<Field::group>();
+  const double *b = p.data<Field::gas_mobility>(), *pressure = p.data<Field::gas_pressure>();
+  Fastest found;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const Group& g = scene.groups[group[i]];
+    if (flows(g))
+      found.see(g.bubbly.permeability.coefficient * b[i],
+                bubbly_eos(g, p.data<Field::gas_content>()[i])
+                    .gas_stiffness(pressure[i] + scene.domain.surface_pressure));
+  }
+  r[in_.conductance] = found.conductance;
+  r[in_.stiffness] = found.stiffness;
+  return std::isfinite(found.conductance) && std::isfinite(found.stiffness);
+}
+
+double Degassing::longest_step(const Reduction& r) const {
+  if (constants_->scene->time.dt) return *constants_->scene->time.dt;
+  return limit({r[in_.conductance], r[in_.stiffness]});
+}
+
+void Degassing::guard_step(const Reduction& r, const GlobalState& global) const {
+  const std::optional<double> dt = constants_->scene->time.dt;
+  const double longest = limit({r[in_.conductance], r[in_.stiffness]});
+  if (dt && *dt > longest)
+    throw GuardError(fmt::format(
+        "step {}: the gas flows too fast for the time step: set time.dt to {:.3g} s or less, or leave it out",
+        global.step, 0.9 * longest));
+}
+
+}  // namespace sph

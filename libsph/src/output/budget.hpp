@@ -1,0 +1,35 @@
+// What a scene has of quantities that particles exchange, and what of them came from outside since the start: the
+// difference stays what it was, but for rounding.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sph/core/particles.hpp"
+
+namespace sph {
+
+struct Budget {
+  /// One sum each, in the order of visit().
+  [[nodiscard]] static std::vector<std::string> names(const Particles& p) {
+    std::vector<std::string> out{"mass"};
+    if (p.has(Field::enthalpy)) out.emplace_back("heat");
+    if (p.has(Field::heat_inflow)) out.emplace_back("heat_in");
+    if (p.has(Field::liquid_mass)) out.emplace_back("gas");
+    if (p.has(Field::gas_inflow)) out.emplace_back("gas_in");
+    return out;
+  }
+  /// Of one particle that is no wall [kg, J, J, kg, kg].
+  template <class Add>
+  static void visit(const Particles& p, std::size_t row, Add&& add) {
+    const double mass = p.data<Field::mass>()[row];
+    add(mass);
+    if (const double* h = p.data<Field::enthalpy>()) add(mass * h[row]);
+    if (const double* inflow = p.data<Field::heat_inflow>()) add(inflow[row]);
+    if (const double* liquid = p.data<Field::liquid_mass>())
+      add(liquid[row] * p.data<Field::gas_content>()[row]);
+    if (const double* inflow = p.data<Field::gas_inflow>()) add(inflow[row]);
+  }
+};
+
+}  // namespace sph

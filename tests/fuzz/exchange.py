@@ -1,0 +1,68 @@
+"""Heat and gas that flows in random scenes of fluids and updated solids."""
+
+
+class Exchanges:
+    def exchanges(self, scene):
+        """Rates up to what steps of explicit exchange allow, and beyond where the scene chooses its steps."""
+        d, groups = self.d.part("exchanges"), scene["group"]
+        fixed = "dt" in scene["time"]
+        matter = [g for g in groups if g["kind"] in ("fluid", "solid")]
+        walls = [g for g in groups if g["kind"] == "wall"]
+        warm = d.chance("heat", 0.2)
+        if warm:
+            self.heat(d, matter, walls, fixed)
+        flows = self.gas_flow(d, matter, walls, fixed)
+        terms = scene.setdefault("terms", {})
+        if (warm or flows) and d.chance("still", 0.2):
+            terms["motion"] = False
+        elif d.chance("say motion", 0.1):
+            terms["motion"] = True
+        if d.chance("say escape", 0.2):
+            terms["gas_escape"] = d.chance("escape", 0.5)
+        if not terms:
+            del scene["terms"]
+        if (warm or flows) and d.chance("budget", 0.3):
+            scene["monitor"] = [{"kind": "budget"}]
+
+    def heat(self, d, matter, walls, fixed):
+        alike = d.chance("alike", 0.4)
+        capacity, mean = d.one("capacity", [1.0, 1200.0]), d.one("temperature", [1.0, 1000.0])
+        for k, g in enumerate(matter):
+            g_d = d.part("heat", 0 if alike else k)
+            kappa = self.c * self.h * g_d.one("kappa", [0.0, 1e-3, 0.02, 0.02 if fixed else 3.0])
+            heat = {"specific_heat": capacity * g_d.one("its capacity", [1.0, 1.0, 1.5]),
+                    "conductivity": kappa * self.rho * capacity}
+            if g_d.chance("melts", 0.4):
+                heat |= {"latent_heat": capacity * mean * g_d.log("latent", 0.01, 1), "solidus": mean * 0.9,
+                         "liquidus": mean * g_d.one("liquidus", [0.91, 1.1])}
+            g |= {"heat": heat, "temperature": mean * d.part("start", k).real("T", 0.7, 1.4)}
+        sprays = {g["fragmentation"]["group"]: g for g in matter if "fragmentation" in g}
+        for g in matter:
+            if g["name"] in sprays:
+                g["heat"] = dict(sprays[g["name"]]["heat"])
+        for k, w in enumerate(walls):
+            way = d.part("wall", k).one("wall", ["tight", "temperature", "flux"])
+            if way == "temperature":
+                w["temperature"] = mean * d.part("wall", k).real("T", 0.7, 1.4)
+            elif way == "flux":
+                w["heat_flux"] = 1e-3 * self.rho * capacity * mean * self.c * d.part("wall", k).real("q", -0.1, 1)
+
+    def gas_flow(self, d, matter, walls, fixed):
+        flows = False
+        for k, g in enumerate(matter):
+            if g.get("eos") != "bubbly" or not d.chance(f"flows/{k}", 0.6):
+                continue
+            law = d.part("law", k).one("law", ["power", "percolation", "kozeny_carman"])
+            eta = d.part("law", k).one("eta", [2e-5, 1e-3])
+            # D = k p / (eta psi) or so.
+            rate = d.part("law", k).log("rate", 1e-4, 0.02 if fixed else 1)
+            made = {"law": law, "coefficient": rate * self.c * self.h * eta / self.vapour, "gas_viscosity": eta}
+            if law != "kozeny_carman" and d.chance(f"exponent/{k}", 0.5):
+                made["exponent"] = d.part("law", k).one("exponent", [1.0, 2.0, 3.4])
+            if law == "percolation":
+                made["threshold"] = d.part("law", k).one("threshold", [0.0, 0.01, 0.1, 0.3])
+            g["permeability"], flows = made, True
+        for k, w in enumerate(walls):
+            if flows and d.chance(f"open/{k}", 0.5):
+                w["gas_pressure"] = self.vapour * d.one(f"beyond/{k}", [-0.2, 0.0, 0.3, 1.0])
+        return flows
