@@ -34,7 +34,7 @@ struct Options {
   enum class Mode { array, full, row } mode = Mode::array;
   Family family = Family::sph;
   std::uint64_t seed = 1;
-  std::int64_t steps = 300, long_steps = 2000;
+  std::int64_t steps = 300, long_steps = 1000;
   bool every = false;
   Strength strength = Strength::mixed;
   std::string row, log, scenes;
@@ -52,7 +52,7 @@ constexpr const char* usage =
     "  --grains | --sph                scenes of which, default: sph\n"
     "  --seed S                        of the order, the cuts and the restarts, default: 1\n"
     "  --steps N, --long N             the last step that is compared, of an array's first row of each\n"
-    "                                  scene: 300, 2000\n"
+    "                                  scene: 300, 1000\n"
     "  --every-triple                  the array has every 3-way combination: 641 rows instead of 239\n"
     "  --every                         compare at every step\n"
     "  --limit SECONDS                 start no row after that long";
