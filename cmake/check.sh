@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs what is missing, builds everything, runs all tests and then random scenes of a fresh seed for two minutes:
-# half an hour on two cores. With arguments, which go to ctest, these tests alone: sh cmake/check.sh -R lint
+# up to an hour on two cores. With arguments, which go to ctest, these tests alone: sh cmake/check.sh -R lint
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/environment.sh

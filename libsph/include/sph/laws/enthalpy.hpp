@@ -21,11 +21,4 @@ namespace sph {
   return m.solidus + (m.liquidus - m.solidus) * ((enthalpy - first) / (last - first));
 }
 
-/// dH/dT [J/kg/K].
-[[nodiscard]] inline double heat_capacity(const HeatMaterial& m, double enthalpy) {
-  const double first = m.specific_heat * m.solidus, last = m.specific_heat * m.liquidus + m.latent_heat;
-  if (m.latent_heat == 0 || enthalpy <= first || enthalpy >= last) return m.specific_heat;
-  return (last - first) / (m.liquidus - m.solidus);
-}
-
 }  // namespace sph

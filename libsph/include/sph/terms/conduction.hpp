@@ -3,8 +3,8 @@
 // with k_ij the harmonic mean, which keeps the flux where the conductivity jumps (Cleary & Monaghan 1999, eq. 29; the
 // arithmetic mean is 7 % off at 1 : 1000). Walls have no heat of their own. One that keeps a temperature T_w gives a
 // particle what the straight profile between them says (wall_profile.hpp); one with a flux q gives 2 q |S| V_i, S the
-// gradient of the walls' share of the kernel along the normal, which over all rows is one half. Always in double precision: sums of heat must not lose
-// what single precision rounds.
+// gradient of the walls' share of the kernel along the normal, which over all rows is one half. Always in double
+// precision: sums of heat must not lose what single precision rounds.
 #pragma once
 
 #include "sph/terms/wall_profile.hpp"
