@@ -46,6 +46,8 @@ class MeltScene:
         regions = [{"group": "first"}]
         if len(groups) > 1:
             regions.append(self.region(lower, upper))
+            if not self.periodic[-1] and d.chance("mixed", 0.2):
+                melt["mixture"] = "linear"
         time = {"steps": d.whole("steps", 1, 6)}
         if not self.heat or d.chance("dt", 0.7):
             time["dt"] = d.log("dt is", 0.01, 100) * edge / speed

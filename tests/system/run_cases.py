@@ -307,7 +307,7 @@ class Cases:
             for scene in self.random.sample(scenes, min(some, len(scenes))):
                 begin = time.monotonic()
                 self.run.refused(ranks, "peperite", "run", scene, "--out", "bad", says=":")
-                assert time.monotonic() - begin < 2.5, f"{scene} takes too long"
+                assert time.monotonic() - begin < 40, f"{scene} takes too long"
         for ranks in (1, 4):
             self.run.refused(ranks, "buoyant_cylinder", "missing.toml", says="missing.toml")
             self.run.refused(ranks, "buoyant_cylinder", "--no-such-option", says="--no-such-option")

@@ -44,6 +44,11 @@ inline constexpr auto melt_table_keys = std::to_array<Key>({
      "its two "
      "sides, which have temperatures then.",
      at<&MeltControl::profile>},
+    {"mixture", Words{melt_mixture_words},
+     "Of two melts at the start: each region is of its group, or the share of the second grows evenly along "
+     "the "
+     "last axis, from none at its lower to all at its upper side.",
+     at<&MeltControl::mixture>},
     {"wave_height", Number{dimension::length},
      "At the start everything is displaced along the last axis by wave_height cos(2 pi x / wave_length), in "
      "3D "

@@ -101,6 +101,8 @@ inline constexpr auto melt_side_words = std::to_array<Word>({{"x0", MeltFace::x0
                                                              {"z1", MeltFace::z1}});
 inline constexpr auto melt_profile_words =
     std::to_array<Word>({{"groups", MeltProfile::groups}, {"conductive", MeltProfile::conductive}});
+inline constexpr auto melt_mixture_words =
+    std::to_array<Word>({{"groups", MeltMixture::groups}, {"linear", MeltMixture::linear}});
 inline constexpr auto wall_shape_words =
     std::to_array<Word>({{"plane", WallShape::plane}, {"box", WallShape::box}});
 

@@ -28,6 +28,12 @@ Double3 without_wave(const Scene& scene, Double3 x) {
   return x;
 }
 
+/// Of the domain, as a share.
+double height_of(const Scene& scene, const Double3& x) {
+  const auto up = static_cast<std::size_t>(scene.dim) - 1;
+  return (x[up] - scene.domain.lower[up]) / (scene.domain.upper[up] - scene.domain.lower[up]);
+}
+
 /// Of what is conducted between two sides.
 double conducted(const Scene& scene, const Double3& x) {
   const auto up = static_cast<std::size_t>(scene.dim) - 1;
@@ -35,8 +41,7 @@ double conducted(const Scene& scene, const Double3& x) {
   for (const MeltSide& s : scene.domain.melt.sides)
     if (static_cast<std::size_t>(s.side) / 2 == up && s.temperature)
       at[static_cast<std::size_t>(s.side) % 2] = *s.temperature;
-  const double height = (x[up] - scene.domain.lower[up]) / (scene.domain.upper[up] - scene.domain.lower[up]);
-  return at[0] + (at[1] - at[0]) * height;
+  return at[0] + (at[1] - at[0]) * height_of(scene, x);
 }
 
 /// Means over a cell about `centre`.
@@ -65,7 +70,10 @@ CellMeans means_of(const Scene& scene, const std::array<double, 3>& edge, const 
         sum.temperature += scene.domain.melt.profile == MeltProfile::conductive
                                ? conducted(scene, at)
                                : scene.groups[static_cast<std::size_t>(group)].heat.temperature.value_or(0);
-        sum.composition += static_cast<std::size_t>(group) == second ? 1 : 0;
+        if (scene.domain.melt.mixture == MeltMixture::linear)
+          sum.composition += height_of(scene, at);
+        else
+          sum.composition += static_cast<std::size_t>(group) == second ? 1 : 0;
       }
   return {sum.temperature / count, sum.composition / count};
 }

@@ -12,6 +12,8 @@ namespace sph {
 enum class MeltFace { x0, x1, y0, y1, z0, z1 };
 /// What temperatures start with: those of the groups, or what conducts between two sides.
 enum class MeltProfile { groups, conductive };
+/// What shares of the second melt start with: those of the regions' groups, or evenly from none below to all above.
+enum class MeltMixture { groups, linear };
 
 /// Without an entry a side without period is slippery and lets no heat pass.
 struct MeltSide {
@@ -32,6 +34,7 @@ struct MeltControl {
   double reference_temperature = 0;            ///< T_0 [K]
   double viscosity_fall = 0;                   ///< b: eta = eta_0 exp(-b (T - T_0)) [1/K]
   MeltProfile profile = MeltProfile::groups;
+  MeltMixture mixture = MeltMixture::groups;
   double wave_height = 0;  ///< by which the start is displaced along the last axis [m]
   double wave_length = 0;  ///< in all other directions [m]
   std::vector<MeltSide> sides;
