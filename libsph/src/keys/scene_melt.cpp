@@ -132,10 +132,11 @@ void read_melt(const TopReader& top, const DomainReader& domain, const StartRead
   check_heat(table, scene);
   if (scene.domain.melt.wave_height != 0 && !(scene.domain.melt.wave_length > 0))
     table.fail_missing("wave_length", "wave_height needs it, in m");
-  table.only_if(melts_of(scene)[0] != melts_of(scene)[1], "mixture", "it is of two melts");
-  if (scene.domain.melt.mixture == MeltMixture::linear)
+  if (scene.domain.melt.mixture == MeltMixture::linear) {
+    table.only_if(melts_of(scene)[0] != melts_of(scene)[1], "mixture", "it is of two melts");
     table.only_if(!scene.domain.periodic[static_cast<std::size_t>(scene.dim) - 1], "mixture",
                   "it grows between two sides, and the last axis is periodic");
+  }
   table.only_if(scene.domain.melt.wave_height != 0, "wave_length", "it is of wave_height");
   table.finish();
   if (scene.domain.central_pull > 0) domain.only_if(false, "central_pull", "it is of fluids");
