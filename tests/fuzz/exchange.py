@@ -1,4 +1,6 @@
-"""Heat and gas that flows in random scenes of fluids and updated solids."""
+"""Heat, gas that flows and viscosities that follow the state in random scenes of fluids and updated solids."""
+
+import math
 
 
 class Exchanges:
@@ -13,8 +15,14 @@ class Exchanges:
             self.heat(d, matter, walls, fixed)
         flows = self.gas_flow(d, matter, walls, fixed)
         terms = scene.setdefault("terms", {})
+        if self.laws(d, matter, warm) and self.kernel != "quintic":
+            terms.pop("artificial_viscosity", None)
+            terms["viscosity"] = "laplacian"
+        if warm and d.chance("friction", 0.3):
+            terms["viscous_heat"] = True
         if (warm or flows) and d.chance("still", 0.2):
             terms["motion"] = False
+            terms.pop("viscous_heat", None)
         elif d.chance("say motion", 0.1):
             terms["motion"] = True
         if d.chance("say escape", 0.2):
@@ -35,6 +43,8 @@ class Exchanges:
             if g_d.chance("melts", 0.4):
                 heat |= {"latent_heat": capacity * mean * g_d.log("latent", 0.01, 1), "solidus": mean * 0.9,
                          "liquidus": mean * g_d.one("liquidus", [0.91, 1.1])}
+            if g_d.chance("rises", 0.4):
+                heat |= {"expansion": g_d.log("expansion", 1e-2, 3) / mean, "reference_temperature": mean}
             g |= {"heat": heat, "temperature": mean * d.part("start", k).real("T", 0.7, 1.4)}
         sprays = {g["fragmentation"]["group"]: g for g in matter if "fragmentation" in g}
         for g in matter:
@@ -66,3 +76,34 @@ class Exchanges:
             if flows and d.chance(f"open/{k}", 0.5):
                 w["gas_pressure"] = self.vapour * d.one(f"beyond/{k}", [-0.2, 0.0, 0.3, 1.0])
         return flows
+
+    def laws(self, d, matter, warm):
+        """Clipped, so that steps are not much shorter than without."""
+        made = False
+        for k, g in enumerate(matter):
+            bubbly, d_k = g.get("eos") == "bubbly", d.part("viscosity law", k)
+            choices = ["constant", "hess_dingwell"] * bubbly + ["exponential", "vogel"] * warm
+            if g["kind"] != "fluid" or not choices or not d_k.chance("law", 0.25):
+                continue
+            eta = g.get("viscosity") or 0.01 * self.c * self.h * self.rho
+            mean = g.get("temperature", 1100.0)
+            law = {"law": d_k.one("which", choices), "most": eta * d_k.one("most", [1.5, 10.0])}
+            if d_k.chance("least", 0.3):
+                law["least"] = eta * d_k.one("least is", [0.0, 0.5])
+            if law["law"] == "exponential":
+                law |= {"fall": d_k.real("fall", 0, 10) / mean, "reference_temperature": mean}
+            elif law["law"] == "vogel":
+                law |= {"a": math.log10(eta) - 1, "b": 0.5 * mean, "c": 0.5 * mean}
+            elif not warm and law["law"] == "hess_dingwell":
+                law["temperature"] = d_k.real("T", 900, 1400)
+            if "latent_heat" in g.get("heat", {}) and d_k.chance("crystals", 0.5):
+                law["crystals"] = "einstein_roscoe"
+                if d_k.chance("packing", 0.3):
+                    law["maximum_packing"] = d_k.real("packing is", 0.3, 1)
+            if bubbly and (law["law"] == "constant" or d_k.chance("bubbles", 0.4)):
+                law["bubbles"] = d_k.one("bubbles are", ["round", "stretched"])
+            g.pop("viscosity", None)
+            if law["law"] in ("constant", "exponential"):
+                g["viscosity"] = eta
+            g["viscosity_law"], made = law, True
+        return made

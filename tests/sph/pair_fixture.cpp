@@ -50,6 +50,7 @@ Scene scene_for(const Fusion& fusion) {
   s.groups[wall].heat.temperature = 800;
   s.groups[wall].wall.gas_pressure = 300;
   s.groups[clamp].heat.wall_flux = 70;
+  s.groups[clamp].wall.slip = true;
   s.groups[solid].solid.shear_modulus = 0.4 * s.groups[solid].eos.bulk_modulus;
   s.groups[clamp].wall.clamps = solid;
   if (needs(Value::reference)) s.groups[solid].solid.lagrangian = Lagrangian::total;
@@ -211,6 +212,7 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
           row < particles_.owned() && !still);
   numbers(Field::curvature, 0, 0.5 / h, beside);
   numbers(Field::temperature, 1000, 300);
+  numbers(Field::viscosity, 1.5, 1.4);
   numbers(Field::gas_mobility, 0.5, 0.4);
   numbers(Field::gas_pressure, 6000, 4000);
 }

@@ -142,7 +142,13 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("WallConduction"):
     case key("GasFlow"):
     case key("WallGas"):
+    case key("ViscousHeat"):
+    case key("SymmetricViscousHeat"):
       return add_exchange(pair, term, sums);
+    case key("WallViscosity"):
+      if (!j.mover) return;
+      one(Field::wall_viscosity, 0, bare(w_ij) * j.volume / lattice_volume);
+      return one(Field::wall_viscosity, 1, bare(w_ij) * j.volume / lattice_volume * j.viscosity / h_);
     case key("NumberDensity"):
     case key("GasMoments"): {
       const double wide = j.mover ? i.width : std::max(i.width, h_),
@@ -345,6 +351,14 @@ void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const
                         std::min(0.5 * (i.gas_mobility + j.gas_mobility), 2 * up) * drive;
     one(Field::gas_gain, 0, flow);
     for (int a = 0; a < dim_; ++a) one(Field::gas_gain, 1 + a, 0.5 * flow * (j.v(a) - i.v(a)));
+  } else if (term.name == "ViscousHeat" || term.name == "SymmetricViscousHeat") {
+    if (!j.mover && j.slips) return;
+    const Vec dv = j.v - i.v;
+    const double eta = j.mover ? 0.5 * harmonic(i.viscosity, j.viscosity) : i.viscosity * profile;
+    one(Field::viscous_heat, 0,
+        term.name == "ViscousHeat"
+            ? weight * eta * dv.squaredNorm()
+            : weight * second_ * eta * (dim_ + 2) / fourth_ * power(dv.dot(pair.x), 2));
   } else if (j.open) {
     const double drive = j.gas_pressure - i.gas_pressure - i.gas_density * head;
     one(Field::wall_gas, 0, weight * i.permeability * i.gas_mobility * profile * drive);

@@ -81,7 +81,7 @@ void PairOracle::load() {
     q.correction = get(Field::kernel_correction, row, 0);
     q.curvature = get(Field::curvature, row, 0);
     for (std::size_t k = 0; k < 2; ++k) q.wall_pressures[k] = get(Field::wall_pressures, row, k);
-    q.viscosity = g.viscosity;
+    q.viscosity = p.has(Field::viscosity) ? get(Field::viscosity, row, 0) : g.viscosity;
     q.temperature = get(Field::temperature, row, 0);
     q.conductivity = g.heat.material.conductivity;
     q.wall_flux = g.heat.wall_flux.value_or(0);
@@ -91,6 +91,7 @@ void PairOracle::load() {
     q.gas_pressure = get(Field::gas_pressure, row, 0);
     q.gas_density = g.kind == GroupKind::wall ? 0.0 : q.gas_pressure / g.bubbly.gas_rt;
     q.open = g.wall.gas_pressure.has_value();
+    q.slips = g.wall.slip;
     q.group = static_cast<int>(group);
     q.body = group == clamp ? static_cast<int>(solid) : q.group;
     const Group& material = scene_.groups[static_cast<std::size_t>(q.body)];
@@ -170,6 +171,7 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("WallExtrapolationByDensity"):
     case key("MixtureWallExtrapolation"):
     case key("MixtureWallExtrapolationByDensity"):
+    case key("WallViscosity"):
       return !p.mover;
     case key("WeightedPressure"):
     case key("GasPressure"):
@@ -181,6 +183,8 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("WallConduction"):
     case key("GasFlow"):
     case key("WallGas"):
+    case key("ViscousHeat"):
+    case key("SymmetricViscousHeat"):
       return p.mover;
     case key("Curvature"):  // elsewhere it is 0 or not, as the other rows of a block have it
     case key("CurvatureMean"):

@@ -32,7 +32,7 @@ struct PairParticle {
   double temperature, conductivity, wall_flux;
   double permeability, gas_mobility, gas_pressure, gas_density;
   std::array<double, 2> wall_pressures;
-  bool mover, shears, heavy, owned, warm, open;
+  bool mover, shears, heavy, owned, warm, open, slips;
   int side, group, body;
 };
 

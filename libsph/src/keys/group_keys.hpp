@@ -36,6 +36,43 @@ inline constexpr auto permeability_keys = std::to_array<Key>({
 inline constexpr Table<Permeability> permeability{
     {"group.permeability", false, "Gas flows through bubbly fluid.", permeability_keys}};
 
+inline constexpr auto viscosity_law_keys = std::to_array<Key>({
+    {"law", Words{viscosity_law_words},
+     "Of the liquid. \"constant\": viscosity. \"exponential\": viscosity exp(-fall (T - "
+     "reference_temperature)). "
+     "\"vogel\": log10 eta = a + b / (T - c), with a, b, c of a melt's composition (Giordano et al. 2008). "
+     "\"hess_dingwell\": of rhyolite, by T and the water dissolved in it (Hess & Dingwell 1996), of a bubbly "
+     "fluid.",
+     at<&ViscosityModel::law>},
+    {"fall", Number{dimension::per_temperature, not_negative}, "Of \"exponential\".",
+     at<&ViscosityModel::fall>, where("law", "exponential"), required},
+    {"reference_temperature", Number{dimension::temperature}, "Of \"exponential\".",
+     at<&ViscosityModel::reference_temperature>, where("law", "exponential"), required},
+    {"a", Number{dimension::none}, "Of \"vogel\".", at<&ViscosityModel::a>, where("law", "vogel"), required},
+    {"b", Number{dimension::temperature}, "Of \"vogel\".", at<&ViscosityModel::b>, where("law", "vogel"),
+     required},
+    {"c", Number{dimension::temperature}, "Of \"vogel\".", at<&ViscosityModel::c>, where("law", "vogel"),
+     required},
+    {"temperature", Number{dimension::temperature, positive}, "T of a scene without group.heat.",
+     at<&ViscosityModel::temperature>, Default{"required without group.heat, but by \"constant\""}},
+    {"crystals", Words{crystal_law_words},
+     "\"einstein_roscoe\": times (1 - phi / maximum_packing)^-2.5, phi what of the mass is frozen between "
+     "heat.solidus and liquidus.",
+     at<&ViscosityModel::crystals>},
+    {"maximum_packing", Number{dimension::none, up_to(1, "it is a share,")}, "Of crystals.",
+     at<&ViscosityModel::maximum_packing>, where("crystals", "einstein_roscoe")},
+    {"bubbles", Words{bubble_law_words},
+     "Of a bubbly fluid, psi the gas's share of the volume. \"round\": over 1 - psi; \"stretched\": times "
+     "(1 - psi)^(5/3).",
+     at<&ViscosityModel::bubbles>},
+    {"least", Number{dimension::viscosity, not_negative}, "It is never lower.", at<&ViscosityModel::least>},
+    {"most", Number{dimension::viscosity, positive},
+     "It is never higher. A million times the lowest is what implicit viscosity bears well.",
+     at<&ViscosityModel::most>, Default{"none; required with crystals"}},
+});
+inline constexpr Table<ViscosityModel> viscosity_law{
+    {"group.viscosity_law", false, "Viscosity of a fluid that follows its state.", viscosity_law_keys}};
+
 inline constexpr auto heat_keys = std::to_array<Key>({
     {"specific_heat", Number{dimension::specific_heat, positive}, "c_p.", at<&HeatMaterial::specific_heat>,
      required},
@@ -47,6 +84,12 @@ inline constexpr auto heat_keys = std::to_array<Key>({
      Default{"required with latent_heat"}},
     {"liquidus", Number{dimension::temperature, positive}, "Where it ends.", at<&HeatMaterial::liquidus>,
      Default{"required with latent_heat"}},
+    {"expansion", Number{dimension::per_temperature, not_negative},
+     "alpha: gravity acts on rho_0 (1 - alpha (T - reference_temperature)), which the pressure does not know "
+     "(Boussinesq).",
+     at<&HeatMaterial::expansion>},
+    {"reference_temperature", Number{dimension::temperature}, "Of expansion.",
+     at<&HeatMaterial::reference_temperature>, Default{"the group's temperature"}},
 });
 inline constexpr Table<HeatMaterial> heat{
     {"group.heat", false, "Heat of a fluid or a solid: all of them have it, or none.", heat_keys}};
@@ -82,10 +125,11 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"heat_ratio",
      Number{dimension::none,
             {.least = 1, .above_least = true, .is = "it is that of the heat capacities (1.4 for air),"}},
-     "gamma of an ideal gas.", at<&Group::gas, &GasMaterial::heat_ratio>, of_sph, gas, required},
+     "gamma of an ideal gas.", at<&Group::eos, &Compressibility::gas, &GasMaterial::heat_ratio>, of_sph, gas,
+     required},
     {"start_pressure", Number{dimension::pressure, positive},
      "Of an ideal gas at the start. A start.file may hold the specific energy u [J/kg] instead.",
-     at<&Group::gas, &GasMaterial::start_pressure>, of_sph, gas, required},
+     at<&Group::eos, &Compressibility::gas, &GasMaterial::start_pressure>, of_sph, gas, required},
     {"bulk_modulus", Number{dimension::pressure, positive}, "K; of a bubbly fluid that of its liquid.",
      at<&Group::eos, &Compressibility::bulk_modulus>, of_sph, elastic,
      Default{"required, or sound_speed; of a wall that of the first fluid"}},
@@ -95,6 +139,9 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "eta. Of a solid it damps vibrations and couples it to fluids, which slip past without; the heat of "
      "that of a gas stays in the gas. Of a melt that at melt.reference_temperature.",
      at<&Group::viscosity>, of_viscous, Default{"0; of a wall that of the first fluid; required of melts"}},
+    {"viscosity_law", Inner{&viscosity_law},
+     "Of a fluid whose viscosity follows its temperature, water, crystals or bubbles.", of_sph,
+     where("kind", "fluid")},
     {"bulk_viscosity", Number{dimension::viscosity, not_negative}, "zeta of Ida eq. (9).",
      at<&Group::bulk_viscosity>, of_sph, unless("eos", "ideal_gas", "an ideal gas has viscosity alone"),
      Default{"0; of a wall that of the first fluid"}},

@@ -43,19 +43,19 @@ inline constexpr auto melt_table_keys = std::to_array<Key>({
      "Of the temperature at the start: that of each group, or what is conducted along the last axis between "
      "its two "
      "sides, which have temperatures then.",
-     at<&MeltControl::profile>},
+     at<&MeltControl::start, &MeltStart::profile>},
     {"mixture", Words{melt_mixture_words},
      "Of two melts at the start: each region is of its group, or the share of the second grows evenly along "
      "the "
      "last axis, from none at its lower to all at its upper side.",
-     at<&MeltControl::mixture>},
+     at<&MeltControl::start, &MeltStart::mixture>},
     {"wave_height", Number{dimension::length},
      "At the start everything is displaced along the last axis by wave_height cos(2 pi x / wave_length), in "
      "3D "
      "times cos(2 pi y / wave_length).",
-     at<&MeltControl::wave_height>},
-    {"wave_length", Number{dimension::length, positive}, "Of that.", at<&MeltControl::wave_length>,
-     Default{"required with wave_height"}},
+     at<&MeltControl::start, &MeltStart::wave_height>},
+    {"wave_length", Number{dimension::length, positive}, "Of that.",
+     at<&MeltControl::start, &MeltStart::wave_length>, Default{"required with wave_height"}},
     {"side", Inner{&melt_side}, "Sides that are not slippery, or let heat pass."},
 });
 inline constexpr Table<MeltControl> melt_table{

@@ -51,8 +51,8 @@ void check_ideal_gas(const TopReader& top, const DomainReader& domain, const Sta
   for (std::size_t k = 0; k < groups.size(); ++k)
     if (const Group& g = scene.groups[k]; scene.start.pressure == InitialPressure::taylor_green &&
                                           g.kind != GroupKind::wall &&
-                                          g.gas.start_pressure <= 0.5 * g.density * speed * speed)
-      groups[k].fail("start_pressure", fmt::format("is {}", g.gas.start_pressure),
+                                          g.eos.gas.start_pressure <= 0.5 * g.density * speed * speed)
+      groups[k].fail("start_pressure", fmt::format("is {}", g.eos.gas.start_pressure),
                      "with start.pressure = \"taylor_green\" it must be above rho U^2 / 2");
   if (scene.domain.surface_pressure != 0)
     domain.fail("surface_pressure", "is given", "the pressure of an ideal gas is absolute: remove it");

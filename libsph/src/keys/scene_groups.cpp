@@ -20,7 +20,7 @@ void read_stiffness(const GroupReader& table, Group& group) {
   table.not_both("bulk_modulus", "sound_speed");
   table.not_both("poisson_ratio", "shear_modulus");
   if (group.eos.law->kind == EosKind::ideal_gas)
-    group.eos.bulk_modulus = group.gas.heat_ratio * group.gas.start_pressure;
+    group.eos.bulk_modulus = group.eos.gas.heat_ratio * group.eos.gas.start_pressure;
   const std::optional<double> speed = table.number("sound_speed");
   if (speed) group.eos.bulk_modulus = group.density * *speed * *speed;
   if (group.eos.bulk_modulus == 0 && !speed && group.eos.law->kind != EosKind::ideal_gas)
@@ -70,75 +70,6 @@ void read_material(const GroupReader& table, Group& group, const Group* like) {
   group.wall.velocity = table.vector("velocity").value_or(Double3{});
   group.wall.slip = table.flag("slip").value_or(false);
   table.only_if(!group.wall.slip, "velocity", "a wall with slip = true drags nothing along");
-}
-
-void read_permeability(const GroupReader& table, Group& group) {
-  if (!table.has("permeability")) return;
-  const auto inner = table.table<keys::permeability>();
-  if (inner.choice<PermeabilityLaw>("law") == PermeabilityLaw::percolation)
-    group.bubbly.permeability.exponent = 2;
-  inner.read(group.bubbly.permeability);
-  inner.only_if(group.bubbly.permeability.law != PermeabilityLaw::kozeny_carman, "exponent",
-                "law = \"kozeny_carman\" has none");
-  inner.finish();
-}
-
-void check_gas_flow(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
-  const bool grains = std::ranges::any_of(groups, [](const Group& g) { return g.kind == GroupKind::grain; });
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    if (grains && groups[k].bubbly.permeability.coefficient > 0)
-      tables[k].fail("permeability", "is of a fluid with grains in it",
-                     "fluids without grains alone have it yet");
-  const bool flows =
-      std::ranges::any_of(groups, [](const Group& g) { return g.bubbly.permeability.coefficient > 0; });
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    if (groups[k].kind == GroupKind::wall)
-      tables[k].only_if(flows, "gas_pressure", "no gas flows: give a bubbly fluid group.permeability");
-}
-
-void read_heat(const GroupReader& table, Group& group) {
-  if (!table.has("heat")) return;
-  const auto inner = table.table<keys::heat>();
-  inner.read(group.heat.material);
-  const HeatMaterial& heat = group.heat.material;
-  if (heat.latent_heat > 0) {
-    inner.require("solidus");
-    inner.require("liquidus");
-    if (!(heat.solidus < heat.liquidus))
-      inner.fail("liquidus", fmt::format("is {} K, and solidus {} K", heat.liquidus, heat.solidus),
-                 "it must be above: the latent heat is spread between them");
-  } else {
-    inner.only_if(false, "solidus", "give latent_heat too");
-    inner.only_if(false, "liquidus", "give latent_heat too");
-  }
-  inner.finish();
-}
-
-/// All matter has heat, or none; what has starts with a temperature.
-void check_heat(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
-  const auto warm = [](const Group& g) { return g.heat.material.specific_heat > 0; };
-  const bool any = std::ranges::any_of(groups, warm);
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    const Group& g = groups[k];
-    if (!is_matter(g) && g.kind != GroupKind::wall) continue;
-    if (!any) {
-      tables[k].only_if(false, "temperature", "there is no heat: give a fluid or a solid group.heat");
-      tables[k].only_if(false, "heat_flux", "there is no heat: give a fluid or a solid group.heat");
-      continue;
-    }
-    if (std::ranges::any_of(groups, [](const Group& o) { return o.kind == GroupKind::grain; }) && warm(g))
-      tables[k].fail("heat", "is of a fluid with grains in it", "fluids without grains alone have it yet");
-    if (is_matter(g) && !warm(g))
-      tables[k].fail_missing("heat", "another group has it, and heat would end at this one");
-    if (is_matter(g)) tables[k].require("temperature");
-    if (g.heat.temperature && !(*g.heat.temperature >= 0))
-      tables[k].fail("temperature", fmt::format("is {}", *g.heat.temperature), "it is in kelvin, from 0 up");
-    tables[k].not_both("temperature", "heat_flux");
-    if (g.kind == GroupKind::solid && g.solid.lagrangian == Lagrangian::total)
-      tables[k].fail("heat", "is of a total-Lagrangian solid", "fluids and updated solids alone have it yet");
-    if (g.eos.law->kind == EosKind::ideal_gas)
-      tables[k].fail("heat", "is of an ideal gas", "it has heat of its own, which is not conducted");
-  }
 }
 
 /// The solid that a wall is bonded to, -1 for other groups.
@@ -260,13 +191,11 @@ void read_groups(const TopReader& top, Scene& scene) {
                           : pass == GroupKind::wall ? first_fluid
                                                     : nullptr;
       read_material(tables[k], group, like);
-      read_permeability(tables[k], group);
-      read_heat(tables[k], group);
+      read_exchange(tables[k], group);
       if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &group;
     }
   check_total_lagrangian(tables, groups);
-  check_heat(tables, groups);
-  check_gas_flow(tables, groups);
+  check_exchange(tables, groups);
   for (std::size_t k = 0; k < tables.size(); ++k)
     if (groups[k].kind != GroupKind::grain) read_fragmentation(tables[k], k, groups);
   for (std::size_t k = 0; k < tables.size(); ++k) {

@@ -82,7 +82,7 @@ void check_heat(const MeltReader& table, const Scene& scene) {
     constexpr std::string_view why = "there is no heat: give diffusivity";
     table.only_if(melt.expansion == 0, "expansion", why);
     table.only_if(melt.viscosity_fall == 0, "viscosity_fall", why);
-    table.only_if(melt.profile == MeltProfile::groups, "profile", why);
+    table.only_if(melt.start.profile == MeltProfile::groups, "profile", why);
   }
   const auto too_warm = [&](double t) { return melt.expansion * (t - melt.reference_temperature) >= 1; };
   bool weightless = false;
@@ -92,7 +92,7 @@ void check_heat(const MeltReader& table, const Scene& scene) {
   if (weightless && scene.is_suspension())
     table.fail("expansion", fmt::format("is {} 1/K: the warmest melt would weigh nothing", melt.expansion),
                "reduce it, or raise reference_temperature");
-  if (melt.profile != MeltProfile::conductive) return;
+  if (melt.start.profile != MeltProfile::conductive) return;
   int given = 0;
   for (const MeltSide& s : melt.sides)
     if (static_cast<int>(s.side) / 2 == scene.dim - 1 && s.temperature) ++given;
@@ -130,14 +130,14 @@ void read_melt(const TopReader& top, const DomainReader& domain, const StartRead
     scene.domain.melt.sides.push_back(read_side(side, scene, scene.domain.melt));
   check_cells(table, scene);
   check_heat(table, scene);
-  if (scene.domain.melt.wave_height != 0 && !(scene.domain.melt.wave_length > 0))
+  if (scene.domain.melt.start.wave_height != 0 && !(scene.domain.melt.start.wave_length > 0))
     table.fail_missing("wave_length", "wave_height needs it, in m");
-  if (scene.domain.melt.mixture == MeltMixture::linear) {
+  if (scene.domain.melt.start.mixture == MeltMixture::linear) {
     table.only_if(melts_of(scene)[0] != melts_of(scene)[1], "mixture", "it is of two melts");
     table.only_if(!scene.domain.periodic[static_cast<std::size_t>(scene.dim) - 1], "mixture",
                   "it grows between two sides, and the last axis is periodic");
   }
-  table.only_if(scene.domain.melt.wave_height != 0, "wave_length", "it is of wave_height");
+  table.only_if(scene.domain.melt.start.wave_height != 0, "wave_length", "it is of wave_height");
   table.finish();
   if (scene.domain.central_pull > 0) domain.only_if(false, "central_pull", "it is of fluids");
   if (scene.has_grains()) check_grains_in_melt(top, scene);

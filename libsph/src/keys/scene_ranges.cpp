@@ -70,7 +70,8 @@ void check_group(const Ranges& ranges, const GroupReader& table, const Scene& sc
   ranges.check(table, stiff, bulk_modulus, g.eos.bulk_modulus);
   ranges.check(table, stiff, sound, sound_at_rest(g));
   if (g.eos.law->kind == EosKind::ideal_gas)
-    ranges.check(table, stiff, specific_energy, g.gas.start_pressure / ((g.gas.heat_ratio - 1) * g.density));
+    ranges.check(table, stiff, specific_energy,
+                 g.eos.gas.start_pressure / ((g.eos.gas.heat_ratio - 1) * g.density));
   if (g.kind != GroupKind::solid) return;
   ranges.check(table, table.has("shear_modulus") ? Name("shear_modulus") : Name("poisson_ratio"),
                shear_modulus, g.solid.shear_modulus);

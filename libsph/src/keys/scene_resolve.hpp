@@ -29,6 +29,9 @@ void check_ideal_gas(const TopReader& top, const DomainReader& domain, const Sta
 [[nodiscard]] std::vector<Group> read_group_names(const TopReader& top);
 /// The materials of the groups of `scene`; walls without material values take those of the first fluid.
 void read_groups(const TopReader& top, Scene& scene);
+/// [group.permeability], [group.heat] and [group.viscosity_law] of one, and what of all groups they want.
+void read_exchange(const GroupReader& table, Group& group);
+void check_exchange(const std::vector<GroupReader>& tables, const std::vector<Group>& groups);
 /// Those of grains, which depend on the contact law.
 void read_grain_groups(const TopReader& top, Scene& scene);
 

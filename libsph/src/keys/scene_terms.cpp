@@ -7,6 +7,7 @@
 
 #include "keys/scene_resolve.hpp"
 #include "sph/laws/eos/law.hpp"
+#include "sph/laws/melt_viscosity.hpp"
 
 namespace sph {
 namespace {
@@ -56,7 +57,7 @@ void set_usual_terms(Scene& scene) {
   const auto first =
       std::ranges::find_if_not(scene.groups, [](const Group& g) { return g.kind == GroupKind::grain; });
   const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
-    return g.kind == GroupKind::grain || g.viscosity == first->viscosity;
+    return g.kind == GroupKind::grain || (g.viscosity == first->viscosity && !g.viscosity_law.varies());
   });
   if (!(uniform || ida || total || gas)) terms.viscous.form = ViscosityForm::symmetric;
 }
@@ -84,6 +85,12 @@ void check_terms(const TermsReader& table, const Scene& scene) {
                "formulation = \"ida\" has none: remove group.heat and group.permeability");
   if (!terms.exchange.motion && !scene.has_heat() && !scene.has_gas_flow())
     table.fail("motion", "is false", "without group.heat and group.permeability nothing would happen");
+  if (terms.exchange.viscous_heat && !scene.has_heat())
+    table.fail("viscous_heat", "is on", "without group.heat it would warm nothing");
+  if (terms.exchange.viscous_heat && !terms.exchange.motion)
+    table.fail("viscous_heat", "is on", "with motion = false nothing rubs");
+  if (ida && std::ranges::any_of(scene.groups, [](const Group& g) { return g.viscosity_law.varies(); }))
+    table.fail("motion", "is of a scene with a viscosity law", "formulation = \"ida\" has none: remove it");
   if (!terms.exchange.motion && scene.is_mixture())
     table.fail("motion", "is false", "grains move: remove it");
 }
@@ -113,7 +120,8 @@ void check_implicit_viscosity(const TermsReader& terms, const Scene& scene) {
   if (scene.terms.precision != Precision::mixed) return;
   double diffusivity = 0, sound = 0;
   for (const Group& g : scene.groups) {
-    diffusivity = std::max(diffusivity, g.viscosity / g.density);
+    const double eta = g.viscosity_law.varies() ? viscosity_at_start(g) : g.viscosity;
+    diffusivity = std::max(diffusivity, eta / g.density);
     sound = std::max(sound, std::sqrt(g.eos.bulk_modulus / g.density));
   }
   const double h = scene.kernel.smoothing_length, dt = scene.time.dt.value_or(scene.time.cfl * h / sound);

@@ -19,6 +19,7 @@ void write_group(SceneWriter& out, const Group& g) {
   else if (g.kind == GroupKind::wall && g.wall.clamps < 0)
     out.vector("velocity", g.wall.velocity);
   if (g.bubbly.permeability.coefficient > 0) out.table(keys::permeability, g.bubbly.permeability);
+  if (g.viscosity_law.varies()) out.table(keys::viscosity_law, g.viscosity_law);
   if (g.heat.material.specific_heat > 0) out.table(keys::heat, g.heat.material);
   if (g.bubbly.fragmentation_void_fraction) out.table(keys::fragmentation, g.bubbly);
 }

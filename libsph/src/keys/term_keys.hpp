@@ -37,6 +37,8 @@ inline constexpr auto terms_keys = std::to_array<Key>({
      at<&Terms::exchange, &ExchangeTerms::motion>},
     {"gas_escape", Flag{}, "Whether gas that flows (group.permeability) leaves through free surfaces.",
      at<&Terms::exchange, &ExchangeTerms::gas_escape>},
+    {"viscous_heat", Flag{}, "What viscous friction takes from the motion heats (group.heat).",
+     at<&Terms::exchange, &ExchangeTerms::viscous_heat>},
     {"shifting", Flag{},
      "Keeps particles evenly spread, also where the pressure is negative, and a closed box as full as it "
      "was. Near a free surface, that is where the start leaves a lattice point inside empty, or has movers "

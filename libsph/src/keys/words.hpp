@@ -55,6 +55,15 @@ inline constexpr auto tension_form_words =
     std::to_array<Word>({{"stress", TensionForm::stress}, {"jump", TensionForm::jump}});
 inline constexpr auto viscosity_form_words =
     std::to_array<Word>({{"laplacian", ViscosityForm::laplacian}, {"symmetric", ViscosityForm::symmetric}});
+inline constexpr auto viscosity_law_words =
+    std::to_array<Word>({{"constant", ViscosityLaw::constant},
+                         {"exponential", ViscosityLaw::exponential},
+                         {"vogel", ViscosityLaw::vogel},
+                         {"hess_dingwell", ViscosityLaw::hess_dingwell}});
+inline constexpr auto crystal_law_words =
+    std::to_array<Word>({{"none", CrystalLaw::none}, {"einstein_roscoe", CrystalLaw::einstein_roscoe}});
+inline constexpr auto bubble_law_words = std::to_array<Word>(
+    {{"none", BubbleLaw::none}, {"round", BubbleLaw::round}, {"stretched", BubbleLaw::stretched}});
 inline constexpr auto permeability_words =
     std::to_array<Word>({{"power", PermeabilityLaw::power},
                          {"percolation", PermeabilityLaw::percolation},

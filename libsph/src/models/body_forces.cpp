@@ -1,11 +1,15 @@
 #include "sph/models/body_forces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sph {
 
 BodyForces::BodyForces(const SphConstants& constants)
-    : constants_(&constants), surface_(constants.scene->kernel.shape, constants.scene->dim) {}
+    : constants_(&constants),
+      surface_(constants.scene->kernel.shape, constants.scene->dim),
+      expands_(std::ranges::any_of(constants.scene->groups,
+                                   [](const Group& g) { return g.heat.material.expansion > 0; })) {}
 
 Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
   const auto d = static_cast<std::size_t>(p.dim());
@@ -14,6 +18,11 @@ Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
   const double pull = scene.domain.central_pull, control = tension_control(p, i);
   const double* grains = p.get<Field::grain_pull>();
   Double3 acceleration = scene.domain.gravity;
+  if (expands_) {
+    const HeatMaterial& m = scene.groups[p.get<Field::group>()[i]].heat.material;
+    const double lighter = 1 - m.expansion * (p.get<Field::temperature>()[i] - m.reference_temperature);
+    for (double& g : acceleration) g *= lighter;
+  }
   for (std::size_t a = 0; a < d; ++a) {
     if (grains != nullptr) acceleration[a] += grains[i * d + a];
     if (pull != 0)

@@ -11,6 +11,7 @@
 #include "sph/core/exact_math.hpp"
 #include "sph/core/kernels.hpp"
 #include "sph/laws/eos/law.hpp"
+#include "sph/laws/melt_viscosity.hpp"
 
 namespace sph {
 namespace {
@@ -162,7 +163,8 @@ std::vector<Rates> rates_of(const Scene& scene, const std::vector<double>& sound
     const Group& g = scene.groups[k];
     if (g.kind == GroupKind::wall && !ida) continue;  // it has the sums of the matter beside it
     const bool solid = g.kind == GroupKind::solid;
-    const double nu = scene.terms.viscous.implicit ? 0 : g.viscosity / g.density;
+    const double eta = g.viscosity_law.varies() ? viscosity_at_start(g) : g.viscosity;
+    const double nu = scene.terms.viscous.implicit ? 0 : eta / g.density;
     Rates r;
     r.sound = sounds[k] / h;
     r.diffusion =

@@ -65,7 +65,8 @@ struct Compression {
       correction[i] = kernel.correction;
       // At the start there was no density before.
       if (before > 0)
-        energy[i] = IdealGas{scene.groups[group[i]].gas.heat_ratio}.compressed(energy[i], rho[i] / before);
+        energy[i] =
+            IdealGas{scene.groups[group[i]].eos.gas.heat_ratio}.compressed(energy[i], rho[i] / before);
       if (!(energy[i] > 0))
         find_fault(*constants, p, i, step, "has no energy left; reduce time.cfl or time.dt");
       if (d == 2)
@@ -109,7 +110,7 @@ struct Heat {
           power -= 0.5 * step.global.dt * (force[i * d + a] / mass[i]) * own[1 + a];
         const double expansion = trace_of(gradient + i * d * d, d);
         const double later =
-            1 - 0.5 * (scene.groups[group[i]].gas.heat_ratio - 1) * step.global.dt * expansion;
+            1 - 0.5 * (scene.groups[group[i]].eos.gas.heat_ratio - 1) * step.global.dt * expansion;
         step.maxima.sound = larger(fastest_in_time / static_cast<double>(d) * expansion, step.maxima.sound);
         energy[i] += step.global.dt * (power / mass[i]) / std::fmin(std::fmax(later, 0.7), 1.4);
         if (!(energy[i] > 0))
@@ -166,7 +167,7 @@ void look_at_gas(const SphConstants& constants, const GasView& p, std::size_t fi
     double square = 0;
     for (std::size_t a = 0; a < d; ++a) square += v[i * d + a] * v[i * d + a];
     const double finer = scene.kernel.smoothing_length / h[i];
-    const double sound = IdealGas{g.gas.heat_ratio}.sound_speed(energy[i]);
+    const double sound = IdealGas{g.eos.gas.heat_ratio}.sound_speed(energy[i]);
     maxima.sound = larger((sound + std::sqrt(square)) * finer, maxima.sound);
     if (rho[i] > 0) maxima.viscosity = std::fmax(maxima.viscosity, g.viscosity / rho[i] * (finer * finer));
   }

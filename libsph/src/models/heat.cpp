@@ -10,6 +10,7 @@
 #include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/conduction.hpp"
+#include "sph/terms/viscous_heat.hpp"
 
 namespace sph {
 namespace {
@@ -20,7 +21,7 @@ constexpr double share = 0.25;
 
 struct Temperatures {
   static constexpr FieldSet reads =
-      FaultView::reads | FieldSet{Field::heat_gain, Field::wall_heat, Field::mass};
+      FaultView::reads | FieldSet{Field::heat_gain, Field::wall_heat, Field::viscous_heat, Field::mass};
   static constexpr FieldSet writes{Field::enthalpy, Field::temperature, Field::heat_inflow};
   const SphConstants* constants;
 
@@ -28,12 +29,14 @@ struct Temperatures {
     const Scene& scene = *constants->scene;
     const double dt = step.global.dt;
     const double *gain = p.get<Field::heat_gain>(), *of_walls = p.get<Field::wall_heat>();
+    const double* friction = p.get<Field::viscous_heat>();
     const double* mass = p.get<Field::mass>();
     const auto* group = p.get<Field::group>();
     double *h = p.get<Field::enthalpy>(), *t = p.get<Field::temperature>(),
            *inflow = p.get<Field::heat_inflow>();
     for_movers(step.ranges, [&](std::size_t i) {
-      const double outside = of_walls != nullptr ? of_walls[i] : 0.0;
+      const double outside =
+          (of_walls != nullptr ? of_walls[i] : 0.0) + (friction != nullptr ? friction[i] : 0.0);
       h[i] += dt * (gain[i] + outside) / mass[i];
       if (inflow != nullptr) inflow[i] += dt * outside;
       t[i] = temperature(scene.groups[group[i]].heat.material, h[i]);
@@ -71,8 +74,13 @@ bool has_warm_walls(const Scene& scene) {
 void Heat::add_to(Builder& b) const {
   b.add_fields({Field::enthalpy, Field::temperature});
   add_exchange(b, "conduction", term<Conduction>);
+  const Terms& terms = b.scene().terms;
+  if (has_warm_walls(b.scene()) || terms.exchange.viscous_heat) b.add_fields({Field::heat_inflow});
+  if (terms.exchange.viscous_heat)
+    add_exchange(
+        b, "viscous heat",
+        terms.viscous.form == ViscosityForm::symmetric ? term<SymmetricViscousHeat> : term<ViscousHeat>);
   if (has_warm_walls(b.scene())) {
-    b.add_fields({Field::heat_inflow});
     add_exchange(b, "heat of walls", term<WallConduction>);
   }
   b.add_update("temperatures", Temperatures{constants_});

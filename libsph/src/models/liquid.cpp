@@ -136,7 +136,7 @@ void add_forces(Builder& b) {
   const bool solid = s.has_kind(GroupKind::solid);
   const bool uniform_viscosity =
       std::ranges::all_of(s.groups, [first = std::ranges::find_if(s.groups, is_matter)](const Group& g) {
-        return g.kind == GroupKind::grain || g.viscosity == first->viscosity;
+        return g.kind == GroupKind::grain || (g.viscosity == first->viscosity && !g.viscosity_law.varies());
       });
   const bool jump = tension(s) && s.terms.surface_tension.form == TensionForm::jump;
   const bool symmetric = s.terms.viscous.form == ViscosityForm::symmetric;

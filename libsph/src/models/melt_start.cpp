@@ -17,10 +17,10 @@ constexpr int samples = 4;  // along each axis of a cell
 Double3 without_wave(const Scene& scene, Double3 x) {
   const MeltControl& m = scene.domain.melt;
   const auto up = static_cast<std::size_t>(scene.dim) - 1;
-  if (m.wave_height != 0) {
-    double wave = m.wave_height;
+  if (m.start.wave_height != 0) {
+    double wave = m.start.wave_height;
     for (std::size_t a = 0; a < up; ++a)
-      wave *= exact_cos(2 * std::numbers::pi / m.wave_length * (x[a] - scene.domain.lower[a]));
+      wave *= exact_cos(2 * std::numbers::pi / m.start.wave_length * (x[a] - scene.domain.lower[a]));
     x[up] -= wave;
   }
   const double inside = 1e-6 * scene.start.spacing;
@@ -67,10 +67,10 @@ CellMeans means_of(const Scene& scene, const std::array<double, 3>& edge, const 
           throw InputError(scene.file + ": start.region: no region paints the melt " +
                            place_text(std::span(at).first(static_cast<std::size_t>(scene.dim))) +
                            "; begin with one of shape \"everywhere\"");
-        sum.temperature += scene.domain.melt.profile == MeltProfile::conductive
+        sum.temperature += scene.domain.melt.start.profile == MeltProfile::conductive
                                ? conducted(scene, at)
                                : scene.groups[static_cast<std::size_t>(group)].heat.temperature.value_or(0);
-        if (scene.domain.melt.mixture == MeltMixture::linear)
+        if (scene.domain.melt.start.mixture == MeltMixture::linear)
           sum.composition += height_of(scene, at);
         else
           sum.composition += static_cast<std::size_t>(group) == second ? 1 : 0;

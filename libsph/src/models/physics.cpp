@@ -6,6 +6,7 @@
 #include "pairs/for_rows.hpp"
 #include "sph/laws/eos/law.hpp"
 #include "sph/models/models.hpp"
+#include "sph/models/viscosities.hpp"
 #include "start/start_sounds.hpp"
 
 namespace sph {
@@ -31,6 +32,11 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
     builder_.add_fields({Field::stress});
   if (gas_) reach_.emplace(scene);
   add_stages(builder_, models_);
+}
+
+void Physics::derive(Particles& p) const {
+  materials_.derive(ViewOf<Materials>(p), 0, p.owned());
+  if (has_viscosity_law(*scene_)) (void)Viscosities(constants_).derive(ViewOf<Viscosities>(p), 0, p.owned());
 }
 
 // Wall particles do not move, but their pairs are taken with the velocity of their material.

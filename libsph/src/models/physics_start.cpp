@@ -7,6 +7,7 @@
 #include "pairs/for_rows.hpp"
 #include "sph/laws/eos/law.hpp"
 #include "sph/models/physics.hpp"
+#include "sph/models/viscosities.hpp"
 #include "start/start_densities.hpp"
 #include "start/start_sounds.hpp"
 
@@ -37,6 +38,10 @@ StepMaxima Physics::maxima_at_start(Particles& p) const {
     speed2 = v2 > speed2 ? v2 : speed2;
   }
   if (gas_) look_at_gas(constants_, GasView(p), 0, p.owned(), maxima);
+  if (has_viscosity_law(*scene_)) {
+    materials_.derive(ViewOf<Materials>(p), 0, p.owned());
+    maxima.viscosity = Viscosities(constants_).derive(ViewOf<Viscosities>(p), 0, p.owned());
+  }
   maxima.speed = std::sqrt(speed2);
   return maxima;
 }

@@ -23,6 +23,7 @@ double Physics::longest_step(const Reduction& r) const {
 
 void Physics::guard_step(const Reduction& r, const GlobalState& global) const {
   steps_.guard(r[in_.sound], global);
+  steps_.guard_viscosity(r[in_.viscosity], global);
 }
 
 }  // namespace sph

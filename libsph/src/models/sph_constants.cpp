@@ -8,6 +8,7 @@
 
 #include "sph/core/kernels.hpp"
 #include "sph/laws/eos/law.hpp"
+#include "sph/laws/melt_viscosity.hpp"
 
 namespace sph {
 namespace {
@@ -96,7 +97,7 @@ GroupTable group_table(const Scene& of) {
   const double divide = density_divide(of);
   GroupTable groups;
   for (const Group& g : of.groups) {
-    groups.viscosity.push_back(g.viscosity);
+    groups.viscosity.push_back(g.viscosity_law.varies() ? viscosity_at_start(g) : g.viscosity);
     groups.sound_speed.push_back(sound_at_rest(g));
     groups.heavy.push_back(g.kind == GroupKind::fluid && g.density > divide ? 1.0 : 0.0);
     groups.side.push_back(side_of(of, static_cast<int>(&g - of.groups.data())));
@@ -110,6 +111,7 @@ GroupTable group_table(const Scene& of) {
     groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
     groups.heat.wall_warmth.push_back(g.kind == GroupKind::wall && g.heat.temperature ? 1.0 : 0.0);
     groups.heat.wall_flux.push_back(g.heat.wall_flux.value_or(0));
+    groups.heat.grip.push_back(g.wall.slip ? 0.0 : 1.0);
     groups.gas_flow.permeability.push_back(g.kind == GroupKind::wall ? 0.0
                                                                      : g.bubbly.permeability.coefficient);
     groups.gas_flow.inverse_rt.push_back(

@@ -4,6 +4,7 @@
 
 #include "sph/laws/eos/law.hpp"
 #include "sph/models/models.hpp"
+#include "sph/models/viscosities.hpp"
 #include "sph/terms/shifting.hpp"
 #include "start/start_sounds.hpp"
 
@@ -19,12 +20,14 @@ void add_liquids_and_solids(Builder& b, const SphModels& m) {
   const Scene& s = b.scene();
   const bool walls = s.has_kind(GroupKind::wall), fluid = s.has_kind(GroupKind::fluid);
   // Grains in the fluid and exchanges want to know of walls at once, others after the forces.
-  const bool exchange = has_warm_walls(s) || has_open_walls(s), early = has_drag(s) || exchange;
+  const bool exchange = has_warm_walls(s) || has_open_walls(s) || (walls && s.terms.exchange.viscous_heat);
+  const bool early = has_drag(s) || exchange;
   const bool wall_share =
       exchange || (walls && fluid && (s.terms.viscous.implicit || s.start.has_surface || has_drag(s)));
   if (wall_share && early) add_wall_share(b);
   add_kinematics(b);
   if (exchange) add_wall_slopes(b);
+  if (has_viscosity_law(s)) add_viscosities(b);
   add_exchanges(b, m);
   if (bulk_viscous(s)) add_excess_pressures(b);
   if (walls) add_walls(b, s.terms.pressure_weights == PressureWeights::density);

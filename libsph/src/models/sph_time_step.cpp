@@ -7,13 +7,18 @@
 #include <limits>
 #include <numbers>
 
+#include "models/damping_limit.hpp"
 #include "sph/core/error.hpp"
 #include "sph/laws/eos/law.hpp"
+#include "sph/models/viscosities.hpp"
+#include "start/start_sounds.hpp"
 
 namespace sph {
 
 SphTimeStep::SphTimeStep(const SphConstants& constants)
-    : constants_(&constants), gas_(has_eos(*constants.scene, EosKind::ideal_gas)) {}
+    : constants_(&constants),
+      gas_(has_eos(*constants.scene, EosKind::ideal_gas)),
+      law_(has_viscosity_law(*constants.scene)) {}
 
 double SphTimeStep::longest(const StepMaxima& maxima) const {
   const Scene& scene = *constants_->scene;
@@ -24,7 +29,10 @@ double SphTimeStep::longest(const StepMaxima& maxima) const {
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     // Of a gas that of now counts.
     if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_->groups.sound_speed[g]);
-    if (scene.total_lagrangian() && constants_->is_wall(static_cast<std::uint32_t>(g))) continue;
+    const bool wall = constants_->is_wall(static_cast<std::uint32_t>(g));
+    if (wall && (scene.total_lagrangian() || law_)) continue;
+    // Where there is a law that of now counts.
+    if (maxima.viscosity > 0 && scene.groups[g].viscosity_law.varies()) continue;
     viscous = std::max(viscous, constants_->groups.viscosity[g] / scene.groups[g].density);
     bulk = std::max(bulk, scene.groups[g].bulk_viscosity / scene.groups[g].density);
   }
@@ -72,6 +80,25 @@ void SphTimeStep::guard(double sound, const GlobalState& global) const {
                   "matter stiffer than "
                   "it was at the start; set time.dt to {:.3g} s or less",
                   global.step, courant, limit, 0.9 * limit / courant * *scene.time.dt));
+}
+
+void SphTimeStep::guard_viscosity(double diffusivity, const GlobalState& global) const {
+  const Scene& scene = *constants_->scene;
+  const double h = scene.kernel.smoothing_length, surely = 0.04 * h * h;
+  if (!scene.time.dt || scene.terms.viscous.implicit || !law_ || *scene.time.dt * diffusivity <= surely)
+    return;
+  Scene now = scene;
+  for (Group& g : now.groups)
+    if (g.viscosity_law.varies()) {
+      g.viscosity_law = {};
+      g.viscosity = diffusivity * g.density;
+    }
+  if (const double limit = damping_limit(now, sounds_at_rest(now), *scene.time.dt).step;
+      *scene.time.dt > limit)
+    throw GuardError(fmt::format(
+        "step {}: the viscosity has risen to {:.3g} m^2/s times the density, and time.dt is above "
+        "its limit {:.3g} s; set it to that or less, leave it out, or set terms.implicit_viscosity",
+        global.step, diffusivity, limit));
 }
 
 }  // namespace sph

@@ -2,14 +2,16 @@
 #include "sph/pairs/fuse.hpp"
 #include "sph/terms/conduction.hpp"
 #include "sph/terms/gas_flow.hpp"
+#include "sph/terms/viscous_heat.hpp"
 
 namespace sph {
 namespace {
 
 template <class Kernel, int D>
 std::vector<Fusion> exchanges() {
-  return {fusion_of<double, D, Kernel, Conduction>(), fusion_of<double, D, Kernel, WallConduction>(),
-          fusion_of<double, D, Kernel, GasFlow>(), fusion_of<double, D, Kernel, WallGas>()};
+  return {fusion_of<double, D, Kernel, Conduction>(),  fusion_of<double, D, Kernel, WallConduction>(),
+          fusion_of<double, D, Kernel, GasFlow>(),     fusion_of<double, D, Kernel, WallGas>(),
+          fusion_of<double, D, Kernel, ViscousHeat>(), fusion_of<double, D, Kernel, SymmetricViscousHeat>()};
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ struct FusionList {
         fuse<Kernel, Pressure, UniformViscosity, ArtificialViscosity>(),
         fuse<Kernel, WallExtrapolation>(),
         fuse<Kernel, WallShare>(),
+        fuse<Kernel, WallViscosity>(),
         fuse<Kernel, Concentration>(),
         fuse<Kernel, ViscousOperator>(),
     };

@@ -82,6 +82,9 @@ enum class Field : std::uint8_t {
   gas_gain,
   wall_gas,
   gas_inflow,
+  viscosity,
+  wall_viscosity,
+  viscous_heat,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -253,7 +256,7 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::wall_heat, "wall_heat", "W", Type::f64, Shape::scalar, false, false, "... and from walls",
      SumScale::force},
     {Field::heat_inflow, "heat_inflow", "J", Type::f64, Shape::scalar, true, false,
-     "heat that a particle has had from walls since the start"},
+     "heat that a particle has had from walls and of friction since the start"},
     {Field::liquid_mass, "liquid_mass", "kg", Type::f64, Shape::scalar, true, false,
      "of bubbly magma whose gas flows: mass without volatiles, which stays"},
     {Field::gas_mobility, "gas_mobility", "s/m^2", Type::f64, Shape::scalar, false, false,
@@ -266,6 +269,13 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      SumScale::force},
     {Field::gas_inflow, "gas_inflow", "kg", Type::f64, Shape::scalar, true, false,
      "gas that a particle has had from walls since the start, less what escaped"},
+    {Field::viscosity, "viscosity", "Pa s", Type::f64, Shape::scalar, false, true,
+     "of fluids that have a law of it; on walls that of the fluid beside them"},
+    {Field::wall_viscosity, "wall_viscosity", "1", Type::f64, Shape::two, false, false,
+     "kernel sums over the fluid near a wall particle: volumes, and viscosities / h times them",
+     SumScale::one},
+    {Field::viscous_heat, "viscous_heat", "W", Type::f64, Shape::scalar, false, false,
+     "heat of viscous friction", SumScale::force},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

@@ -13,7 +13,13 @@ namespace sph {
   return sensible + m.latent_heat * ((temperature - m.solidus) / (m.liquidus - m.solidus));
 }
 
-/// Its inverse [K].
+/// What of a mass is molten.
+[[nodiscard]] inline double liquid_share(const HeatMaterial& m, double temperature) {
+  if (m.latent_heat == 0 || temperature >= m.liquidus) return 1;
+  return temperature <= m.solidus ? 0.0 : (temperature - m.solidus) / (m.liquidus - m.solidus);
+}
+
+/// Inverse of enthalpy() [K].
 [[nodiscard]] inline double temperature(const HeatMaterial& m, double enthalpy) {
   const double first = m.specific_heat * m.solidus, last = m.specific_heat * m.liquidus + m.latent_heat;
   if (m.latent_heat == 0 || enthalpy <= first) return enthalpy / m.specific_heat;

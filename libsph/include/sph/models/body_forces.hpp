@@ -1,4 +1,5 @@
-// What accelerates a particle besides its pairs: gravity, a central pull, grains in the fluid as far as known from the
+// What accelerates a particle besides its pairs: gravity, on matter that is lighter where it is warm (Boussinesq:
+// g (1 - alpha (T - T_0))), a central pull, grains in the fluid as far as known from the
 // step before (models/drag.hpp), and, beside a free surface where particles are shifted, the control of tension.
 #pragma once
 
@@ -9,8 +10,8 @@ namespace sph {
 
 class BodyForces {
  public:
-  static constexpr FieldSet reads{Field::position, Field::pressure, Field::density,
-                                  Field::mass,     Field::spread,   Field::grain_pull};
+  static constexpr FieldSet reads{Field::position, Field::pressure,   Field::density,     Field::mass,
+                                  Field::spread,   Field::grain_pull, Field::temperature, Field::group};
   using Particles = View<reads, FieldSet{}>;
 
   explicit BodyForces(const SphConstants& constants);
@@ -24,6 +25,7 @@ class BodyForces {
 
   const SphConstants* constants_;
   SurfaceGradient surface_;
+  bool expands_;  ///< some matter is lighter where it is warm
 };
 
 }  // namespace sph

@@ -1,6 +1,7 @@
 // Heat of fluids and solids: the enthalpy of a particle is state, conducted pair by pair (terms/conduction.hpp), its
-// temperature what that and the group say (laws/enthalpy.hpp). What walls give is counted for each particle, so that
-//   sum m H - sum (heat from walls) = what it was at the start,
+// temperature what that and the group say (laws/enthalpy.hpp). What walls and friction (terms/viscous_heat.hpp) give is
+// counted for each particle, so that
+//   sum m H - sum (heat from walls and friction) = what it was at the start,
 // but for rounding, on any number of ranks. Explicit: dt <= 0.25 h^2 rho c / k.
 #pragma once
 

@@ -27,10 +27,13 @@ class SphTimeStep {
   [[nodiscard]] double courant_number(double dt, const std::vector<double>& sounds) const;
   /// Throws GuardError where a fixed step is too long for the fastest sound.
   void guard(double sound, const GlobalState& global) const;
+  /// ... or for the largest eta / rho, where that is not what it was at the start.
+  void guard_viscosity(double diffusivity, const GlobalState& global) const;
 
  private:
   const SphConstants* constants_;
   bool gas_;  ///< there is an ideal gas: its sound of now counts, with its flow
+  bool law_;  ///< some fluid has a law of its viscosity: that of now counts
 };
 
 }  // namespace sph

@@ -63,9 +63,10 @@ struct StateColumns {
         stress(p.data<Field::stress>()),
         sound(p.data<Field::sound_speed>()),
         walls(p.data<Field::wall_pressures>()),
-        energy(p.data<Field::specific_energy>()) {}
+        energy(p.data<Field::specific_energy>()),
+        viscosity(p.data<Field::viscosity>()) {}
   const std::int64_t* x;
-  const double *v, *mass, *rho, *pressure, *stress, *sound, *walls, *energy;
+  const double *v, *mass, *rho, *pressure, *stress, *sound, *walls, *energy, *viscosity;
 
   template <class Row>
   [[gnu::always_inline]] void pack(const Row& row) const {
@@ -81,7 +82,8 @@ struct StateColumns {
     if constexpr (S.has(Value::pressure)) row.put(Value::pressure, 0, pressure[i]);
     if constexpr (S.has(Value::density)) row.put(Value::density, 0, rho[i]);
     if constexpr (S.has(Value::viscosity))
-      row.put(Value::viscosity, 0, groups.viscosity[row.group] * scale.inverse_h);
+      row.put(Value::viscosity, 0,
+              (viscosity != nullptr ? viscosity[i] : groups.viscosity[row.group]) * scale.inverse_h);
     if constexpr (S.has(Value::sound_speed))
       row.put(Value::sound_speed, 0, sound != nullptr ? sound[i] : groups.sound_speed[row.group]);
     if constexpr (S.has(Value::phase)) row.put(Value::phase, 0, static_cast<double>(row.group));
@@ -245,6 +247,7 @@ struct HeatColumns {
       row.put(Value::wall_warmth, 0, groups.heat.wall_warmth[row.group]);
     if constexpr (S.has(Value::wall_heat_flux))
       row.put(Value::wall_heat_flux, 0, groups.heat.wall_flux[row.group]);
+    if constexpr (S.has(Value::grip)) row.put(Value::grip, 0, groups.heat.grip[row.group]);
   }
 };
 

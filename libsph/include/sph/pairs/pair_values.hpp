@@ -67,6 +67,7 @@ enum class Value : std::uint8_t {
   gas_density,         ///< 0 of walls [kg/m^3]
   wall_open,           ///< 1 for walls that let gas pass, else 0
   wall_heat_flux,      ///< of walls, into what is beside them [W/m^2]
+  grip,                ///< 0 of walls that slip, else 1
   count_
 };
 
@@ -105,7 +106,7 @@ class ValueSet {
   if (values.has(Value::volume)) f |= FieldSet{Field::mass, Field::density};
   if (values.has(Value::pressure)) f |= FieldSet{Field::pressure};
   if (values.has(Value::density)) f |= FieldSet{Field::density};
-  if (values.has(Value::viscosity)) f |= FieldSet{Field::group};
+  if (values.has(Value::viscosity)) f |= FieldSet{Field::group, Field::viscosity};
   if (values.has(Value::sound_speed)) f |= FieldSet{Field::group, Field::sound_speed};
   if (values.has(Value::phase)) f |= FieldSet{Field::group};
   if (values.has(Value::mover)) f |= FieldSet{Field::group};
@@ -130,7 +131,8 @@ class ValueSet {
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   if (values.has(Value::shears)) f |= FieldSet{Field::group};
   if (values.has(Value::temperature)) f |= FieldSet{Field::temperature};
-  if (values.has(Value::conductivity) || values.has(Value::wall_warmth) || values.has(Value::wall_heat_flux))
+  if (values.has(Value::conductivity) || values.has(Value::wall_warmth) ||
+      values.has(Value::wall_heat_flux) || values.has(Value::grip))
     f |= FieldSet{Field::group};
   if (values.has(Value::permeability) || values.has(Value::wall_open)) f |= FieldSet{Field::group};
   if (values.has(Value::gas_mobility)) f |= FieldSet{Field::gas_mobility};
@@ -159,7 +161,7 @@ struct GroupTable {
     double surface_pressure = 0;       ///< [Pa]
   };
   struct Heat {
-    std::vector<double> conductivity, wall_warmth, wall_flux;  ///< as the values have them
+    std::vector<double> conductivity, wall_warmth, wall_flux, grip;  ///< as the values have them
   };
   GasFlow gas_flow;
   Heat heat;

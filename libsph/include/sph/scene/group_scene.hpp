@@ -10,6 +10,7 @@
 #include "sph/scene/heat_scene.hpp"
 #include "sph/scene/melt_scene.hpp"
 #include "sph/scene/solid_scene.hpp"
+#include "sph/scene/viscosity_scene.hpp"
 
 namespace sph {
 
@@ -24,6 +25,7 @@ struct Compressibility {
   const EquationOfState* law = linear_eos();
   double bulk_modulus = 0;   ///< K, or K_l of the liquid [Pa]
   LawConstants constants{};  ///< of the law, in the order of its keys
+  GasMaterial gas;           ///< of an ideal one
   friend bool operator==(const Compressibility&, const Compressibility&) = default;
 };
 
@@ -45,8 +47,8 @@ struct Group {
   Compressibility eos;        ///< all but grains
   double viscosity = 0;       ///< eta [Pa s]
   double bulk_viscosity = 0;  ///< zeta, Ida eq. (9) [Pa s]
+  ViscosityModel viscosity_law;
   BubblyMaterial bubbly;
-  GasMaterial gas;
   SolidMaterial solid;
   WallMaterial wall;
   GroupHeat heat;

@@ -5,13 +5,15 @@
 
 namespace sph {
 
-/// Enthalpy and conduction. Between solidus and liquidus the latent heat is spread evenly.
+/// Enthalpy, conduction, buoyancy. Between solidus and liquidus the latent heat is spread evenly.
 struct HeatMaterial {
-  double specific_heat = 0;  ///< c_p; 0: the scene has no heat [J/kg/K]
-  double conductivity = 0;   ///< k [W/m/K]
-  double latent_heat = 0;    ///< L [J/kg]
-  double solidus = 0;        ///< [K]
-  double liquidus = 0;       ///< [K]
+  double specific_heat = 0;          ///< c_p; 0: the scene has no heat [J/kg/K]
+  double conductivity = 0;           ///< k [W/m/K]
+  double latent_heat = 0;            ///< L [J/kg]
+  double solidus = 0;                ///< [K]
+  double liquidus = 0;               ///< [K]
+  double expansion = 0;              ///< alpha: gravity acts on rho_0 (1 - alpha (T - T_0)) [1/K]
+  double reference_temperature = 0;  ///< T_0 [K]
   friend bool operator==(const HeatMaterial&, const HeatMaterial&) = default;
 };
 

@@ -24,6 +24,14 @@ struct MeltSide {
   friend bool operator==(const MeltSide&, const MeltSide&) = default;
 };
 
+struct MeltStart {
+  MeltProfile profile = MeltProfile::groups;
+  MeltMixture mixture = MeltMixture::groups;
+  double wave_height = 0;  ///< by which all is displaced along the last axis [m]
+  double wave_length = 0;  ///< in all other directions [m]
+  friend bool operator==(const MeltStart&, const MeltStart&) = default;
+};
+
 struct MeltControl {
   std::array<std::int64_t, 3> cells{1, 1, 1};  ///< along each axis
   double tolerance = 1e-4;                     ///< of the flow: residual over what drives it [1]
@@ -33,10 +41,7 @@ struct MeltControl {
   double expansion = 0;                        ///< alpha: rho = rho_0 (1 - alpha (T - T_0)) [1/K]
   double reference_temperature = 0;            ///< T_0 [K]
   double viscosity_fall = 0;                   ///< b: eta = eta_0 exp(-b (T - T_0)) [1/K]
-  MeltProfile profile = MeltProfile::groups;
-  MeltMixture mixture = MeltMixture::groups;
-  double wave_height = 0;  ///< by which the start is displaced along the last axis [m]
-  double wave_length = 0;  ///< in all other directions [m]
+  MeltStart start;
   std::vector<MeltSide> sides;
   friend bool operator==(const MeltControl&, const MeltControl&) = default;
 };

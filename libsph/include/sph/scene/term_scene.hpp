@@ -14,8 +14,9 @@ enum class Precision { double_, mixed };
 
 /// Of heat and of gas that flows.
 struct ExchangeTerms {
-  bool motion = true;      ///< false: nothing moves
-  bool gas_escape = true;  ///< through free surfaces
+  bool motion = true;         ///< false: nothing moves
+  bool gas_escape = true;     ///< through free surfaces
+  bool viscous_heat = false;  ///< friction heats
   friend bool operator==(const ExchangeTerms&, const ExchangeTerms&) = default;
 };
 

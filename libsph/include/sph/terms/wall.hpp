@@ -76,6 +76,21 @@ struct MixtureWallExtrapolationByDensity {
   }
 };
 
+/// How viscous the fluid beside a wall is, where that differs from particle to particle.
+struct WallViscosity {
+  static constexpr std::string_view name = "WallViscosity";
+  static constexpr ValueSet reads{Value::volume, Value::viscosity, Value::mover};
+  static constexpr Field writes = Field::wall_viscosity;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    const V w =
+        Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>() * p.template j<Value::volume>();
+    sums.template add<Field::wall_viscosity>(0, w);
+    sums.template add<Field::wall_viscosity>(1, w * p.template j<Value::viscosity>());
+  }
+};
+
 /// How much of a moving particle's kernel the walls fill, and the gradient of that: distance and
 /// direction of a flat wall follow (sph/models/wall_distance.hpp).
 struct WallShare {

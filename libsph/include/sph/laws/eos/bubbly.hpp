@@ -18,6 +18,7 @@ class BubblyEos {
   [[nodiscard]] double pressure(double density) const;        ///< inverse of density() [Pa]
   [[nodiscard]] double void_fraction(double pressure) const;  ///< psi, eq. (14) [1]
   [[nodiscard]] double sound_speed(double pressure) const;    ///< sqrt(dp/drho) [m/s]
+  [[nodiscard]] double dissolved(double pressure) const;  ///< m_d = (p/p_s)^gamma: what can be, eq. (14) [1]
   /// dp of a gain dm of gas in a fixed volume, over dm (1 + m) / rho: what a diffusivity of gas flow is made of
   /// [m^2/s^2].
   [[nodiscard]] double gas_stiffness(double pressure) const;
@@ -31,7 +32,6 @@ class BubblyEos {
   };
   [[nodiscard]] Root invert(double density) const;
   [[nodiscard]] double first_guess(double density) const;
-  [[nodiscard]] double dissolved(double pressure) const;  ///< m_d = (p/p_s)^gamma, Ida eq. (14)
   [[nodiscard]] bool is_gas_free(double pressure) const;
 
   double rho0_, k_, m_, rt_, ps_, gamma_;

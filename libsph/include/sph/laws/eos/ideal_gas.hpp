@@ -34,7 +34,7 @@ struct IdealGasEos : EosLaw {
   static constexpr bool constant_sound = false;
 
   static void derive(const Group& g, const EosRows& rows, std::size_t first, std::size_t last) {
-    const IdealGas eos{g.gas.heat_ratio};
+    const IdealGas eos{g.eos.gas.heat_ratio};
     for (std::size_t i = first; i < last; ++i) {
       rows.pressure[i] = eos.pressure(rows.density[i], rows.specific_energy[i]) - rows.surface_pressure;
       if (rows.sound_speed != nullptr) rows.sound_speed[i] = eos.sound_speed(rows.specific_energy[i]);
@@ -42,7 +42,8 @@ struct IdealGasEos : EosLaw {
     }
   }
   static EosStart start(const Group& g, double above_surface, double /*surface_pressure*/) {
-    return {g.density, IdealGas{g.gas.heat_ratio}.energy(g.gas.start_pressure + above_surface, g.density)};
+    return {g.density,
+            IdealGas{g.eos.gas.heat_ratio}.energy(g.eos.gas.start_pressure + above_surface, g.density)};
   }
   static double density(const Group& g, double /*pressure*/) { return g.density; }
   static double energy(const Group&, double /*density*/) { return 0; }  // it is state: specific_energy

@@ -1,0 +1,143 @@
+// What groups exchange and how their state makes them flow: [group.heat], [group.permeability], [group.viscosity_law].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "keys/scene_resolve.hpp"
+#include "sph/laws/eos/law.hpp"
+
+namespace sph {
+namespace {
+
+bool any_grains(const std::vector<Group>& groups) {
+  return std::ranges::any_of(groups, [](const Group& g) { return g.kind == GroupKind::grain; });
+}
+
+void read_permeability(const GroupReader& table, Group& group) {
+  if (!table.has("permeability")) return;
+  const auto inner = table.table<keys::permeability>();
+  if (inner.choice<PermeabilityLaw>("law") == PermeabilityLaw::percolation)
+    group.bubbly.permeability.exponent = 2;
+  inner.read(group.bubbly.permeability);
+  inner.only_if(group.bubbly.permeability.law != PermeabilityLaw::kozeny_carman, "exponent",
+                "law = \"kozeny_carman\" has none");
+  inner.finish();
+}
+
+void check_gas_flow(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+  const bool grains = any_grains(groups);
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (grains && groups[k].bubbly.permeability.coefficient > 0)
+      tables[k].fail("permeability", "is of a fluid with grains in it",
+                     "fluids without grains alone have it yet");
+  const bool flows =
+      std::ranges::any_of(groups, [](const Group& g) { return g.bubbly.permeability.coefficient > 0; });
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (groups[k].kind == GroupKind::wall)
+      tables[k].only_if(flows, "gas_pressure", "no gas flows: give a bubbly fluid group.permeability");
+}
+
+void read_heat(const GroupReader& table, Group& group) {
+  if (!table.has("heat")) return;
+  const auto inner = table.table<keys::heat>();
+  inner.read(group.heat.material);
+  const HeatMaterial& heat = group.heat.material;
+  if (heat.latent_heat > 0) {
+    inner.require("solidus");
+    inner.require("liquidus");
+    if (!(heat.solidus < heat.liquidus))
+      inner.fail("liquidus", fmt::format("is {} K, and solidus {} K", heat.liquidus, heat.solidus),
+                 "it must be above: the latent heat is spread between them");
+  } else {
+    inner.only_if(false, "solidus", "give latent_heat too");
+    inner.only_if(false, "liquidus", "give latent_heat too");
+  }
+  if (heat.expansion > 0 && !inner.has("reference_temperature"))
+    group.heat.material.reference_temperature = group.heat.temperature.value_or(0);
+  inner.finish();
+}
+
+/// All matter has heat, or none; what has starts with a temperature.
+void check_heat(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+  const auto warm = [](const Group& g) { return g.heat.material.specific_heat > 0; };
+  const bool any = std::ranges::any_of(groups, warm);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const Group& g = groups[k];
+    if (!is_matter(g) && g.kind != GroupKind::wall) continue;
+    if (!any) {
+      tables[k].only_if(false, "temperature", "there is no heat: give a fluid or a solid group.heat");
+      tables[k].only_if(false, "heat_flux", "there is no heat: give a fluid or a solid group.heat");
+      continue;
+    }
+    if (any_grains(groups) && warm(g))
+      tables[k].fail("heat", "is of a fluid with grains in it", "fluids without grains alone have it yet");
+    if (is_matter(g) && !warm(g))
+      tables[k].fail_missing("heat", "another group has it, and heat would end at this one");
+    if (is_matter(g)) tables[k].require("temperature");
+    if (g.heat.temperature && !(*g.heat.temperature >= 0))
+      tables[k].fail("temperature", fmt::format("is {}", *g.heat.temperature), "it is in kelvin, from 0 up");
+    tables[k].not_both("temperature", "heat_flux");
+    if (g.kind == GroupKind::solid && g.solid.lagrangian == Lagrangian::total)
+      tables[k].fail("heat", "is of a total-Lagrangian solid", "fluids and updated solids alone have it yet");
+    if (g.eos.law->kind == EosKind::ideal_gas)
+      tables[k].fail("heat", "is of an ideal gas", "it has heat of its own, which is not conducted");
+  }
+}
+
+void read_viscosity_law(const GroupReader& table, Group& group) {
+  if (!table.has("viscosity_law")) return;
+  const auto inner = table.table<keys::viscosity_law>();
+  ViscosityModel& m = group.viscosity_law;
+  inner.read(m);
+  const bool bubbly = group.eos.law->kind == EosKind::bubbly, by_state = m.law != ViscosityLaw::constant;
+  const bool of_table = m.law == ViscosityLaw::vogel || m.law == ViscosityLaw::hess_dingwell;
+  if (group.eos.law->kind == EosKind::ideal_gas)
+    table.fail("viscosity_law", "is of an ideal gas", "liquids alone have it");
+  if (!m.varies())
+    inner.fail("law", "is \"constant\" without crystals and bubbles", "give viscosity alone, and no law");
+  table.only_if(!(of_table && group.viscosity > 0), "viscosity", "group.viscosity_law says it");
+  if (!of_table && !(group.viscosity > 0))
+    table.fail_missing("viscosity", "group.viscosity_law multiplies it");
+  if (m.law == ViscosityLaw::hess_dingwell && !bubbly)
+    inner.fail("law", "is \"hess_dingwell\", and nothing is dissolved", "set eos = \"bubbly\"");
+  if (m.bubbles != BubbleLaw::none && !bubbly)
+    inner.fail("bubbles", "are of a fluid that has none", "set eos = \"bubbly\"");
+  if (m.crystals != CrystalLaw::none) {
+    if (group.heat.material.latent_heat == 0)
+      inner.fail("crystals", "are of a melt that does not freeze", "give group.heat.latent_heat");
+    inner.require("most");
+    if (!(m.maximum_packing > 0))
+      inner.fail("maximum_packing", "is 0", "it is the share of crystals at which nothing flows, 0.6 or so");
+  }
+  if (m.most && *m.most < m.least)
+    inner.fail("most", fmt::format("is {} Pa s, less than least", *m.most), "it must not be below it");
+  const bool warm = group.heat.material.specific_heat > 0;
+  inner.only_if(!warm && by_state, "temperature",
+                warm ? "the fluid has one that it follows" : "no law asks for it");
+  if (!warm && by_state) inner.require("temperature");
+  inner.finish();
+}
+
+void check_viscosity_laws(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (groups[k].viscosity_law.varies() && any_grains(groups))
+      tables[k].fail("viscosity_law", "is of a fluid with grains in it",
+                     "fluids without grains alone have it yet");
+}
+
+}  // namespace
+
+void read_exchange(const GroupReader& table, Group& group) {
+  read_permeability(table, group);
+  read_heat(table, group);
+  read_viscosity_law(table, group);
+}
+
+void check_exchange(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+  check_heat(tables, groups);
+  check_gas_flow(tables, groups);
+  check_viscosity_laws(tables, groups);
+}
+
+}  // namespace sph
