@@ -198,8 +198,9 @@ def draw_pressure(run, snapshot):
         bar = draw_map(figure, all_axes[-1], run, snapshot, np.where(bubbly, snapshot.void_fraction, np.nan), (0, 0.8),
                        "YlGnBu", "volume fraction of gas ψ")
         for group in run.scene["group"]:
-            if "fragmentation" in group:
-                bar.ax.axvline(group["fragmentation"]["void_fraction"], color="black", linewidth=1.5)
+            for row in group.get("becomes", []):
+                if "void_fraction_above" in row:
+                    bar.ax.axvline(row["void_fraction_above"], color="black", linewidth=1.5)
         all_axes[-1].set_title("Gas (black line: fragmentation)" if run.sprays else "Gas")
     note(all_axes[0], beyond(snapshot, view))
     head(figure, run.heading(snapshot))

@@ -82,7 +82,8 @@ class Run(RunFolder):
             raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions, this draws 2: take apps/plot.py")
         self.kinds = [g["kind"] for g in self.scene["group"]]
         self.names = [g["name"] for g in self.scene["group"]]
-        self.sprays = {g["fragmentation"]["group"] for g in self.scene["group"] if "fragmentation" in g}
+        self.sprays = {row["group"] for g in self.scene["group"] for row in g.get("becomes", [])
+                       if "void_fraction_above" in row}
         self.spacing = self.scene["start"]["spacing"]
 
     def nearest(self, time):

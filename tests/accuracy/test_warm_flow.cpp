@@ -128,9 +128,9 @@ TEST(WarmFlow, Viscosities) {
   EXPECT_NEAR(log10_of({.temperature = 1073, .water = 0.04}), 5.1984, 1e-4);
   // MORB with 1 % of water at 1200 C by Giordano et al. (2008).
   g.viscosity_law.law = sph::ViscosityLaw::vogel;
-  g.viscosity_law.a = -4.55;
-  g.viscosity_law.b = 5515.14;
-  g.viscosity_law.c = 489.235;
+  g.viscosity_law.vogel.a = -4.55;
+  g.viscosity_law.vogel.b = 5515.14;
+  g.viscosity_law.vogel.c = 489.235;
   EXPECT_NEAR(log10_of({.temperature = 1473.15}), 1.0553, 1e-4);
   EXPECT_TRUE(std::isinf(log10_of({.temperature = 400})));
   g.viscosity_law.most = 1e9;

@@ -46,10 +46,15 @@ class Exchanges:
             if g_d.chance("rises", 0.4):
                 heat |= {"expansion": g_d.log("expansion", 1e-2, 3) / mean, "reference_temperature": mean}
             g |= {"heat": heat, "temperature": mean * d.part("start", k).real("T", 0.7, 1.4)}
-        sprays = {g["fragmentation"]["group"]: g for g in matter if "fragmentation" in g}
-        for g in matter:
-            if g["name"] in sprays:
-                g["heat"] = dict(sprays[g["name"]]["heat"])
+        for k, g in enumerate(matter):
+            others = [o["name"] for o in matter if o is not g]
+            c_d = d.part("changes", k)
+            if others and c_d.chance("changes", 0.25):
+                row = {"group": c_d.one("into", others),
+                       c_d.one("limit", ["temperature_above", "temperature_below"]): mean * c_d.real("at", 0.7, 1.4)}
+                if c_d.chance("hold", 0.3):
+                    row["hold"] = c_d.log("hold is", 0.1, 5) * self.h / self.c
+                g["becomes"] = [*g.get("becomes", []), row]
         for k, w in enumerate(walls):
             way = d.part("wall", k).one("wall", ["tight", "temperature", "flux"])
             if way == "temperature":

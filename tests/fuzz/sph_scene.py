@@ -165,7 +165,14 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             return [group]
         spray = dict(group, name=group["name"] + "_spray")
         self.viscosities(d.part("spray"), spray)
-        group["fragmentation"] = {"void_fraction": d.log("psi", 0.01, 0.7), "group": spray["name"]}
+        change = {"void_fraction_above": d.log("psi", 0.01, 0.7), "group": spray["name"]}
+        if d.chance("heals", 0.2):
+            spray["becomes"] = [{"void_fraction_below": d.real("healed", 0.3, 1) * change["void_fraction_above"],
+                                 "group": group["name"]}]
+        for row in [change, *spray.get("becomes", [])]:
+            if d.chance("hold", 0.2):
+                row["hold"] = d.log("hold is", 0.1, 5) * self.h / self.c
+        group["becomes"] = [change]
         return [group, spray]
 
     def solid(self, d, name):

@@ -45,7 +45,7 @@ class Terms:
             out["pressure_weights"] = "density"
         elif d.chance("say volume", 0.1):
             out["pressure_weights"] = "volume"
-        sprays = {g["fragmentation"]["group"] for g in scene["group"] if "fragmentation" in g}
+        sprays = {row["group"] for g in scene["group"] for row in g.get("becomes", []) if "void_fraction_above" in row}
         fluids = [m for m in self.movers if m not in sprays]
         if quintic and not self.pulled and len(fluids) > 1 and d.chance("tension", 0.4):
             out.pop("artificial_viscosity", None)

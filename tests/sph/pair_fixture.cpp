@@ -41,6 +41,7 @@ Scene scene_for(const Fusion& fusion) {
     s.groups[g].density = density[g];
     s.groups[g].eos.bulk_modulus = density[g] * sound[g] * sound[g];
     s.groups[g].viscosity = viscosity[g];
+    s.groups[g].heat.material.specific_heat = 900 + 100 * static_cast<double>(g);
     s.groups[g].heat.material.conductivity = 2 + 3 * static_cast<double>(g);
     s.groups[g].bubbly.permeability.coefficient =
         1.3 - 0.5 * static_cast<double>(g);  // solids and walls: none

@@ -141,6 +141,7 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("Conduction"):
     case key("WallConduction"):
     case key("GasFlow"):
+    case key("GasHeat"):
     case key("WallGas"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):
@@ -343,12 +344,13 @@ void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const
     if (j.warm) one(Field::wall_heat, 0, weight * i.conductivity * profile * (j.temperature - i.temperature));
     const double way = steepness > 0 ? across / steepness * h_ : pair.r;
     one(Field::wall_heat, 0, -2 * j.wall_flux * i.volume * j.volume * pair.slope / pair.r * way);
-  } else if (term.name == "GasFlow") {
+  } else if (term.name == "GasFlow" || term.name == "GasHeat") {
     if (!j.mover) return;
     const double drive = j.gas_pressure - i.gas_pressure - 0.5 * (i.gas_density + j.gas_density) * head;
     const double up = drive > 0 ? j.gas_mobility : i.gas_mobility;
     const double flow = weight * harmonic(i.permeability, j.permeability) *
                         std::min(0.5 * (i.gas_mobility + j.gas_mobility), 2 * up) * drive;
+    if (term.name == "GasHeat") return one(Field::gas_heat, 0, flow * (drive > 0 ? j : i).sensible_heat);
     one(Field::gas_gain, 0, flow);
     for (int a = 0; a < dim_; ++a) one(Field::gas_gain, 1 + a, 0.5 * flow * (j.v(a) - i.v(a)));
   } else if (term.name == "ViscousHeat" || term.name == "SymmetricViscousHeat") {

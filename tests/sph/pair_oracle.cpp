@@ -84,6 +84,7 @@ void PairOracle::load() {
     q.viscosity = p.has(Field::viscosity) ? get(Field::viscosity, row, 0) : g.viscosity;
     q.temperature = get(Field::temperature, row, 0);
     q.conductivity = g.heat.material.conductivity;
+    q.sensible_heat = g.heat.material.specific_heat * q.temperature;
     q.wall_flux = g.heat.wall_flux.value_or(0);
     q.warm = g.heat.temperature.has_value();
     q.permeability = g.bubbly.permeability.coefficient;
@@ -182,6 +183,7 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("Conduction"):
     case key("WallConduction"):
     case key("GasFlow"):
+    case key("GasHeat"):
     case key("WallGas"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):

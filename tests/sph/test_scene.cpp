@@ -366,8 +366,8 @@ TEST(Scene, CylinderCasesHaveThePapersNumbers) {
     EXPECT_EQ(s.terms.density_diffusion, 0.1);
   }
   const sph::Scene gas = sph::read_scene((apps_dir / "buoyant_cylinder" / "gas.toml").string(), {});
-  EXPECT_EQ(gas.groups[1].bubbly.fragments_to, gas.group_index("spray"));
-  EXPECT_EQ(gas.groups[1].bubbly.fragmentation_void_fraction, 0.5);
+  EXPECT_EQ(gas.groups[1].becomes.at(0).group, gas.group_index("spray"));
+  EXPECT_EQ(gas.groups[1].becomes.at(0).void_fraction_above, 0.5);
 }
 
 }  // namespace

@@ -38,6 +38,29 @@ file = "start.csv"
 dt = "15 us"
 steps = 1
 """
+WARM = """
+[domain]
+lower = [0, 0]
+upper = [12, 12]
+periodic = [true, true]
+[kernel]
+h_over_dx = 1.0
+[[group]]
+name = "melt"
+kind = "fluid"
+density = 2500
+sound_speed = 100
+temperature = 1000
+heat = { specific_heat = 1000, conductivity = 2 }
+viscosity_law = { law = "vogel", a = 2.0, b = 1000, c = 500 }
+[start]
+spacing = 1
+[[start.region]]
+group = "melt"
+[time]
+steps = 1
+dt = 2e-3
+"""
 HEADER = "id,x,y,z,vx,vy,vz,group,radius"
 
 
@@ -57,6 +80,14 @@ class Cases(CheckCases):
 
     def rows(self, *rows, end="\n"):
         return self.file("start.csv", end.join([HEADER, *rows]) + end)
+
+    def test_steps_too_long(self):
+        scene = self.file("warm.toml", WARM)
+        self.run.run(1, "peperite", "run", scene, "--out", "warm")
+        self.refused("run", scene, "--out", "bad", "--set", "group.melt.heat.conductivity=1e9", ranks=(2,),
+                     says="time.dt: 0.002 s is above the limit of explicit conduction")
+        self.refused("run", scene, "--out", "bad", "--set", "group.melt.viscosity_law.a=5", ranks=(2,),
+                     says="group.melt.viscosity_law.most: 1e+07 is unstable with time steps of 0.002 s; set it to")
 
     def refused(self, *arguments, says, ranks=(1, 3)):
         for n in ranks:

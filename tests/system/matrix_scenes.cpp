@@ -33,7 +33,7 @@ const std::vector<Source>& sources() {
        {"domain.lower=[-12, -4]", "domain.upper=[60, 76]", "group.melt.bulk_modulus=",
         "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7", "group.spray.bulk_modulus=5e7",
         "time.dt=", "time.cfl=0.6", "start.jitter=0.1", "start.velocity=[2, 2]",
-        "start.region.3.centre=[22, 32]", "group.cylinder.fragmentation.void_fraction=0.35"}},
+        "start.region.3.centre=[22, 32]", "group.cylinder.becomes.0.void_fraction_above=0.35"}},
       {"ida2d",
        "apps/buoyant_cylinder/fluid.toml",
        {"formulation=ida", "group.melt.bulk_modulus=", "group.melt.sound_speed=160",
@@ -72,7 +72,7 @@ const std::vector<Source>& sources() {
       {"solid3d",
        "tests/scenes/box3d_solid.toml",
        {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3"}},
-      {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.fragmentation.void_fraction=0.09"}},
+      {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.becomes.0.void_fraction_above=0.09"}},
       // heat that melts and freezes, gas that flows and escapes: exchanges in double precision on lists of either
       {"exchange2d",
        "apps/buoyant_cylinder/gas.toml",
@@ -87,7 +87,7 @@ const std::vector<Source>& sources() {
         "start.jitter=0.1",
         "start.velocity=[2, 2]",
         "start.region.3.centre=[22, 32]",
-        "group.cylinder.fragmentation.void_fraction=0.35",
+        "group.cylinder.becomes.0.void_fraction_above=0.35",
         "group.melt.heat={specific_heat=1200, conductivity=5e6, latent_heat=3e5, solidus=1100, "
         "liquidus=1250}",
         "group.melt.temperature=1200",
@@ -113,7 +113,7 @@ const std::vector<Source>& sources() {
         "start.jitter=0.1",
         "start.velocity=[2, 2]",
         "start.region.3.centre=[22, 32]",
-        "group.cylinder.fragmentation.void_fraction=0.35",
+        "group.cylinder.becomes.0.void_fraction_above=0.35",
         "group.melt.heat={specific_heat=1200, conductivity=5e6, latent_heat=3e5, solidus=1100, "
         "liquidus=1250, "
         "expansion=1e-3}",
@@ -124,19 +124,21 @@ const std::vector<Source>& sources() {
         "group.spray.temperature=1500",
         "group.wall.temperature=900",
         "group.melt.viscosity_law={law=\"exponential\", fall=0.01, reference_temperature=1200, "
-        "crystals=\"einstein_roscoe\", most=1e5}",
+        "crystals=\"einstein_roscoe\", most=2e4}",
         "group.cylinder.viscosity=",
-        "group.cylinder.viscosity_law={law=\"hess_dingwell\", least=10, most=1e5}",
+        "group.cylinder.viscosity_law={law=\"hess_dingwell\", least=10, most=2e4}",
         "group.spray.viscosity_law={law=\"constant\", bubbles=\"stretched\"}",
         "terms.viscous_heat=true"}},
+      // melt that freezes and rock that melts, magma that fragments and heals, after a while
+      {"freezing2d", "tests/scenes/freezing2d.toml", {"time.steps=1"}},
       {"laws3d",
        "tests/scenes/box3d_gas.toml",
-       {"group.magma.fragmentation.void_fraction=0.09", "group.magma.viscosity=",
-        "group.magma.viscosity_law={law=\"hess_dingwell\", temperature=1100, bubbles=\"round\", most=1e7}",
+       {"group.magma.becomes.0.void_fraction_above=0.09", "group.magma.viscosity=",
+        "group.magma.viscosity_law={law=\"hess_dingwell\", temperature=1100, bubbles=\"round\", most=2e3}",
         "terms.implicit_viscosity=true", "terms.viscosity=symmetric"}},
       {"exchange3d",
        "tests/scenes/box3d_gas.toml",
-       {"group.magma.fragmentation.void_fraction=0.09",
+       {"group.magma.becomes.0.void_fraction_above=0.09",
         "group.magma.permeability={law=\"percolation\", coefficient=1e-8, threshold=0.01}",
         "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-8}", "group.wall.gas_pressure=0"}},
       // ideal gases: energy is state, and the time step follows the hottest particle
@@ -225,7 +227,8 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   }
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     for (const sph::Group& g : simulation.scene().groups)
-      if (g.bubbly.fragments_to == static_cast<int>(group[i])) ++out.spray;
+      for (const sph::Transition& row : g.becomes)
+        if (row.group == static_cast<int>(group[i])) ++out.spray;
     if (psi != nullptr) out.void_fraction = std::max(out.void_fraction, psi[i]);
     if (strain != nullptr && simulation.scene().groups[group[i]].kind == sph::GroupKind::solid)
       out.unstrained += strain[i] == 0 ? 1 : 0;

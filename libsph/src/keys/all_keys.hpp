@@ -41,11 +41,9 @@ inline constexpr auto top_keys = std::to_array<Key>({
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
 inline constexpr std::array<const KeyTable*, 27> all{
-    &top,          &domain,        &kernel,     &group,      &fragmentation,
-    &permeability, &viscosity_law, &heat,       &start,      &region,
-    &layer,        &tile,          &fill,       &terms,      &surface_tension,
-    &contact,      &contact_pair,  &drag,       &melt_table, &melt_side,
-    &wall,         &stage,         &stage_wall, &time,       &decomposition,
-    &output,       &monitor};
+    &top,           &domain, &kernel,     &group,     &becomes, &permeability, &viscosity_law,   &heat,
+    &start,         &region, &layer,      &tile,      &fill,    &terms,        &surface_tension, &contact,
+    &contact_pair,  &drag,   &melt_table, &melt_side, &wall,    &stage,        &stage_wall,      &time,
+    &decomposition, &output, &monitor};
 
 }  // namespace sph::keys

@@ -1,4 +1,4 @@
-// Keys of [[group]] and group.fragmentation.
+// Keys of [[group]] and its tables.
 #pragma once
 
 #include "keys/conditions.hpp"
@@ -6,16 +6,29 @@
 
 namespace sph::keys {
 
-inline constexpr auto fragmentation_keys = std::to_array<Key>({
-    {"void_fraction",
-     Number{dimension::none, {.least = 0, .most = 1, .above_least = true, .below_most = true}},
-     "Above this volume fraction of gas a particle joins the other group for good.",
-     at<&BubblyMaterial::fragmentation_void_fraction>, required},
-    {"group", NameOf{"group"}, "The group that it joins, a fluid with the same equation of state.",
-     index_at<&BubblyMaterial::fragments_to>, required},
+inline constexpr Range share_of_volume{.least = 0, .most = 1, .above_least = true, .below_most = true};
+inline constexpr auto becomes_keys = std::to_array<Key>({
+    {"group", NameOf{"group"}, "The fluid or updated solid that a particle joins.",
+     index_at<&Transition::group>, required},
+    {"void_fraction_above", Number{dimension::none, share_of_volume},
+     "The gas's share of the volume of a bubbly fluid at which it does: it fragments (0.7 to 0.8).",
+     at<&Transition::void_fraction_above>, Default{"one of the four is required"}},
+    {"void_fraction_below", Number{dimension::none, share_of_volume}, "... or it collapses, or heals.",
+     at<&Transition::void_fraction_below>, Default{"none"}},
+    {"temperature_above", Number{dimension::temperature, positive}, "Where there is heat: it melts.",
+     at<&Transition::temperature_above>, Default{"none"}},
+    {"temperature_below", Number{dimension::temperature, positive}, "... or it freezes.",
+     at<&Transition::temperature_below>, Default{"none"}},
+    {"hold", Number{dimension::time, not_negative},
+     "For so long without a break, against noise. The first row of the table that holds counts alone.",
+     at<&Transition::hold>},
 });
-inline constexpr Table<BubblyMaterial> fragmentation{
-    {"group.fragmentation", false, "Bubbly fluid breaks.", fragmentation_keys}};
+inline constexpr Table<Transition> becomes{
+    {"group.becomes", true,
+     "Particles of a group join another for good, or until its own table says otherwise. They keep mass, "
+     "momentum, "
+     "volatiles, enthalpy and pressure; density and temperature are then those of the other material.",
+     becomes_keys}};
 
 inline constexpr auto permeability_keys = std::to_array<Key>({
     {"law", Words{permeability_words},
@@ -48,11 +61,12 @@ inline constexpr auto viscosity_law_keys = std::to_array<Key>({
      at<&ViscosityModel::fall>, where("law", "exponential"), required},
     {"reference_temperature", Number{dimension::temperature}, "Of \"exponential\".",
      at<&ViscosityModel::reference_temperature>, where("law", "exponential"), required},
-    {"a", Number{dimension::none}, "Of \"vogel\".", at<&ViscosityModel::a>, where("law", "vogel"), required},
-    {"b", Number{dimension::temperature}, "Of \"vogel\".", at<&ViscosityModel::b>, where("law", "vogel"),
-     required},
-    {"c", Number{dimension::temperature}, "Of \"vogel\".", at<&ViscosityModel::c>, where("law", "vogel"),
-     required},
+    {"a", Number{dimension::none}, "Of \"vogel\".", at<&ViscosityModel::vogel, &VogelConstants::a>,
+     where("law", "vogel"), required},
+    {"b", Number{dimension::temperature}, "Of \"vogel\".", at<&ViscosityModel::vogel, &VogelConstants::b>,
+     where("law", "vogel"), required},
+    {"c", Number{dimension::temperature}, "Of \"vogel\".", at<&ViscosityModel::vogel, &VogelConstants::c>,
+     where("law", "vogel"), required},
     {"temperature", Number{dimension::temperature, positive}, "T of a scene without group.heat.",
      at<&ViscosityModel::temperature>, Default{"required without group.heat, but by \"constant\""}},
     {"crystals", Words{crystal_law_words},
@@ -143,7 +157,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "Of a fluid whose viscosity follows its temperature, water, crystals or bubbles.", of_sph,
      where("kind", "fluid")},
     {"bulk_viscosity", Number{dimension::viscosity, not_negative}, "zeta of Ida eq. (9).",
-     at<&Group::bulk_viscosity>, of_sph, unless("eos", "ideal_gas", "an ideal gas has viscosity alone"),
+     at<&Group::viscosity_law, &ViscosityModel::bulk>, of_sph,
+     unless("eos", "ideal_gas", "an ideal gas has viscosity alone"),
      Default{"0; of a wall that of the first fluid"}},
     {"shear_modulus", Number{dimension::pressure, positive}, "mu of a solid.",
      at<&Group::solid, &SolidMaterial::shear_modulus>, of_sph, solid, Default{"required, or poisson_ratio"}},
@@ -173,8 +188,7 @@ inline constexpr auto group_keys = std::to_array<Key>({
      of_sph, bubbly, required},
     {"solubility_exponent", Number{dimension::none, positive}, "gamma of the solubility.",
      at<&Group::bubbly, &BubblyMaterial::solubility_exponent>, of_sph, bubbly},
-    {"fragmentation", Inner{&fragmentation}, "A bubbly fluid joins another group where it holds much gas.",
-     of_sph, bubbly},
+    {"becomes", Inner{&becomes}, "When particles join another group.", of_sph, matter},
     {"permeability", Inner{&permeability}, "Gas flows through a bubbly fluid by Darcy's law.", of_sph,
      bubbly},
     {"gas_pressure", Number{dimension::pressure},

@@ -50,7 +50,7 @@ void read_material(const GroupReader& table, Group& group, const Group* like) {
     group.density = like->density;
     group.eos.bulk_modulus = like->eos.bulk_modulus;
     group.viscosity = like->viscosity;
-    group.bulk_viscosity = like->bulk_viscosity;
+    group.viscosity_law.bulk = like->viscosity_law.bulk;
   }
   const bool wall = group.kind == GroupKind::wall;
   if (const auto word = table.text("eos");
@@ -97,38 +97,42 @@ void check_total_lagrangian(const std::vector<GroupReader>& tables, const std::v
       tables[k].fail("lagrangian", "is \"updated\" beside total-Lagrangian solids", right);
     if (g.wall.slip)
       tables[k].fail("slip", "is on", "total-Lagrangian solids touch walls without friction anyway");
-    if (g.kind == GroupKind::solid && g.bulk_viscosity > 0)
-      tables[k].fail("bulk_viscosity", fmt::format("is {}", g.bulk_viscosity),
+    if (g.kind == GroupKind::solid && g.viscosity_law.bulk > 0)
+      tables[k].fail("bulk_viscosity", fmt::format("is {}", g.viscosity_law.bulk),
                      "solids with lagrangian = \"total\" have viscosity alone");
   }
 }
 
-void check_target(const Reader<keys::fragmentation>& table, const Group& from, const Group& to) {
-  const auto same = [&](bool equal, std::string_view key) {
-    if (!equal)
-      table.fail("group",
-                 fmt::format("names \"{}\", whose {} differs from that of \"{}\"", to.name, key, from.name),
-                 "fragments keep the equation of state: repeat its values in both groups");
-  };
-  if (to.kind != GroupKind::fluid)
-    table.fail("group", fmt::format("names \"{}\", which is no fluid", to.name), "fragments are a fluid");
-  same(from.eos.law == to.eos.law, "eos");
-  same(from.density == to.density, "density");
-  same(from.eos.bulk_modulus == to.eos.bulk_modulus, "bulk_modulus");
-  same(from.heat.material == to.heat.material, "heat");
-  same(from.bubbly.gas_rt == to.bubbly.gas_rt, "gas_rt");
-  same(from.bubbly.solubility_pressure == to.bubbly.solubility_pressure, "solubility_pressure");
-  same(from.bubbly.solubility_exponent == to.bubbly.solubility_exponent, "solubility_exponent");
-}
-
-void read_fragmentation(const GroupReader& table, std::size_t self, std::vector<Group>& groups) {
+void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>& groups) {
   Group& group = groups[self];
-  if (!table.has("fragmentation")) return;
-  const auto inner = table.table<keys::fragmentation>();
-  inner.read(group.bubbly);
-  if (group.bubbly.fragments_to == static_cast<int>(self))
-    inner.fail("group", "names the group itself", "fragments join another group");
-  check_target(inner, group, groups[static_cast<std::size_t>(group.bubbly.fragments_to)]);
+  for (const auto& row : table.tables<keys::becomes>()) {
+    Transition change;
+    row.read(change);
+    const Group& to = groups[static_cast<std::size_t>(change.group)];
+    if (change.group == static_cast<int>(self))
+      row.fail("group", "names the group itself", "its particles join another");
+    if (!is_matter(to))
+      row.fail("group", fmt::format("names \"{}\", which is no fluid and no solid", to.name),
+               "only these can be joined");
+    const auto stays = [](const Group& g) {
+      return g.eos.law->kind == EosKind::ideal_gas || g.solid.lagrangian == Lagrangian::total;
+    };
+    if (stays(group) || stays(to))
+      row.fail("group", fmt::format("leads from \"{}\" to \"{}\"", group.name, to.name),
+               "ideal gases and total-Lagrangian solids stay what they are");
+    if (change.limits() == 0)
+      row.fail_missing("void_fraction_above",
+                       "give that, void_fraction_below, temperature_above or temperature_below");
+    if (change.limits() > 1)
+      row.fail("group", fmt::format("is joined at {} limits", change.limits()), "give each a row of its own");
+    const bool warm = group.heat.material.specific_heat > 0, bubbly = group.eos.law->kind == EosKind::bubbly;
+    row.only_if(warm, "temperature_above", "there is no heat: give group.heat");
+    row.only_if(warm, "temperature_below", "there is no heat: give group.heat");
+    row.only_if(bubbly, "void_fraction_above", "the group has no gas: set eos = \"bubbly\"");
+    row.only_if(bubbly, "void_fraction_below", "the group has no gas: set eos = \"bubbly\"");
+    row.finish();
+    group.becomes.push_back(change);
+  }
 }
 
 /// What grains act on besides each other: fluids.
@@ -196,14 +200,9 @@ void read_groups(const TopReader& top, Scene& scene) {
     }
   check_total_lagrangian(tables, groups);
   check_exchange(tables, groups);
-  for (std::size_t k = 0; k < tables.size(); ++k)
-    if (groups[k].kind != GroupKind::grain) read_fragmentation(tables[k], k, groups);
   for (std::size_t k = 0; k < tables.size(); ++k) {
     if (groups[k].kind == GroupKind::grain) continue;
-    const int target = groups[k].bubbly.fragments_to;
-    if (target >= 0 && groups[static_cast<std::size_t>(target)].bubbly.fragments_to >= 0)
-      tables[k].fail("fragmentation", "leads to a group that fragments again",
-                     "fragments must stay what they are");
+    read_becomes(tables[k], k, groups);
     tables[k].finish();
   }
 }

@@ -23,22 +23,18 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
   if (tension.between[0] == tension.between[1])
     table.fail("between", "names one group twice",
                "name two groups of fluid, for example [\"melt\", \"gas\"]");
-  const auto ends = [&](int k) {
-    const int fragments = groups[static_cast<std::size_t>(k)].bubbly.fragments_to;
-    return fragments < 0 ? k : fragments;
+  const auto on_side = [&](std::size_t side, std::size_t k) {
+    return can_become(groups, tension.between[side], static_cast<int>(k));
   };
-  if (ends(tension.between[0]) == ends(tension.between[1]))
-    table.fail("between", "names groups that fragment into each other or into the same one",
-               "fragments stay on the side of what they broke from");
-  for (const Group& g : groups) {
-    const int k = static_cast<int>(&g - groups.data());
-    const bool on_a_side = std::any_of(tension.between.begin(), tension.between.end(), [&](int of) {
-      return k == of || k == groups[static_cast<std::size_t>(of)].bubbly.fragments_to;
-    });
-    if (tension.form == TensionForm::jump && g.kind == GroupKind::fluid && !on_a_side)
-      table.fail("form", fmt::format("is \"jump\", and \"{}\" is a third fluid", g.name),
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (on_side(0, k) && on_side(1, k))
+      table.fail("between", "names groups that become each other or the same one",
+                 "what matter becomes stays on its side");
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (tension.form == TensionForm::jump && groups[k].kind == GroupKind::fluid && !on_side(0, k) &&
+        !on_side(1, k))
+      table.fail("form", fmt::format("is \"jump\", and \"{}\" is a third fluid", groups[k].name),
                  "where three fluids meet no curvature says the jump: use \"stress\"");
-  }
   table.finish();
   return tension;
 }
@@ -91,6 +87,11 @@ void check_terms(const TermsReader& table, const Scene& scene) {
     table.fail("viscous_heat", "is on", "with motion = false nothing rubs");
   if (ida && std::ranges::any_of(scene.groups, [](const Group& g) { return g.viscosity_law.varies(); }))
     table.fail("motion", "is of a scene with a viscosity law", "formulation = \"ida\" has none: remove it");
+  for (const Group& g : scene.groups)
+    for (const Transition& row : g.becomes)
+      if (ida && scene.groups[static_cast<std::size_t>(row.group)].kind != g.kind)
+        table.fail("motion", fmt::format("is of a scene in which \"{}\" freezes or melts", g.name),
+                   "formulation = \"ida\" has fragmentation alone");
   if (!terms.exchange.motion && scene.is_mixture())
     table.fail("motion", "is false", "grains move: remove it");
 }

@@ -21,7 +21,7 @@ void write_group(SceneWriter& out, const Group& g) {
   if (g.bubbly.permeability.coefficient > 0) out.table(keys::permeability, g.bubbly.permeability);
   if (g.viscosity_law.varies()) out.table(keys::viscosity_law, g.viscosity_law);
   if (g.heat.material.specific_heat > 0) out.table(keys::heat, g.heat.material);
-  if (g.bubbly.fragmentation_void_fraction) out.table(keys::fragmentation, g.bubbly);
+  for (const Transition& row : g.becomes) out.table(keys::becomes, row);
 }
 
 void write_start(SceneWriter& out, const Scene& scene) {

@@ -7,7 +7,7 @@ namespace sph::keys {
 
 inline constexpr auto surface_tension_keys = std::to_array<Key>({
     {"between", TwoGroups{R"(the names of two groups of fluid, like ["melt", "gas"])"},
-     "Two groups of fluid; both with what they fragment into.", at<&InterfaceTension::between>, required},
+     "Two groups of fluid; both with what they become.", at<&InterfaceTension::between>, required},
     {"coefficient", Number{dimension::stiffness, not_negative}, "sigma.", at<&InterfaceTension::coefficient>,
      required},
     {"form", Words{tension_form_words},

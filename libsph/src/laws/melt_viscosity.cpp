@@ -28,7 +28,7 @@ double liquid_viscosity(const Group& g, const MeltState& s) {
       return g.viscosity *
              exact_exp(std::clamp(-m.fall * (s.temperature - m.reference_temperature), -700.0, 700.0));
     case ViscosityLaw::vogel:
-      return vogel(m.a, m.b, m.c, s.temperature);
+      return vogel(m.vogel.a, m.vogel.b, m.vogel.c, s.temperature);
     case ViscosityLaw::hess_dingwell: {
       const double w = exact_log(std::fmax(100 * s.water, least_water));
       return vogel(-3.545 + 0.833 * w, 9601 - 2368 * w, 195.7 + 32.25 * w, s.temperature);

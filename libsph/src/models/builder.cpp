@@ -34,9 +34,9 @@ Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms,
           &fusion};
 }
 
-void add_exchange(Builder& b, std::string name, Term term) {
+void add_exchange(Builder& b, std::string name, const std::vector<Term>& terms) {
   b.add_loop(
-      {{b.sums_over_pairs(std::move(name), {term}, Builder::Rows::movers, Precision::double_)}, {}, {}});
+      {{b.sums_over_pairs(std::move(name), terms, Builder::Rows::movers, Precision::double_)}, {}, {}});
 }
 
 }  // namespace sph

@@ -147,10 +147,14 @@ std::vector<Key> keys_of(const Scene& scene) {
                          [](Scene& s, double x) { s.terms.artificial_viscosity = x; }}};
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     const Group& group = scene.groups[g];
-    keys.push_back({"group." + group.name + ".viscosity", group.viscosity,
-                    [g](Scene& s, double x) { s.groups[g].viscosity = x; }});
-    keys.push_back({"group." + group.name + ".bulk_viscosity", group.bulk_viscosity,
-                    [g](Scene& s, double x) { s.groups[g].bulk_viscosity = x; }});
+    if (group.viscosity_law.varies())
+      keys.push_back({"group." + group.name + ".viscosity_law.most", viscosity_at_start(group),
+                      [g](Scene& s, double x) { s.groups[g].viscosity_law.most = x; }});
+    else
+      keys.push_back({"group." + group.name + ".viscosity", group.viscosity,
+                      [g](Scene& s, double x) { s.groups[g].viscosity = x; }});
+    keys.push_back({"group." + group.name + ".bulk_viscosity", group.viscosity_law.bulk,
+                    [g](Scene& s, double x) { s.groups[g].viscosity_law.bulk = x; }});
   }
   return keys;
 }
@@ -170,7 +174,7 @@ std::vector<Rates> rates_of(const Scene& scene, const std::vector<double>& sound
     r.diffusion =
         solid || g.eos.law->kind == EosKind::ideal_gas ? 0 : 2 * scene.terms.density_diffusion * r.sound;
     r.artificial = 0.5 * scene.terms.artificial_viscosity * r.sound;
-    r.bulk = g.bulk_viscosity / g.density / (h * h);
+    r.bulk = g.viscosity_law.bulk / g.density / (h * h);
     if (ida)  // eq. (9) of the velocity gradient: no pairwise viscosity
       r.bulk += 2 * nu / (h * h);
     else if (scene.terms.viscous.form == ViscosityForm::symmetric)

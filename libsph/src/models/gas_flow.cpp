@@ -48,12 +48,13 @@ struct Mobilities {
 };
 
 struct Contents {
-  static constexpr FieldSet reads = FaultView::reads | SurfaceEscape::reads | Materials::reads |
-                                    FieldSet{Field::gas_gain, Field::wall_gas, Field::gas_mobility,
-                                             Field::gas_pressure, Field::liquid_mass};
+  static constexpr FieldSet reads =
+      FaultView::reads | SurfaceEscape::reads | Materials::reads |
+      FieldSet{Field::gas_gain,     Field::gas_heat,    Field::wall_gas,   Field::gas_mobility,
+               Field::gas_pressure, Field::liquid_mass, Field::temperature};
   static constexpr FieldSet writes =
-      Materials::writes |
-      FieldSet{Field::gas_content, Field::mass, Field::density, Field::velocity, Field::gas_inflow};
+      Materials::writes | FieldSet{Field::gas_content, Field::mass,     Field::density,    Field::velocity,
+                                   Field::gas_inflow,  Field::enthalpy, Field::heat_inflow};
   const SphConstants* constants;
   const Materials* materials;
   std::shared_ptr<const SurfaceEscape> surface;  ///< nullptr: there is none
@@ -83,9 +84,19 @@ struct Contents {
           *constants, p, i, step,
           fmt::format("has a gas content of {:.3g}; reduce time.dt, time.cfl or group.permeability", m));
     const double now = liquid * (1 + m);
+    if (p.get<Field::enthalpy>() != nullptr) carry_heat(p, i, dt, outside, now);
     rho *= now / mass;
     mass = now;
     for (std::size_t a = 0; a < d; ++a) p.get<Field::velocity>()[i * d + a] += dt * gain[1 + a] / now;
+  }
+
+  /// What comes and goes through walls and the surface is as warm as the particle.
+  void carry_heat(const View<reads, writes>& p, std::size_t i, double dt, double outside, double now) const {
+    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
+    const double heat = dt * outside * (g.heat.material.specific_heat * p.get<Field::temperature>()[i]);
+    double& h = p.get<Field::enthalpy>()[i];
+    h = (p.get<Field::mass>()[i] * h + dt * p.get<Field::gas_heat>()[i] + heat) / now;
+    if (double* inflow = p.get<Field::heat_inflow>()) inflow[i] += heat;
   }
 
   [[nodiscard]] double escape(const View<reads, writes>& p, std::size_t i, double volume) const {
@@ -112,9 +123,13 @@ void Degassing::add_to(Builder& b) const {
   const bool walls = has_open_walls(s), escape = has_escape(s);
   b.add_fields({Field::liquid_mass, Field::gas_mobility, Field::gas_pressure});
   if (walls || escape) b.add_fields({Field::gas_inflow});
+  if ((walls || escape) && s.has_heat()) b.add_fields({Field::heat_inflow});
   b.add_update("gas mobilities", Mobilities{&s});
-  add_exchange(b, "gas flow", term<GasFlow>);
-  if (walls) add_exchange(b, "gas of walls", term<WallGas>);
+  if (s.has_heat())
+    add_exchange(b, "gas flow", {term<GasFlow>, term<GasHeat>});
+  else
+    add_exchange(b, "gas flow", {term<GasFlow>});
+  if (walls) add_exchange(b, "gas of walls", {term<WallGas>});
   b.add_update("gas contents",
                Contents{constants_, materials_,
                         escape ? std::make_shared<const SurfaceEscape>(*constants_) : nullptr});
@@ -140,7 +155,13 @@ double Degassing::start(const decomp::Comm& comm, Particles& p, GlobalState&) {
   const Fastest own = at_start(p);
   std::array<double, 2> largest{own.conductance, own.stiffness};
   comm.max(largest);
-  return scene.time.dt ? *scene.time.dt : limit({largest[0], largest[1]});
+  const double longest = limit({largest[0], largest[1]});
+  if (scene.time.dt && *scene.time.dt > longest)
+    throw InputError(fmt::format(
+        "{}: time.dt: {:.6g} s is above the limit of gas that flows, {:.6g} s; set it to that or less, or "
+        "leave it out",
+        scene.file, *scene.time.dt, longest));
+  return scene.time.dt ? *scene.time.dt : longest;
 }
 
 Degassing::Fastest Degassing::at_start(const Particles& p) const {

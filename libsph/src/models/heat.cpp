@@ -73,15 +73,15 @@ bool has_warm_walls(const Scene& scene) {
 
 void Heat::add_to(Builder& b) const {
   b.add_fields({Field::enthalpy, Field::temperature});
-  add_exchange(b, "conduction", term<Conduction>);
+  add_exchange(b, "conduction", {term<Conduction>});
   const Terms& terms = b.scene().terms;
   if (has_warm_walls(b.scene()) || terms.exchange.viscous_heat) b.add_fields({Field::heat_inflow});
   if (terms.exchange.viscous_heat)
     add_exchange(
         b, "viscous heat",
-        terms.viscous.form == ViscosityForm::symmetric ? term<SymmetricViscousHeat> : term<ViscousHeat>);
+        {terms.viscous.form == ViscosityForm::symmetric ? term<SymmetricViscousHeat> : term<ViscousHeat>});
   if (has_warm_walls(b.scene())) {
-    add_exchange(b, "heat of walls", term<WallConduction>);
+    add_exchange(b, "heat of walls", {term<WallConduction>});
   }
   b.add_update("temperatures", Temperatures{constants_});
 }

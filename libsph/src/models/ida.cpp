@@ -48,7 +48,8 @@ struct DensitiesAndStresses {
       for (std::size_t a = 0; a < d; ++a)
         for (std::size_t b = a; b < d; ++b) {
           const std::size_t k = a == b ? a : d + a + b - 1;
-          s[k] = g.viscosity * (grad[a * d + b] + grad[b * d + a]) + (a == b ? g.bulk_viscosity * div : 0.0);
+          s[k] =
+              g.viscosity * (grad[a * d + b] + grad[b * d + a]) + (a == b ? g.viscosity_law.bulk * div : 0.0);
         }
     }
   }

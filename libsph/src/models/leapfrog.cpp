@@ -96,24 +96,6 @@ struct Pressures {
   }
 };
 
-// Fragmentation (paper, 4.3): a bubbly particle whose gas fraction exceeds psi_f joins the spray, for good.
-// Mass, momentum and gas stay with the particle; only its constitutive constants change.
-struct Fragmentation {
-  static constexpr FieldSet reads{Field::void_fraction};
-  static constexpr FieldSet writes{Field::group};
-  const Scene* scene;
-
-  void operator()(const View<reads, writes>& p, const Step& step) const {
-    auto* group = p.get<Field::group>();
-    const double* psi = p.get<Field::void_fraction>();
-    for_movers(step.ranges, [&](std::size_t i) {
-      const Group& g = scene->groups[group[i]];
-      if (g.bubbly.fragments_to >= 0 && psi[i] > *g.bubbly.fragmentation_void_fraction)
-        group[i] = static_cast<std::uint32_t>(g.bubbly.fragments_to);
-    });
-  }
-};
-
 struct Sound {
   static constexpr FieldSet reads{Field::sound_speed};
   static constexpr FieldSet writes{};
@@ -157,8 +139,6 @@ void add_kick(Builder& b) {
 }
 
 void add_pressures(Builder& b) { b.add_kick("pressures", Pressures{&b.materials()}); }
-
-void add_fragmentation(Builder& b) { b.add_kick("fragmentation", Fragmentation{&b.scene()}); }
 
 void add_sound(Builder& b) { b.add_kick("sound", Sound{}); }
 

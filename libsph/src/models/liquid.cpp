@@ -93,7 +93,7 @@ struct ExcessPressures {
     const auto* group = p.get<Field::group>();
     double* pressure = p.get<Field::pressure>();
     for_movers(step.ranges, [&](std::size_t i) {
-      pressure[i] -= scene->groups[group[i]].bulk_viscosity *
+      pressure[i] -= scene->groups[group[i]].viscosity_law.bulk *
                      (divergence != nullptr ? divergence[i] : trace_of(gradient + i * d * d, d));
     });
   }
@@ -106,7 +106,7 @@ bool tension(const Scene& s) { return s.terms.surface_tension.coefficient > 0; }
 }  // namespace
 
 bool bulk_viscous(const Scene& s) {
-  return std::ranges::any_of(s.groups, [](const Group& g) { return g.bulk_viscosity > 0; });
+  return std::ranges::any_of(s.groups, [](const Group& g) { return g.viscosity_law.bulk > 0; });
 }
 
 void add_kinematics(Builder& b) {

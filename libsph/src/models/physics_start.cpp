@@ -23,6 +23,11 @@ double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalStat
     check_time_step(*scene_, steps_, sounds);
     largest[1] = std::ranges::max(sounds);
   }
+  try {
+    steps_.guard_viscosity(largest[2], global);
+  } catch (const GuardError& error) {
+    throw InputError(scene_->file + ": start: " + error.what());
+  }
   global.max_speed = largest[0];
   return steps_.longest({largest[0], 0, 0, largest[1], largest[2]});
 }

@@ -63,14 +63,12 @@ KernelNumbers numbers(const Scene& scene) {
   return numbers<Quintic>(scene.dim, q);
 }
 
-/// Of the interface with tension; fragments stay on the side of what they broke from.
+/// Of the interface with tension; what matter becomes stays on its side.
 double side_of(const Scene& scene, int group) {
-  const auto on = [&](int of) {
-    return group == of ||
-           (of >= 0 && group == scene.groups[static_cast<std::size_t>(of)].bubbly.fragments_to);
-  };
   const std::array<int, 2>& between = scene.terms.surface_tension.between;
-  return on(between[0]) ? 1 : on(between[1]) ? -1 : 0;
+  return can_become(scene.groups, between[0], group)   ? 1
+         : can_become(scene.groups, between[1], group) ? -1
+                                                       : 0;
 }
 
 /// The density that parts lighter fluids from heavier ones: the lower end of the largest gap.
@@ -109,6 +107,7 @@ GroupTable group_table(const Scene& of) {
     groups.modulus.push_back(of.groups[body].eos.bulk_modulus +
                              4.0 / 3.0 * of.groups[body].solid.shear_modulus);
     groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
+    groups.heat.specific_heat.push_back(g.heat.material.specific_heat);
     groups.heat.wall_warmth.push_back(g.kind == GroupKind::wall && g.heat.temperature ? 1.0 : 0.0);
     groups.heat.wall_flux.push_back(g.heat.wall_flux.value_or(0));
     groups.heat.grip.push_back(g.wall.slip ? 0.0 : 1.0);

@@ -34,7 +34,7 @@ double SphTimeStep::longest(const StepMaxima& maxima) const {
     // Where there is a law that of now counts.
     if (maxima.viscosity > 0 && scene.groups[g].viscosity_law.varies()) continue;
     viscous = std::max(viscous, constants_->groups.viscosity[g] / scene.groups[g].density);
-    bulk = std::max(bulk, scene.groups[g].bulk_viscosity / scene.groups[g].density);
+    bulk = std::max(bulk, scene.groups[g].viscosity_law.bulk / scene.groups[g].density);
   }
   const bool bonds = scene.total_lagrangian();
   if (bonds || scene.terms.viscous.form == ViscosityForm::symmetric)
@@ -90,13 +90,15 @@ void SphTimeStep::guard_viscosity(double diffusivity, const GlobalState& global)
   Scene now = scene;
   for (Group& g : now.groups)
     if (g.viscosity_law.varies()) {
-      g.viscosity_law = {};
+      g.viscosity_law.law = ViscosityLaw::constant;
+      g.viscosity_law.crystals = CrystalLaw::none;
+      g.viscosity_law.bubbles = BubbleLaw::none;
       g.viscosity = diffusivity * g.density;
     }
   if (const double limit = damping_limit(now, sounds_at_rest(now), *scene.time.dt).step;
       *scene.time.dt > limit)
     throw GuardError(fmt::format(
-        "step {}: the viscosity has risen to {:.3g} m^2/s times the density, and time.dt is above "
+        "step {}: the viscosity is {:.3g} m^2/s times the density, and time.dt is above "
         "its limit {:.3g} s; set it to that or less, leave it out, or set terms.implicit_viscosity",
         global.step, diffusivity, limit));
 }

@@ -17,9 +17,10 @@ struct Budget {
     if (p.has(Field::heat_inflow)) out.emplace_back("heat_in");
     if (p.has(Field::liquid_mass)) out.emplace_back("gas");
     if (p.has(Field::gas_inflow)) out.emplace_back("gas_in");
+    if (p.has(Field::released_energy)) out.emplace_back("released");
     return out;
   }
-  /// Of one particle that is no wall [kg, J, J, kg, kg].
+  /// Of one particle that is no wall [kg, J, J, kg, kg, J].
   template <class Add>
   static void visit(const Particles& p, std::size_t row, Add&& add) {
     const double mass = p.data<Field::mass>()[row];
@@ -29,6 +30,7 @@ struct Budget {
     if (const double* liquid = p.data<Field::liquid_mass>())
       add(liquid[row] * p.data<Field::gas_content>()[row]);
     if (const double* inflow = p.data<Field::gas_inflow>()) add(inflow[row]);
+    if (const double* energy = p.data<Field::released_energy>()) add(energy[row]);
   }
 };
 

@@ -5,6 +5,15 @@
 
 namespace sph {
 
+bool can_become(const std::vector<Group>& groups, int from, int to) {
+  if (from < 0) return false;
+  std::vector<int> reached{from};
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (const Transition& row : groups[static_cast<std::size_t>(reached[k])].becomes)
+      if (std::ranges::find(reached, row.group) == reached.end()) reached.push_back(row.group);
+  return std::ranges::find(reached, to) != reached.end();
+}
+
 bool Scene::has_matter() const { return has_kind(GroupKind::fluid) || has_kind(GroupKind::solid); }
 
 double Scene::largest_diameter() const {

@@ -119,6 +119,9 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* liquid = particles.data<Field::liquid_mass>())
     liquid[i] = 0;  // of mass and gas content, then too
   if (auto* inflow = particles.data<Field::gas_inflow>()) inflow[i] = 0;
+  if (auto* waiting = particles.data<Field::waiting_for>()) waiting[i] = 0;
+  if (auto* time = particles.data<Field::waiting_time>()) time[i] = 0;
+  if (auto* released = particles.data<Field::released_energy>()) released[i] = 0;
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
   if (auto* radius = particles.data<Field::radius>()) radius[i] = p.radius;

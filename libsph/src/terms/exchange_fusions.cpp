@@ -9,9 +9,13 @@ namespace {
 
 template <class Kernel, int D>
 std::vector<Fusion> exchanges() {
-  return {fusion_of<double, D, Kernel, Conduction>(),  fusion_of<double, D, Kernel, WallConduction>(),
-          fusion_of<double, D, Kernel, GasFlow>(),     fusion_of<double, D, Kernel, WallGas>(),
-          fusion_of<double, D, Kernel, ViscousHeat>(), fusion_of<double, D, Kernel, SymmetricViscousHeat>()};
+  return {fusion_of<double, D, Kernel, Conduction>(),
+          fusion_of<double, D, Kernel, WallConduction>(),
+          fusion_of<double, D, Kernel, GasFlow>(),
+          fusion_of<double, D, Kernel, GasFlow, GasHeat>(),
+          fusion_of<double, D, Kernel, WallGas>(),
+          fusion_of<double, D, Kernel, ViscousHeat>(),
+          fusion_of<double, D, Kernel, SymmetricViscousHeat>()};
 }
 
 }  // namespace

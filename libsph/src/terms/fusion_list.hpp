@@ -88,6 +88,8 @@ struct FusionList {
              fuse<Quintic, GasPressure, Viscosity, ShockViscosity, ShockHeating>(),
              fuse<Quintic, VelocityGradient, DensityDiffusion>(),
              fuse<Quintic, SlippingGradient, DensityDiffusion>(),
+             fuse<Quintic, VelocityGradient, DensityDiffusion, Concentration>(),
+             fuse<Quintic, SlippingGradient, DensityDiffusion, Concentration>(),
              fuse<Quintic, IdaGradient>(),
              fuse<Quintic, IdaStress>(),
              fuse<Quintic, IdaStress, ArtificialViscosity>(),

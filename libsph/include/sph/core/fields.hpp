@@ -85,6 +85,10 @@ enum class Field : std::uint8_t {
   viscosity,
   wall_viscosity,
   viscous_heat,
+  gas_heat,
+  waiting_for,
+  waiting_time,
+  released_energy,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -256,7 +260,7 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::wall_heat, "wall_heat", "W", Type::f64, Shape::scalar, false, false, "... and from walls",
      SumScale::force},
     {Field::heat_inflow, "heat_inflow", "J", Type::f64, Shape::scalar, true, false,
-     "heat that a particle has had from walls and of friction since the start"},
+     "heat that a particle has had from walls, of friction and with gas from outside since the start"},
     {Field::liquid_mass, "liquid_mass", "kg", Type::f64, Shape::scalar, true, false,
      "of bubbly magma whose gas flows: mass without volatiles, which stays"},
     {Field::gas_mobility, "gas_mobility", "s/m^2", Type::f64, Shape::scalar, false, false,
@@ -276,6 +280,13 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      SumScale::one},
     {Field::viscous_heat, "viscous_heat", "W", Type::f64, Shape::scalar, false, false,
      "heat of viscous friction", SumScale::force},
+    {Field::gas_heat, "gas_heat", "W", Type::f64, Shape::scalar, false, false,
+     "heat that flowing gas brings to a particle from others", SumScale::force},
+    {Field::waiting_for, "waiting_for", "1", Type::u32, Shape::scalar, true, false,
+     "row of its group's table of transitions that holds, from 1; 0: none"},
+    {Field::waiting_time, "waiting_time", "s", Type::f64, Shape::scalar, true, false, "for how long it has"},
+    {Field::released_energy, "released_energy", "J", Type::f64, Shape::scalar, true, false,
+     "elastic energy that a particle lost by transitions since the start"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

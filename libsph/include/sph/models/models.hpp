@@ -42,15 +42,13 @@ void add_bonds(Builder& builder);
 void add_kick(Builder& builder);
 /// Pressures of the state alone, where forces had others.
 void add_pressures(Builder& builder);
-/// Bubbly particles with too much gas become spray.
-void add_fragmentation(Builder& builder);
 /// Terms that are switched on by a number (added_term.hpp): forces, and what moves particles after the kick.
 void add_accelerations(Builder& builder);
 void add_drifts(Builder& builder);
 /// The largest speed of sound where it grows with the pressure.
 void add_sound(Builder& builder);
-/// A sum of what budgets count, in double precision whatever that of the scene.
-void add_exchange(Builder& builder, std::string name, Term term);
+/// Sums of what budgets count, in double precision whatever that of the scene.
+void add_exchange(Builder& builder, std::string name, const std::vector<Term>& terms);
 /// Running averages for output.
 void add_averages(Builder& builder);
 

@@ -247,6 +247,8 @@ struct HeatColumns {
       row.put(Value::wall_warmth, 0, groups.heat.wall_warmth[row.group]);
     if constexpr (S.has(Value::wall_heat_flux))
       row.put(Value::wall_heat_flux, 0, groups.heat.wall_flux[row.group]);
+    if constexpr (S.has(Value::sensible_heat))
+      row.put(Value::sensible_heat, 0, groups.heat.specific_heat[row.group] * temperature[row.i]);
     if constexpr (S.has(Value::grip)) row.put(Value::grip, 0, groups.heat.grip[row.group]);
   }
 };

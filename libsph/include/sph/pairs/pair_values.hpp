@@ -67,6 +67,7 @@ enum class Value : std::uint8_t {
   gas_density,         ///< 0 of walls [kg/m^3]
   wall_open,           ///< 1 for walls that let gas pass, else 0
   wall_heat_flux,      ///< of walls, into what is beside them [W/m^2]
+  sensible_heat,       ///< c_p T [J/kg]
   grip,                ///< 0 of walls that slip, else 1
   count_
 };
@@ -131,6 +132,7 @@ class ValueSet {
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   if (values.has(Value::shears)) f |= FieldSet{Field::group};
   if (values.has(Value::temperature)) f |= FieldSet{Field::temperature};
+  if (values.has(Value::sensible_heat)) f |= FieldSet{Field::group, Field::temperature};
   if (values.has(Value::conductivity) || values.has(Value::wall_warmth) ||
       values.has(Value::wall_heat_flux) || values.has(Value::grip))
     f |= FieldSet{Field::group};
@@ -161,7 +163,8 @@ struct GroupTable {
     double surface_pressure = 0;       ///< [Pa]
   };
   struct Heat {
-    std::vector<double> conductivity, wall_warmth, wall_flux, grip;  ///< as the values have them
+    std::vector<double> conductivity, specific_heat, wall_warmth, wall_flux,
+        grip;  ///< as the values have them
   };
   GasFlow gas_flow;
   Heat heat;

@@ -20,15 +20,13 @@ struct Permeability {
   friend bool operator==(const Permeability&, const Permeability&) = default;
 };
 
-/// Of a group with eos = "bubbly": Ida eqs. (12) to (15), and when it breaks.
+/// Of a group with eos = "bubbly": Ida eqs. (12) to (15).
 struct BubblyMaterial {
-  double gas_content = 0;                             ///< m, Ida eq. (14) [1]
-  double gas_rt = 0;                                  ///< R T, Ida eq. (13) [m^2/s^2]
-  double solubility_pressure = 0;                     ///< p_s [Pa]
-  double solubility_exponent = 1;                     ///< gamma [1]
-  std::optional<double> fragmentation_void_fraction;  ///< psi_f: above it a particle joins fragments_to
-  int fragments_to = -1;                              ///< index of the spray group, -1 if none
-  Permeability permeability;                          ///< of its gas
+  double gas_content = 0;          ///< m, Ida eq. (14) [1]
+  double gas_rt = 0;               ///< R T, Ida eq. (13) [m^2/s^2]
+  double solubility_pressure = 0;  ///< p_s [Pa]
+  double solubility_exponent = 1;  ///< gamma [1]
+  Permeability permeability;       ///< of its gas
   friend bool operator==(const BubblyMaterial&, const BubblyMaterial&) = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sph/scene/fluid_scene.hpp"
 #include "sph/scene/gas_scene.hpp"
@@ -10,6 +11,7 @@
 #include "sph/scene/heat_scene.hpp"
 #include "sph/scene/melt_scene.hpp"
 #include "sph/scene/solid_scene.hpp"
+#include "sph/scene/transition_scene.hpp"
 #include "sph/scene/viscosity_scene.hpp"
 
 namespace sph {
@@ -43,11 +45,11 @@ struct WallMaterial {
 struct Group {
   std::string name;
   GroupKind kind = GroupKind::fluid;
-  double density = 0;         ///< rho_0 at zero pressure [kg/m^3]
-  Compressibility eos;        ///< all but grains
-  double viscosity = 0;       ///< eta [Pa s]
-  double bulk_viscosity = 0;  ///< zeta, Ida eq. (9) [Pa s]
+  double density = 0;    ///< rho_0 at zero pressure [kg/m^3]
+  Compressibility eos;   ///< all but grains
+  double viscosity = 0;  ///< eta [Pa s]
   ViscosityModel viscosity_law;
+  std::vector<Transition> becomes;  ///< in their order: the first that holds
   BubblyMaterial bubbly;
   SolidMaterial solid;
   WallMaterial wall;
@@ -56,6 +58,9 @@ struct Group {
       grain;  ///< besides it grains have name, density and wall.velocity; melts name, density, viscosity
   friend bool operator==(const Group&, const Group&) = default;
 };
+
+/// `to` is the group `from`, an index or -1, or what that turns into by and by.
+[[nodiscard]] bool can_become(const std::vector<Group>& groups, int from, int to);
 
 /// Moves as a fluid or a solid, not as grains.
 [[nodiscard]] inline bool is_matter(const Group& g) {

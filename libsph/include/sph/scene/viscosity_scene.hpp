@@ -15,11 +15,17 @@ enum class CrystalLaw { none, einstein_roscoe };
 /// (Llewellin & Manga 2005).
 enum class BubbleLaw { none, round, stretched };
 
+struct VogelConstants {
+  double a = 0, b = 0, c = 0;  ///< A [1], B [K], C [K]
+  friend bool operator==(const VogelConstants&, const VogelConstants&) = default;
+};
+
 struct ViscosityModel {
+  double bulk = 0;  ///< zeta, Ida eq. (9): of all fluids and solids [Pa s]
   ViscosityLaw law = ViscosityLaw::constant;
-  double fall = 0;                    ///< b [1/K]
-  double reference_temperature = 0;   ///< T_0 [K]
-  double a = 0, b = 0, c = 0;         ///< A [1], B [K], C [K]
+  double fall = 0;                   ///< b [1/K]
+  double reference_temperature = 0;  ///< T_0 [K]
+  VogelConstants vogel;
   std::optional<double> temperature;  ///< of a scene without heat [K]
   CrystalLaw crystals = CrystalLaw::none;
   double maximum_packing = 0.6;  ///< phi_m

@@ -1,0 +1,39 @@
+// Fixed time steps that are too long for what a start has: refused before the first step, as all bad input is.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sph/step/simulation.hpp"
+
+namespace {
+
+std::string refusal(const std::string& magma, const std::string& dt) {
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  const std::string scene =
+      "[domain]\nlower = [0, 0]\nupper = [12, 12]\nperiodic = [true, true]\nsurface_pressure = "
+      "1e6\n[kernel]\n"
+      "h_over_dx = 1.0\n[[group]]\nname = \"magma\"\nkind = \"fluid\"\neos = \"bubbly\"\ndensity = 2500\n"
+      "sound_speed = 100\ngas_content = 0.01\ngas_rt = 5e5\nsolubility_pressure = 1e9\n" +
+      magma + "[start]\nspacing = 1\n[[start.region]]\ngroup = \"magma\"\n[time]\nsteps = 1\ndt = " + dt +
+      "\n";
+  try {
+    sph::Simulation(comm, sph::parse_scene(scene, "scene", {}));
+  } catch (const sph::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ExchangeStarts, RefuseSteps) {
+  const std::string flows = "permeability = { coefficient = 1e-8 }\n";
+  EXPECT_EQ(refusal(flows, "1e-5"), "");
+  EXPECT_NE(refusal(flows, "5e-3").find("scene: time.dt: 0.005 s is above the limit of gas that flows"),
+            std::string::npos)
+      << refusal(flows, "5e-3");
+  // All is dissolved where the scene is looked at, little where it starts.
+  const std::string law = "viscosity_law = { law = \"hess_dingwell\", temperature = 1100 }\n";
+  EXPECT_EQ(refusal(law, "1e-9"), "");
+  EXPECT_NE(refusal(law, "1e-4").find("above its limit"), std::string::npos) << refusal(law, "1e-4");
+}
+
+}  // namespace
