@@ -20,6 +20,8 @@ void read_permeability(const GroupReader& table, Group& group) {
   if (inner.choice<PermeabilityLaw>("law") == PermeabilityLaw::percolation)
     group.bubbly.permeability.exponent = 2;
   inner.read(group.bubbly.permeability);
+  if (group.bubbly.permeability.law == PermeabilityLaw::kozeny_carman && !inner.has("exponent"))
+    group.bubbly.permeability.exponent = 0;  // not written
   inner.only_if(group.bubbly.permeability.law != PermeabilityLaw::kozeny_carman, "exponent",
                 "law = \"kozeny_carman\" has none");
   inner.finish();

@@ -34,12 +34,14 @@ double elastic_energy(const Group& g, const double* s, std::size_t d) {
 
 struct Transitions {
   static constexpr FieldSet reads =
-      FaultView::reads | FieldSet{Field::pressure, Field::gas_content, Field::enthalpy, Field::mass};
-  static constexpr FieldSet writes{Field::group,         Field::density,      Field::stress,
-                                   Field::void_fraction, Field::temperature,  Field::liquid_mass,
-                                   Field::waiting_for,   Field::waiting_time, Field::released_energy};
+      FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::mass};
+  static constexpr FieldSet writes =
+      Materials::writes | FieldSet{Field::group,        Field::density,        Field::stress,
+                                   Field::temperature,  Field::liquid_mass,    Field::waiting_for,
+                                   Field::waiting_time, Field::released_energy};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
+  const Materials* materials;
 
   void operator()(const Rows& p, const Step& step) const {
     const double *psi = p.get<Field::void_fraction>(), *t = p.get<Field::temperature>();
@@ -78,7 +80,8 @@ struct Transitions {
     if (!same_state(old, now)) rho = density(p, i, now, step);
     group[i] = to;
     const bool bubbly = now.eos.law->kind == EosKind::bubbly;
-    if (double* psi = p.get<Field::void_fraction>(); psi != nullptr && !bubbly) psi[i] = 0;
+    if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
+    materials->derive(p, i, i + 1);  // as after a restart
     if (double* liquid = p.get<Field::liquid_mass>(); liquid != nullptr && bubbly && !(liquid[i] > 0))
       liquid[i] = mass / (1 + p.get<Field::gas_content>()[i]);
     if (const double* h = p.get<Field::enthalpy>())
@@ -123,7 +126,7 @@ void add_transitions(Builder& b) {
   });
   if (waits) b.add_fields({Field::waiting_for, Field::waiting_time});
   if (has_released_energy(b.scene())) b.add_fields({Field::released_energy});
-  b.add_kick("transitions", Transitions{&b.constants()});
+  b.add_kick("transitions", Transitions{&b.constants(), &b.materials()});
 }
 
 }  // namespace sph
