@@ -23,6 +23,7 @@ cmake --build build -j "$jobs"
 sh apps/buoyant_cylinder/gallery.sh build/bin "$runs"
 sh apps/sandbox/gallery.sh build/bin "$runs"
 sh apps/magma_chamber/gallery.sh build/bin "$runs"
+sh apps/volcano/gallery.sh build/bin "$runs"
 /usr/bin/python3 -B benchmarks/accuracy/accuracy.py build --cases rising_bubble rising_bubble_2 --formulations default \
   --work "$runs/accuracy" --out "$runs/accuracy"
 /usr/bin/python3 -B benchmarks/accuracy/bubbles.py "$runs/accuracy"

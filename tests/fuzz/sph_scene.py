@@ -311,6 +311,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             if d.chance("layers", 0.4):
                 movers = self.movers[: d.whole("number of layers", 1, 3)]
                 out["layer"] = [{"group": m, "top": top - k * 2 * self.dx} for k, m in enumerate(movers)]
+                if d.chance("plug", 0.2):
+                    out["layer"][0]["pressure"] = self.rho * self.c**2 * d.log("plug held", 1e-4, 0.02)
             else:
                 out["surface_height"] = top
         elif out.get("velocity") == "taylor_green" and self.family != "total" and d.chance("its pressure", 0.5):

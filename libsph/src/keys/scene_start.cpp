@@ -153,6 +153,9 @@ std::vector<Layer> read_layers(const StartReader& table, const Scene& scene) {
     if (!layers.empty() && layer.top >= layers.back().top)
       t.fail("top", fmt::format("is {}, not below that of the layer before", layer.top),
              "give the layers from the surface downwards");
+    if (!layers.empty() && layer.pressure > 0)
+      t.fail("pressure", fmt::format("is {} Pa under another layer", layer.pressure),
+             "it is of the first one: below, the pressure is that of what lies above");
     t.finish();
     layers.push_back(layer);
   }

@@ -22,8 +22,11 @@ inline constexpr Table<Region> region{
 
 inline constexpr auto layer_keys = std::to_array<Key>({
     {"group", NameOf{"group"}, "What lies there.", index_at<&Layer::group>, required},
-    {"top", Number{dimension::length},
-     "Height of its top against gravity, of the first that of zero pressure.", at<&Layer::top>, required},
+    {"top", Number{dimension::length}, "Height of its top against gravity, of the first that of the surface.",
+     at<&Layer::top>, required},
+    {"pressure", Number{dimension::pressure, not_negative},
+     "Of the first layer at its top, above domain.surface_pressure: what a plug held that has just gone.",
+     at<&Layer::pressure>},
 });
 inline constexpr Table<Layer> layer{
     {"start.layer", true, "Hydrostatic pressure: fluids on top of each other, from the surface downwards.",

@@ -15,6 +15,7 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
     : Model(set),
       scene_(&scene),
       gas_(has_eos(scene, EosKind::ideal_gas)),
+      bubbly_(has_eos(scene, EosKind::bubbly)),
       constants_(scene, scale),
       materials_(constants_),
       body_forces_(constants_),

@@ -16,7 +16,7 @@ namespace sph {
 double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
   check_start_densities(comm, *scene_, particles);
   const StepMaxima own = maxima_at_start(particles);
-  std::array<double, 3> largest{own.speed, own.sound, own.viscosity};
+  std::array<double, 4> largest{own.speed, own.sound, own.viscosity, own.bulk};
   comm.max(largest);
   if (stiffens_) {
     const std::vector<double> sounds = fastest_sounds(comm, *scene_, particles);
@@ -24,12 +24,12 @@ double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalStat
     largest[1] = std::ranges::max(sounds);
   }
   try {
-    steps_.guard_viscosity(largest[2], global);
+    steps_.guard_viscosity(largest[2], largest[3], global);
   } catch (const GuardError& error) {
     throw InputError(scene_->file + ": start: " + error.what());
   }
   global.max_speed = largest[0];
-  return steps_.longest({largest[0], 0, 0, largest[1], largest[2]});
+  return steps_.longest({largest[0], 0, 0, largest[1], largest[2], largest[3]});
 }
 
 StepMaxima Physics::maxima_at_start(Particles& p) const {
@@ -47,6 +47,7 @@ StepMaxima Physics::maxima_at_start(Particles& p) const {
     materials_.derive(ViewOf<Materials>(p), 0, p.owned());
     maxima.viscosity = Viscosities(constants_).derive(ViewOf<Viscosities>(p), 0, p.owned());
   }
+  look_at_viscosities(p, maxima);
   maxima.speed = std::sqrt(speed2);
   return maxima;
 }

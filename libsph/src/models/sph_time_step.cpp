@@ -18,21 +18,21 @@ namespace sph {
 SphTimeStep::SphTimeStep(const SphConstants& constants)
     : constants_(&constants),
       gas_(has_eos(*constants.scene, EosKind::ideal_gas)),
-      law_(has_viscosity_law(*constants.scene)) {}
+      follows_(std::ranges::any_of(constants.scene->groups, viscosity_follows)) {}
 
 double SphTimeStep::longest(const StepMaxima& maxima) const {
   const Scene& scene = *constants_->scene;
   if (scene.time.dt) return *scene.time.dt;
   if (!scene.terms.exchange.motion) return std::numeric_limits<double>::infinity();
   const double h = scene.kernel.smoothing_length;
-  double fastest = maxima.sound, viscous = maxima.viscosity, bulk = 0;
+  double fastest = maxima.sound, viscous = maxima.viscosity, bulk = maxima.bulk;
+  const bool law = has_viscosity_law(scene);
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     // Of a gas that of now counts.
     if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_->groups.sound_speed[g]);
     const bool wall = constants_->is_wall(static_cast<std::uint32_t>(g));
-    if (wall && (scene.total_lagrangian() || law_)) continue;
-    // Where there is a law that of now counts.
-    if (maxima.viscosity > 0 && scene.groups[g].viscosity_law.varies()) continue;
+    if (wall && (scene.total_lagrangian() || law)) continue;
+    if ((maxima.viscosity > 0 || maxima.bulk > 0) && viscosity_follows(scene.groups[g])) continue;
     viscous = std::max(viscous, constants_->groups.viscosity[g] / scene.groups[g].density);
     bulk = std::max(bulk, scene.groups[g].viscosity_law.bulk / scene.groups[g].density);
   }
@@ -82,25 +82,25 @@ void SphTimeStep::guard(double sound, const GlobalState& global) const {
                   global.step, courant, limit, 0.9 * limit / courant * *scene.time.dt));
 }
 
-void SphTimeStep::guard_viscosity(double diffusivity, const GlobalState& global) const {
+void SphTimeStep::guard_viscosity(double viscosity, double bulk, const GlobalState& global) const {
   const Scene& scene = *constants_->scene;
   const double h = scene.kernel.smoothing_length, surely = 0.04 * h * h;
-  if (!scene.time.dt || scene.terms.viscous.implicit || !law_ || *scene.time.dt * diffusivity <= surely)
-    return;
+  if (!scene.time.dt || !follows_ || *scene.time.dt * (viscosity + bulk) <= surely) return;
   Scene now = scene;
-  for (Group& g : now.groups)
-    if (g.viscosity_law.varies()) {
-      g.viscosity_law.law = ViscosityLaw::constant;
-      g.viscosity_law.crystals = CrystalLaw::none;
-      g.viscosity_law.bubbles = BubbleLaw::none;
-      g.viscosity = diffusivity * g.density;
-    }
+  for (Group& g : now.groups) {
+    if (!viscosity_follows(g)) continue;
+    g.viscosity_law = ViscosityModel{};
+    g.viscosity_law.bulk = bulk * g.density;
+    g.viscosity = viscosity * g.density;
+  }
   if (const double limit = damping_limit(now, sounds_at_rest(now), *scene.time.dt).step;
       *scene.time.dt > limit)
     throw GuardError(fmt::format(
-        "step {}: the viscosity is {:.3g} m^2/s times the density, and time.dt is above "
-        "its limit {:.3g} s; set it to that or less, leave it out, or set terms.implicit_viscosity",
-        global.step, diffusivity, limit));
+        "step {}: viscosities reach {:.3g} and {:.3g} m^2/s (viscosity and bulk_viscosity over the density), "
+        "and "
+        "time.dt is above their limit {:.3g} s; set it to that or less, or leave it out{}",
+        global.step, viscosity, bulk, limit,
+        scene.terms.viscous.implicit || bulk > viscosity ? "" : ", or set terms.implicit_viscosity"));
 }
 
 }  // namespace sph

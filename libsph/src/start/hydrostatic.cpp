@@ -19,7 +19,7 @@ HydrostaticColumn::HydrostaticColumn(const Scene& scene)
     corner[a] = pull_[a] > 0 ? scene.domain.upper[a] : scene.domain.lower[a];
   const double lowest = height(corner);
   const std::vector<Layer>& layers = scene.start.layers;
-  double pressure = 0;
+  double pressure = layers.empty() ? 0 : layers.front().pressure;
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const Group& fluid = scene.groups[static_cast<std::size_t>(layers[k].group)];
     const double bottom = k + 1 < layers.size() ? layers[k + 1].top : lowest;

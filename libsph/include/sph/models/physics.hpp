@@ -40,9 +40,11 @@ class Physics final : public Model {
 
  private:
   [[nodiscard]] StepMaxima maxima_at_start(Particles& particles) const;
+  void look_at_viscosities(const Particles& particles, StepMaxima& maxima) const;
 
   const Scene* scene_;
   bool gas_;               ///< there is an ideal gas
+  bool bubbly_;            ///< there is a bubbly fluid
   bool stiffens_ = false;  ///< some sound speed grows with the pressure
   SphConstants constants_;
   Materials materials_;
@@ -52,7 +54,7 @@ class Physics final : public Model {
   SphTimeStep steps_;
   std::optional<GasReach> reach_;
   struct Places {
-    Reduction::Maximum sound, viscosity, growth;
+    Reduction::Maximum sound, viscosity, bulk, growth;
   };
   Places in_;  ///< the reduction
 };

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "sph/laws/eos/law.hpp"
 #include "sph/models/sph_constants.hpp"
 
 namespace sph {
@@ -14,6 +15,11 @@ namespace sph {
 }
 /// What is recommended, and the default of time.cfl.
 inline constexpr double courant_recommended = 0.8;
+
+/// The group's eta / rho and zeta / rho are those of its particles, not of the scene.
+[[nodiscard]] inline bool viscosity_follows(const Group& g) {
+  return g.viscosity_law.varies() || g.eos.law->kind == EosKind::bubbly;
+}
 
 class SphTimeStep {
  public:
@@ -27,13 +33,13 @@ class SphTimeStep {
   [[nodiscard]] double courant_number(double dt, const std::vector<double>& sounds) const;
   /// Throws GuardError where a fixed step is too long for the fastest sound.
   void guard(double sound, const GlobalState& global) const;
-  /// ... or for the largest eta / rho, where that is not what it was at the start.
-  void guard_viscosity(double diffusivity, const GlobalState& global) const;
+  /// ... or for the largest eta / rho and zeta / rho, where they are not what they were at the start.
+  void guard_viscosity(double viscosity, double bulk, const GlobalState& global) const;
 
  private:
   const SphConstants* constants_;
-  bool gas_;  ///< there is an ideal gas: its sound of now counts, with its flow
-  bool law_;  ///< some fluid has a law of its viscosity: that of now counts
+  bool gas_;      ///< there is an ideal gas: its sound of now counts, with its flow
+  bool follows_;  ///< viscosity or density of some fluid are not what they were: those of now count
 };
 
 }  // namespace sph

@@ -31,8 +31,10 @@ struct StepMaxima {
   double acceleration = 0;  ///< [m/s^2]
   std::int64_t volume = 0;  ///< of this rank's fluid, see FluidVolume; a sum
   double sound = 0;         ///< of ideal gases; 0: not looked at yet [m/s]
-  double viscosity = 0;     ///< eta / rho of ideal gases [m^2/s]
-  MotionSums motion{};      ///< of this rank's particles that move
+  double viscosity =
+      0;            ///< eta / rho of gases, bubbly fluids and those with a law; 0: not looked at yet [m^2/s]
+  double bulk = 0;  ///< ... and zeta / rho [m^2/s]
+  MotionSums motion{};  ///< of this rank's particles that move
 };
 
 /// What a local update knows besides its fields (view.hpp).

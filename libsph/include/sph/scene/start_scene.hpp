@@ -49,7 +49,8 @@ struct StartVelocity {
 /// One of the still fluids on top of each other under which a hydrostatic pressure builds up.
 struct Layer {
   int group = -1;
-  double top = 0;  ///< height against gravity [m]; of the first that of zero pressure
+  double top = 0;       ///< height against gravity [m]; of the first that of the surface
+  double pressure = 0;  ///< of the first at its top, above that of the surface [Pa]
   friend bool operator==(const Layer&, const Layer&) = default;
 };
 
