@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs the conduit, and its map over viscosity and permeability, and draws the pictures in gallery/: two minutes on two cores.
+# Runs the conduit, and its map over viscosity and permeability, and draws the pictures in gallery/: a minute on two cores.
 # Runs that have already come to their end in RUNS are only drawn.
 #
 #     sh apps/volcano/gallery.sh [PROGRAMS] [RUNS] [RANKS]     default: build/bin out/gallery 2
