@@ -28,7 +28,9 @@ class Transport {
   void advect(const Velocity& u, double dt, Field& volume, std::span<Field* const> carried);
 
   /// The time [s] in which u passes the share `cfl` of a cell: cfl / max sum_a |u_a| / edge_a, of a cell's faster face
-  /// along each axis. With M = 1 and up to cfl = 1/2 there are no new extrema. Infinite at rest. Collective.
+  /// along each axis, and no cell gains or loses more than a tenth of its volume: what is left of a flow at rest is the
+  /// solver's residual, which has a divergence as large as itself. With M = 1 and up to cfl = 1/2 there are no new
+  /// extrema. Infinite at rest. Collective.
   [[nodiscard]] double longest_step(const Velocity& u, double cfl);
 
  private:

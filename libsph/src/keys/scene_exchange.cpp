@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "keys/scene_resolve.hpp"
 #include "sph/laws/eos/law.hpp"
+#include "sph/laws/melt_viscosity.hpp"
 
 namespace sph {
 namespace {
@@ -118,6 +120,8 @@ void read_viscosity_law(const GroupReader& table, Group& group) {
   inner.only_if(!warm && by_state, "temperature",
                 warm ? "the fluid has one that it follows" : "no law asks for it");
   if (!warm && by_state) inner.require("temperature");
+  if ((m.temperature || group.heat.temperature) && !std::isfinite(viscosity_at_start(group)))
+    inner.fail_missing("most", "at the start the melt is below c, a glass, for which the law has no number");
   inner.finish();
 }
 

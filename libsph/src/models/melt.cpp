@@ -84,7 +84,22 @@ Plan Melt::plan() {
 
 bool Melt::report(const StepState& state, Reduction& reduction) {
   reduction[courant_rate_] = scene_->domain.melt.courant / courant_step_;
+  double beyond = 0;
+  if (const double* c = state.particles.data<Field::composition>())
+    for (std::size_t i = 0; i < state.particles.owned(); ++i)
+      beyond = std::max(beyond, std::fabs(c[i] - 0.5) - 0.5);
+  reduction[beyond_] = beyond;
   return std::isfinite(state.global.dt);
+}
+
+// Transport makes no new extrema unless cells are emptied: at rest, in endless steps, by what the solver leaves.
+void Melt::guard_step(const Reduction& reduction, const GlobalState& global) const {
+  constexpr double most = 0.01;
+  if (reduction[beyond_] > most)
+    throw GuardError(
+        fmt::format("{}a cell has {:.3g} more of a melt than all of it, or less than none: what the solver "
+                    "leaves of a flow at rest carries it away; give time.dt, or reduce melt.tolerance",
+                    step_text(global.step), reduction[beyond_]));
 }
 
 double Melt::longest_step(const Reduction& reduction) const {

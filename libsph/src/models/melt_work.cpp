@@ -92,6 +92,13 @@ void MeltWork::take_off_layers(std::size_t axis, stokes::Field& force) const {
                        static_cast<double>(p.grid.cells[axis]);
   std::vector<double> means;
   for (const decomp::ExactSum& s : sums) means.push_back(s.value() / faces);
+  // Along a period the mean of all is no gradient: it drives a flow, where some wall holds that.
+  if (p.grid.periodic(static_cast<int>(axis)) && !p.grid.slides(static_cast<int>(axis))) {
+    decomp::ExactSum all;
+    for (const decomp::ExactSum& s : sums) all.add(s);
+    const double mean = all.value() / (faces * static_cast<double>(p.grid.cells[axis]));
+    for (double& of_layer : means) of_layer -= mean;
+  }
   for_layers([&](std::size_t layer, double& f) { f -= means[layer]; });
 }
 

@@ -77,7 +77,10 @@ struct Transitions {
     const double mass = p.get<Field::mass>()[i];
     double& rho = p.get<Field::density>()[i];
     if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
-    if (!same_state(old, now)) rho = density(p, i, now, step);
+    if (!same_state(old, now)) {
+      const double* porosity = p.get<Field::porosity>();
+      rho = density(p, i, now, step) * (porosity != nullptr ? porosity[i] : 1.0);
+    }
     group[i] = to;
     const bool bubbly = now.eos.law->kind == EosKind::bubbly;
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
@@ -92,7 +95,7 @@ struct Transitions {
                double volume) const {
     const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
     const double before = elastic_energy(old, stress + i * n, d);
-    if (now.kind == GroupKind::fluid) std::fill_n(stress + i * n, n, 0.0);
+    if (old.kind == GroupKind::solid && now.kind == GroupKind::fluid) std::fill_n(stress + i * n, n, 0.0);
     if (double* released = p.get<Field::released_energy>())
       released[i] += (before - elastic_energy(now, stress + i * n, d)) * volume;
   }

@@ -7,6 +7,8 @@
 namespace stokes {
 namespace {
 
+constexpr double most_gain = 0.1;  // of a cell, in a step
+
 constexpr int limiter_reach = 2;
 
 /// Of a line of n faces: c is the cell above the first, `step` leads to the next along the axis, `courant` is signed.
@@ -169,16 +171,20 @@ void Transport::advect(const Velocity& u, double dt, Field& volume, std::span<Fi
 
 double Transport::longest_step(const Velocity& u, double cfl) {
   set_courant(u, 1);
-  double most = 0;
+  std::array<double, 2> most{};  // passed, and gained
   for_own(patch_, [&](std::ptrdiff_t k) {
-    double sum = 0;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a)
-      sum += std::max(std::fabs(courant_[a][k]), std::fabs(courant_[a][k + patch_.stride[a]]));
-    most = std::max(most, sum);
+    double sum = 0, gain = 0;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(patch_.grid.dim); ++a) {
+      const double lower = courant_[a][k], upper = courant_[a][k + patch_.stride[a]];
+      sum += std::max(std::fabs(lower), std::fabs(upper));
+      gain += upper - lower;
+    }
+    most[0] = std::max(most[0], sum);
+    most[1] = std::max(most[1], std::fabs(gain));
   });
-  std::array<double, 1> all{most};
-  comm_->max(all);
-  return all[0] > 0 ? cfl / all[0] : std::numeric_limits<double>::infinity();
+  comm_->max(most);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  return std::min(most[0] > 0 ? cfl / most[0] : infinite, most[1] > 0 ? most_gain / most[1] : infinite);
 }
 
 }  // namespace stokes

@@ -37,10 +37,14 @@ class Melt final : public Model {
   /// Of what a step works with.
   [[nodiscard]] double bytes_of_cell() const;
 
-  void reserve(Reduction& r) override { courant_rate_ = r.add_maximum(); }
+  void reserve(Reduction& r) override {
+    courant_rate_ = r.add_maximum();
+    beyond_ = r.add_maximum();
+  }
   [[nodiscard]] double start(const decomp::Comm&, Particles& cells, GlobalState&) override;
   [[nodiscard]] bool report(const StepState&, Reduction&) override;
   [[nodiscard]] double longest_step(const Reduction&) const override;
+  void guard_step(const Reduction&, const GlobalState&) const override;
 
   /// Columns of series.csv: iterations and residual of the last flow, root of the mean square of U [m/s], means of T
   /// [K] and C, and the mean of what comes in through each side that is not insulated [K m/s].
@@ -64,6 +68,7 @@ class Melt final : public Model {
   double courant_step_ =
       any_step;  ///< in which the flow passes `courant` cells, and heat not much of the domain [s]
   Reduction::Maximum courant_rate_;  ///< courant over it is the longest step [1/s]
+  Reduction::Maximum beyond_;        ///< how far shares of the second melt are below 0 or above 1
 };
 
 }  // namespace sph
