@@ -236,6 +236,40 @@ TEST(Melt, NothingFlowsAndThereIsNoStep) {
   EXPECT_SAYS(guard_text([&] { s.step(); }), "nothing flows, and there is no time.dt: give one");
 }
 
+std::string box(const std::string& domain, const std::string& melt, const std::string& more) {
+  return "[domain]\nlower = [0, 0]\nupper = [1, 1]\n" + domain + "[melt]\ntolerance = 1e-8\n" + melt +
+         "[[group]]\nname = \"m\"\nkind = \"melt\"\ndensity = 1000\nviscosity = 100\n[start]\n"
+         "[[start.region]]\ngroup = \"m\"\n" +
+         more;
+}
+
+// Poiseuille's: f H^2 / (12 eta) in the mean, sqrt(6/5) times that in v_rms; f is the weight of the melt.
+TEST(Melt, AForceAlongAPeriodDrivesAFlow) {
+  Simulation s(world(), parse_scene(box("periodic = [true, false]\ngravity = [1, 0]\n",
+                                        "cells = [32, 32]\nside = [{ side = \"y0\", slip = false }, { side = "
+                                        "\"y1\", slip = false }]\n",
+                                        "[time]\nsteps = 1\ndt = 1e-3\n"),
+                                    "channel", {}));
+  s.step();
+  EXPECT_NEAR(std::sqrt(mean_square_speed(s)), 1000.0 / 1200 * std::sqrt(1.2), 5e-3);
+}
+
+// What the solver leaves of a flow at rest would carry the melts away in steps of 1e12 s.
+TEST(Melt, AtRestNothingIsCarriedAwayWithoutAWord) {
+  const std::string heavy =
+      "[[group]]\nname = \"h\"\nkind = \"melt\"\ndensity = 1100\nviscosity = 100\n[time]\n"
+      "steps = 1000\n";
+  Simulation s(world(), parse_scene(box("gravity = [0, -10]\n",
+                                        "cells = [12, 12]\nwave_height = 0.02\nwave_length = 2\n", heavy),
+                                    "layers",
+                                    {"start.region.0.group=m", "melt.tolerance=1e-4", "melt.mixture=linear",
+                                     "group.m.density=1100", "group.h.density=1000"}));
+  const std::string text = guard_text([&] {
+    for (int k = 0; k < 1000; ++k) s.step();
+  });
+  EXPECT_SAYS(text, "give time.dt, or reduce melt.tolerance");
+}
+
 TEST(Melt, MonitorsSayWhatFlowsAndWhatComesIn) {
   Simulation s(world(), melts("melts2d.toml"));
   const Monitors monitors(s);
