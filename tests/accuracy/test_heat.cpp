@@ -27,6 +27,7 @@ struct Strip {
   std::function<const char*(double)> group;  ///< at x between the walls
   std::function<double(double)> temperature;
   std::string more{};
+  std::vector<std::string> set{};
 };
 
 constexpr int across = 12, layers = 3;
@@ -61,7 +62,7 @@ Simulation strip(const decomp::Comm& comm, const Strip& s) {
                      s.materials + "[start]\nspacing = " + std::to_string(dx) + "\nfile = \"" +
                      made.file.string() + "\"\nfree_surface = false\n[time]\nsteps = 1\n" +
                      "[[monitor]]\nkind = \"budget\"\n" + s.more;
-  return {comm, parse_scene(text, "strip", {})};
+  return {comm, parse_scene(text, "strip", s.set)};
 }
 
 std::string fluid(const std::string& name, const std::string& heat, double density = 1) {
@@ -158,7 +159,7 @@ TEST(Heat, LayersConductWhatTheirMeanSays) {
 
 // Melt at theta above its melting point, frozen by a wall 1 below it: Ste = 2.5, theta = 0.2. The exact front is sharp;
 // that of a material which freezes over a range lies where the middle of that range is.
-void freeze(int cells, double& behind, double& error) {
+void freeze(int cells, const std::vector<std::string>& set, double& behind, double& error) {
   const decomp::Comm comm(MPI_COMM_SELF);
   constexpr double lambda = 0.708645, theta = 0.2, first = 0.0025, last = 0.04, melting = 10;
   const auto exact = [](double x, double t) {
@@ -174,7 +175,8 @@ void freeze(int cells, double& behind, double& error) {
                                 "liquidus = 10.01 }") +
                           wall("left", "temperature = 9") + wall("right", "temperature = 10.2"),
              .group = [](double) { return "melt"; },
-             .temperature = [&](double x) { return exact(x, first); }});
+             .temperature = [&](double x) { return exact(x, first); },
+             .set = set});
   measure::run_until(s, last - first);
   const double t = first + s.global().time, front = 2 * lambda * std::sqrt(t), dx = 1.0 / cells;
   double frozen = 0, sum = 0, n = 0;
@@ -190,12 +192,24 @@ void freeze(int cells, double& behind, double& error) {
 
 TEST(Heat, FreezesAsNeumannHasIt) {
   double behind = 0, error = 0;
-  freeze(40, behind, error);
+  freeze(40, {}, behind, error);
   EXPECT_NEAR(PINNED(behind), 0, 0.2);
   EXPECT_LT(PINNED(error), 0.005);
-  freeze(80, behind, error);
+  freeze(80, {}, behind, error);
   EXPECT_NEAR(measure::pinned("behind, 80", behind), 0, 0.2);
   EXPECT_LT(measure::pinned("error, 80", error), 0.002);
+}
+
+// In steps of 8 (32) times the explicit limit, half (two) of the time in which the front passes a spacing.
+TEST(Heat, FreezesImplicitlyAsNeumannHasIt) {
+  for (const double steps : {8.0, 32.0}) {
+    double behind = 0, error = 0;
+    const std::string dt = std::to_string(steps * 0.25e6 / 80 / 80) + "e-6";
+    freeze(80, {"terms.implicit_conduction=true", "time.dt=" + dt}, behind, error);
+    const std::string name = std::to_string(static_cast<int>(steps)) + " limits";
+    EXPECT_NEAR(measure::pinned(("behind, " + name).c_str(), behind), 0, 0.2);
+    EXPECT_LT(measure::pinned(("error, " + name).c_str(), error), 0.01);
+  }
 }
 
 // A dyke two metres wide at its melting point in cold rock: nine tenths of it are frozen after 0.81 of the time that

@@ -11,16 +11,23 @@ class Exchanges:
         matter = [g for g in groups if g["kind"] in ("fluid", "solid")]
         walls = [g for g in groups if g["kind"] == "wall"]
         warm = d.chance("heat", 0.2)
-        if warm:
-            self.heat(d, matter, walls, fixed)
-        flows = self.gas_flow(d, matter, walls, fixed)
         terms = scene.setdefault("terms", {})
+        at_end = {key: d.chance(key, 0.35) for key in ("implicit_conduction", "implicit_gas_flow")}
+        if warm:
+            self.heat(d, matter, walls, 30.0 if at_end["implicit_conduction"] else 0.02 if fixed else 3.0)
+        flows = self.gas_flow(d, matter, walls, 30.0 if at_end["implicit_gas_flow"] else 0.02 if fixed else 1.0)
+        for key, there in (("implicit_conduction", warm), ("implicit_gas_flow", flows)):
+            if there and (at_end[key] or d.chance(f"say {key}", 0.1)):
+                terms[key] = at_end[key]
+        if (terms.get("implicit_conduction") or terms.get("implicit_gas_flow")) and d.chance("exchange tolerance", 0.5):
+            terms["exchange_tolerance"] = d.log("exchange tolerance value", 1e-9, 1e-3)
         if self.laws(d, matter, warm) and self.kernel != "quintic":
             terms.pop("artificial_viscosity", None)
             terms["viscosity"] = "laplacian"
         if warm and d.chance("friction", 0.3):
             terms["viscous_heat"] = True
-        if (warm or flows) and d.chance("still", 0.2):
+        limited = fixed or flows or not terms.get("implicit_conduction")
+        if (warm or flows) and limited and d.chance("still", 0.2):
             terms["motion"] = False
             terms.pop("viscous_heat", None)
         elif d.chance("say motion", 0.1):
@@ -32,12 +39,12 @@ class Exchanges:
         if (warm or flows) and d.chance("budget", 0.3):
             scene["monitor"] = [{"kind": "budget"}]
 
-    def heat(self, d, matter, walls, fixed):
+    def heat(self, d, matter, walls, fastest):
         alike = d.chance("alike", 0.4)
         capacity, mean = d.one("capacity", [1.0, 1200.0]), d.one("temperature", [1.0, 1000.0])
         for k, g in enumerate(matter):
             g_d = d.part("heat", 0 if alike else k)
-            kappa = self.c * self.h * g_d.one("kappa", [0.0, 1e-3, 0.02, 0.02 if fixed else 3.0])
+            kappa = self.c * self.h * g_d.one("kappa", [0.0, 1e-3, 0.02, fastest])
             heat = {"specific_heat": capacity * g_d.one("its capacity", [1.0, 1.0, 1.5]),
                     "conductivity": kappa * self.rho * capacity}
             if g_d.chance("melts", 0.4):
@@ -62,7 +69,7 @@ class Exchanges:
             elif way == "flux":
                 w["heat_flux"] = 1e-3 * self.rho * capacity * mean * self.c * d.part("wall", k).real("q", -0.1, 1)
 
-    def gas_flow(self, d, matter, walls, fixed):
+    def gas_flow(self, d, matter, walls, fastest):
         flows = False
         for k, g in enumerate(matter):
             if g.get("eos") != "bubbly" or not d.chance(f"flows/{k}", 0.6):
@@ -70,7 +77,7 @@ class Exchanges:
             law = d.part("law", k).one("law", ["power", "percolation", "kozeny_carman"])
             eta = d.part("law", k).one("eta", [2e-5, 1e-3])
             # D = k p / (eta psi) or so.
-            rate = d.part("law", k).log("rate", 1e-4, 0.02 if fixed else 1)
+            rate = d.part("law", k).log("rate", 1e-4, fastest)
             made = {"law": law, "coefficient": rate * self.c * self.h * eta / self.vapour, "gas_viscosity": eta}
             if law != "kozeny_carman" and d.chance(f"exponent/{k}", 0.5):
                 made["exponent"] = d.part("law", k).one("exponent", [1.0, 2.0, 3.4])

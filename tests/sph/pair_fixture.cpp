@@ -216,6 +216,7 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   numbers(Field::viscosity, 1.5, 1.4);
   numbers(Field::gas_mobility, 0.5, 0.4);
   numbers(Field::gas_pressure, 6000, 4000);
+  numbers(Field::trial, 6000, 4000);
 }
 
 // Pairs are taken where they were half a step ago, at most `back` farther apart.

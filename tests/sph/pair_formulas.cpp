@@ -139,9 +139,13 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       return one(Field::viscous_sums, dim_, (dim_ + 2) * drag / fourth_ * r * r / dim_);
     }
     case key("Conduction"):
+    case key("ConductionOperator"):
     case key("WallConduction"):
     case key("GasFlow"):
     case key("GasHeat"):
+    case key("ImplicitGasFlow"):
+    case key("ImplicitGasHeat"):
+    case key("GasOperator"):
     case key("WallGas"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):
@@ -335,22 +339,35 @@ void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const
   for (int a = 0; a < dim_; ++a) head += scene_.domain.gravity[static_cast<std::size_t>(a)] * pair.x(a);
   const double across = -i.slope.dot(pair.x) / h_, steepness = i.slope.norm();
   const double profile = steepness > 0 ? std::max(across, 0.0) : 1.0;
-  if (term.name == "Conduction") {
-    if (j.mover)
-      one(Field::heat_gain, 0,
-          weight * harmonic(i.conductivity, j.conductivity) * (j.temperature - i.temperature));
+  if (term.name == "Conduction" || term.name == "ConductionOperator") {
+    if (!j.mover) return;
+    const double rate = weight * harmonic(i.conductivity, j.conductivity);
+    if (term.name == "Conduction") return one(Field::heat_gain, 0, rate * (j.temperature - i.temperature));
+    one(Field::exchange_sums, 0, rate * (j.trial - i.trial));
+    one(Field::exchange_sums, 1, rate);
   } else if (term.name == "WallConduction") {
     if (j.mover) return;
-    if (j.warm) one(Field::wall_heat, 0, weight * i.conductivity * profile * (j.temperature - i.temperature));
+    if (j.warm) {
+      one(Field::wall_heat, 0, weight * i.conductivity * profile * (j.temperature - i.temperature));
+      one(Field::wall_heat, 1, weight * i.conductivity * profile);
+    }
     const double way = steepness > 0 ? across / steepness * h_ : pair.r;
     one(Field::wall_heat, 0, -2 * j.wall_flux * i.volume * j.volume * pair.slope / pair.r * way);
-  } else if (term.name == "GasFlow" || term.name == "GasHeat") {
+  } else if (term.name.ends_with("GasFlow") || term.name.ends_with("GasHeat") || term.name == "GasOperator") {
     if (!j.mover) return;
-    const double drive = j.gas_pressure - i.gas_pressure - 0.5 * (i.gas_density + j.gas_density) * head;
-    const double up = drive > 0 ? j.gas_mobility : i.gas_mobility;
-    const double flow = weight * harmonic(i.permeability, j.permeability) *
-                        std::min(0.5 * (i.gas_mobility + j.gas_mobility), 2 * up) * drive;
-    if (term.name == "GasHeat") return one(Field::gas_heat, 0, flow * (drive > 0 ? j : i).sensible_heat);
+    const double lift = 0.5 * (i.gas_density + j.gas_density) * head;
+    const double before = j.gas_pressure - i.gas_pressure - lift;
+    const double up = before > 0 ? j.gas_mobility : i.gas_mobility;
+    const double rate = weight * harmonic(i.permeability, j.permeability) *
+                        std::min(0.5 * (i.gas_mobility + j.gas_mobility), 2 * up);
+    if (term.name == "GasOperator") {
+      one(Field::exchange_sums, 0, rate * (j.trial - i.trial));
+      return one(Field::exchange_sums, 1, rate);
+    }
+    const double drive = term.name.starts_with("Implicit") ? j.trial - i.trial - lift : before;
+    const double flow = rate * drive;
+    if (term.name.ends_with("GasHeat"))
+      return one(Field::gas_heat, 0, flow * (drive > 0 ? j : i).sensible_heat);
     one(Field::gas_gain, 0, flow);
     for (int a = 0; a < dim_; ++a) one(Field::gas_gain, 1 + a, 0.5 * flow * (j.v(a) - i.v(a)));
   } else if (term.name == "ViscousHeat" || term.name == "SymmetricViscousHeat") {
@@ -364,6 +381,7 @@ void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const
   } else if (j.open) {
     const double drive = j.gas_pressure - i.gas_pressure - i.gas_density * head;
     one(Field::wall_gas, 0, weight * i.permeability * i.gas_mobility * profile * drive);
+    one(Field::wall_gas, 1, weight * i.permeability * i.gas_mobility * profile);
   }
 }
 

@@ -83,6 +83,7 @@ void PairOracle::load() {
     for (std::size_t k = 0; k < 2; ++k) q.wall_pressures[k] = get(Field::wall_pressures, row, k);
     q.viscosity = p.has(Field::viscosity) ? get(Field::viscosity, row, 0) : g.viscosity;
     q.temperature = get(Field::temperature, row, 0);
+    q.trial = get(Field::trial, row, 0);
     q.conductivity = g.heat.material.conductivity;
     q.sensible_heat = g.heat.material.specific_heat * q.temperature;
     q.wall_flux = g.heat.wall_flux.value_or(0);
@@ -181,9 +182,13 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("SymmetricViscousOperator"):
     case key("WallShare"):
     case key("Conduction"):
+    case key("ConductionOperator"):
     case key("WallConduction"):
     case key("GasFlow"):
     case key("GasHeat"):
+    case key("ImplicitGasFlow"):
+    case key("ImplicitGasHeat"):
+    case key("GasOperator"):
     case key("WallGas"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):

@@ -29,7 +29,7 @@ struct PairParticle {
   Mat stress, bond_stress, gradient;  ///< stress: the total one
   double mass, density, pressure, volume, sound, energy, width, correction, curvature, viscosity;
   double rest_volume, modulus;
-  double temperature, conductivity, sensible_heat, wall_flux;
+  double temperature, trial, conductivity, sensible_heat, wall_flux;
   double permeability, gas_mobility, gas_pressure, gas_density;
   std::array<double, 2> wall_pressures;
   bool mover, shears, heavy, owned, warm, open, slips;

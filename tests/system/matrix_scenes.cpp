@@ -14,6 +14,30 @@ struct Source {
   std::vector<std::string> overrides;
 };
 
+std::vector<std::string> both(std::vector<std::string> some, const std::vector<std::string>& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
+
+/// The bubbly cylinder in a wider box, softer, thrown and disordered.
+const std::vector<std::string> thrown{"domain.lower=[-12, -4]",
+                                      "domain.upper=[60, 76]",
+                                      "group.melt.bulk_modulus=",
+                                      "group.melt.sound_speed=160",
+                                      "group.cylinder.bulk_modulus=5e7",
+                                      "group.spray.bulk_modulus=5e7",
+                                      "time.dt=",
+                                      "time.cfl=0.6",
+                                      "start.jitter=0.1",
+                                      "start.velocity=[2, 2]",
+                                      "start.region.3.centre=[22, 32]",
+                                      "group.cylinder.becomes.0.void_fraction_above=0.35"};
+/// ... with heat.
+const std::vector<std::string> warm = both(
+    thrown, {"group.melt.temperature=1200", "group.cylinder.heat={specific_heat=1000, conductivity=1e6}",
+             "group.spray.heat={specific_heat=1000, conductivity=1e6}", "group.cylinder.temperature=1500",
+             "group.spray.temperature=1500", "group.wall.temperature=900"});
+
 const std::vector<Source>& sources() {
   static const std::vector<Source> table{
       // XSPH moves particles once more, after the kick
@@ -28,12 +52,7 @@ const std::vector<Source>& sources() {
        {"domain.lower=[-12, -4]", "domain.upper=[60, 76]",
         "group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7",
         "time.dt=2e-3", "start.jitter=0.1", "start.velocity=[3, -1]"}},
-      {"gas2d",
-       "apps/buoyant_cylinder/gas.toml",
-       {"domain.lower=[-12, -4]", "domain.upper=[60, 76]", "group.melt.bulk_modulus=",
-        "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7", "group.spray.bulk_modulus=5e7",
-        "time.dt=", "time.cfl=0.6", "start.jitter=0.1", "start.velocity=[2, 2]",
-        "start.region.3.centre=[22, 32]", "group.cylinder.becomes.0.void_fraction_above=0.35"}},
+      {"gas2d", "apps/buoyant_cylinder/gas.toml", thrown},
       {"ida2d",
        "apps/buoyant_cylinder/fluid.toml",
        {"formulation=ida", "group.melt.bulk_modulus=", "group.melt.sound_speed=160",
@@ -74,61 +93,28 @@ const std::vector<Source>& sources() {
        {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3"}},
       {"gas3d", "tests/scenes/box3d_gas.toml", {"group.magma.becomes.0.void_fraction_above=0.09"}},
       // heat that melts and freezes, gas that flows and escapes: exchanges in double precision on lists of either
-      {"exchange2d",
-       "apps/buoyant_cylinder/gas.toml",
-       {"domain.lower=[-12, -4]",
-        "domain.upper=[60, 76]",
-        "group.melt.bulk_modulus=",
-        "group.melt.sound_speed=160",
-        "group.cylinder.bulk_modulus=5e7",
-        "group.spray.bulk_modulus=5e7",
-        "time.dt=",
-        "time.cfl=0.6",
-        "start.jitter=0.1",
-        "start.velocity=[2, 2]",
-        "start.region.3.centre=[22, 32]",
-        "group.cylinder.becomes.0.void_fraction_above=0.35",
-        "group.melt.heat={specific_heat=1200, conductivity=5e6, latent_heat=3e5, solidus=1100, "
-        "liquidus=1250}",
-        "group.melt.temperature=1200",
-        "group.cylinder.heat={specific_heat=1000, conductivity=1e6}",
-        "group.spray.heat={specific_heat=1000, conductivity=1e6}",
-        "group.cylinder.temperature=1500",
-        "group.spray.temperature=1500",
-        "group.wall.temperature=900",
-        "group.wall.gas_pressure=2e4",
-        "group.cylinder.permeability={coefficient=1e-9}",
-        "group.spray.permeability={coefficient=1e-8}"}},
+      {"exchange2d", "apps/buoyant_cylinder/gas.toml",
+       both(warm, {"group.melt.heat={specific_heat=1200, conductivity=5e6, latent_heat=3e5, solidus=1100, "
+                   "liquidus=1250}",
+                   "group.wall.gas_pressure=2e4", "group.cylinder.permeability={coefficient=1e-9}",
+                   "group.spray.permeability={coefficient=1e-8}"})},
+      // the same by temperatures and pressures of the end of the step, far beyond the explicit limits
+      {"implicit2d", "apps/buoyant_cylinder/gas.toml",
+       both(warm, {"group.melt.heat={specific_heat=1200, conductivity=5e9, latent_heat=3e5, solidus=1100, "
+                   "liquidus=1250}",
+                   "group.wall.gas_pressure=2e4", "group.cylinder.permeability={coefficient=1e-7}",
+                   "group.spray.permeability={coefficient=1e-6}", "terms.implicit_conduction=true",
+                   "terms.implicit_gas_flow=true"})},
       // viscosities that follow the state, explicit beside walls, friction that heats, what is warm rises
-      {"laws2d",
-       "apps/buoyant_cylinder/gas.toml",
-       {"domain.lower=[-12, -4]",
-        "domain.upper=[60, 76]",
-        "group.melt.bulk_modulus=",
-        "group.melt.sound_speed=160",
-        "group.cylinder.bulk_modulus=5e7",
-        "group.spray.bulk_modulus=5e7",
-        "time.dt=",
-        "time.cfl=0.6",
-        "start.jitter=0.1",
-        "start.velocity=[2, 2]",
-        "start.region.3.centre=[22, 32]",
-        "group.cylinder.becomes.0.void_fraction_above=0.35",
-        "group.melt.heat={specific_heat=1200, conductivity=5e6, latent_heat=3e5, solidus=1100, "
-        "liquidus=1250, "
-        "expansion=1e-3}",
-        "group.melt.temperature=1200",
-        "group.cylinder.heat={specific_heat=1000, conductivity=1e6}",
-        "group.spray.heat={specific_heat=1000, conductivity=1e6}",
-        "group.cylinder.temperature=1500",
-        "group.spray.temperature=1500",
-        "group.wall.temperature=900",
-        "group.melt.viscosity_law={law=\"exponential\", fall=0.01, reference_temperature=1200, "
-        "crystals=\"einstein_roscoe\", most=2e4}",
-        "group.cylinder.viscosity=",
-        "group.cylinder.viscosity_law={law=\"hess_dingwell\", least=10, most=2e4}",
-        "group.spray.viscosity_law={law=\"constant\", bubbles=\"stretched\"}",
-        "terms.viscous_heat=true"}},
+      {"laws2d", "apps/buoyant_cylinder/gas.toml",
+       both(warm, {"group.melt.heat={specific_heat=1200, conductivity=5e6, latent_heat=3e5, solidus=1100, "
+                   "liquidus=1250, expansion=1e-3}",
+                   "group.melt.viscosity_law={law=\"exponential\", fall=0.01, reference_temperature=1200, "
+                   "crystals=\"einstein_roscoe\", most=2e4}",
+                   "group.cylinder.viscosity=",
+                   "group.cylinder.viscosity_law={law=\"hess_dingwell\", least=10, most=2e4}",
+                   "group.spray.viscosity_law={law=\"constant\", bubbles=\"stretched\"}",
+                   "terms.viscous_heat=true"})},
       // melt that freezes and rock that melts, magma that fragments and heals, after a while
       {"freezing2d", "tests/scenes/freezing2d.toml", {"time.steps=1"}},
       {"laws3d",
@@ -141,6 +127,12 @@ const std::vector<Source>& sources() {
        {"group.magma.becomes.0.void_fraction_above=0.09",
         "group.magma.permeability={law=\"percolation\", coefficient=1e-8, threshold=0.01}",
         "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-8}", "group.wall.gas_pressure=0"}},
+      {"implicit3d",
+       "tests/scenes/box3d_gas.toml",
+       {"group.magma.becomes.0.void_fraction_above=0.09",
+        "group.magma.permeability={law=\"percolation\", coefficient=1e-6, threshold=0.01}",
+        "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-6}", "group.wall.gas_pressure=0",
+        "terms.implicit_gas_flow=true"}},
       // ideal gases: energy is state, and the time step follows the hottest particle
       {"blast2d", "tests/scenes/blast2d.toml", {}},
       // kernels of all widths: lists go by the wider of a pair

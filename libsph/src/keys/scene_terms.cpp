@@ -85,6 +85,10 @@ void check_terms(const TermsReader& table, const Scene& scene) {
     table.fail("viscous_heat", "is on", "without group.heat it would warm nothing");
   if (terms.exchange.viscous_heat && !terms.exchange.motion)
     table.fail("viscous_heat", "is on", "with motion = false nothing rubs");
+  if (terms.exchange.implicit_conduction && !scene.has_heat())
+    table.fail("implicit_conduction", "is on", "without group.heat nothing conducts");
+  if (terms.exchange.implicit_gas_flow && !scene.has_gas_flow())
+    table.fail("implicit_gas_flow", "is on", "without group.permeability no gas flows");
   if (ida && std::ranges::any_of(scene.groups, [](const Group& g) { return g.viscosity_law.varies(); }))
     table.fail("motion", "is of a scene with a viscosity law", "formulation = \"ida\" has none: remove it");
   for (const Group& g : scene.groups)
@@ -102,11 +106,19 @@ void read_terms(const TermsReader& table, Scene& scene) {
   set_usual_terms(scene);
   table.read(scene.terms);
   table.only_if(scene.terms.viscous.implicit, "viscosity_tolerance", "set implicit_viscosity = true too");
+  table.only_if(scene.terms.exchange.implicit_conduction || scene.terms.exchange.implicit_gas_flow,
+                "exchange_tolerance", "set implicit_conduction or implicit_gas_flow = true too");
   check_terms(table, scene);
   if (table.has("surface_tension"))
     scene.terms.surface_tension = read_surface_tension(table.table<keys::surface_tension>(), scene.groups);
   read_added_terms(table, scene.terms);
   table.finish();
+}
+
+void check_implicit_conduction(const TermsReader& terms, const Scene& scene) {
+  const ExchangeTerms& exchange = scene.terms.exchange;
+  if (exchange.implicit_conduction && !exchange.motion && !scene.has_gas_flow() && !scene.time.dt)
+    terms.fail("implicit_conduction", "is on, and nothing else limits the time step", "give time.dt");
 }
 
 // Rounding of the operator in single precision shows in the momentum: 1e-4 of it at 1e6, 1e-3 at 1e7. Fluid

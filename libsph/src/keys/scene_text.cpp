@@ -41,7 +41,9 @@ void write_start(SceneWriter& out, const Scene& scene) {
 }
 
 void write_terms(SceneWriter& out, Terms terms) {
+  const ExchangeTerms& exchange = terms.exchange;
   if (!terms.viscous.implicit) terms.viscous.tolerance = 0;  // not written
+  if (!exchange.implicit_conduction && !exchange.implicit_gas_flow) terms.exchange.tolerance = 0;  // nor that
   out.table(keys::terms, terms);
   for (std::size_t k = 0; k < terms.added.size(); ++k)
     if (terms.added[k] > 0) out.number(added_terms()[k]->word, terms.added[k]);

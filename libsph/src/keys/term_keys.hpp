@@ -39,6 +39,23 @@ inline constexpr auto terms_keys = std::to_array<Key>({
      at<&Terms::exchange, &ExchangeTerms::gas_escape>},
     {"viscous_heat", Flag{}, "What viscous friction takes from the motion heats (group.heat).",
      at<&Terms::exchange, &ExchangeTerms::viscous_heat>},
+    {"implicit_conduction", Flag{},
+     "Explicit conduction wants dt <= 0.25 h^2 rho c / k; with the temperatures of the end of the step, "
+     "found by "
+     "iterations, it limits none. A front that freezes should still pass a spacing in no less than two "
+     "steps.",
+     at<&Terms::exchange, &ExchangeTerms::implicit_conduction>},
+    {"implicit_gas_flow", Flag{},
+     "The same of gas that flows (group.permeability): steps then change no gas content by more than 5 % of "
+     "the "
+     "largest. Pays where the gas spreads faster than 0.4 c h.",
+     at<&Terms::exchange, &ExchangeTerms::implicit_gas_flow>},
+    {"exchange_tolerance",
+     Number{dimension::none, {.least = 1e-12, .most = 0.01, .is = "it is a share of what a step changes,"}},
+     "Of implicit conduction and gas flow: stop when the error is this share of what a step changes. Heat "
+     "and gas "
+     "are conserved to rounding with any.",
+     at<&Terms::exchange, &ExchangeTerms::tolerance>},
     {"shifting", Flag{},
      "Keeps particles evenly spread, also where the pressure is negative, and a closed box as full as it "
      "was. Near a free surface, that is where the start leaves a lattice point inside empty, or has movers "

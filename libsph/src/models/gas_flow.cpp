@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "models/gas_flow_solver.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/laws/eos/bubbly.hpp"
 #include "sph/laws/permeability.hpp"
@@ -17,6 +18,9 @@ namespace sph {
 namespace {
 
 constexpr double share = 0.3;  // of h^2 over the diffusivity: positive to 1/2.96
+// Implicit: of the largest content, what a step may change, and what it must not; by how much steps may grow, and how
+// many of the explicit limits they may be long.
+constexpr double change_in_a_step = 0.05, most_change = 0.2, growth_of_steps = 1.5, longest_explicit = 20;
 
 [[nodiscard]] bool flows(const Group& g) { return g.bubbly.permeability.coefficient > 0; }
 
@@ -49,17 +53,19 @@ struct Mobilities {
 
 struct Contents {
   static constexpr FieldSet reads =
-      FaultView::reads | SurfaceEscape::reads | Materials::reads |
-      FieldSet{Field::gas_gain,     Field::gas_heat,    Field::wall_gas,   Field::gas_mobility,
-               Field::gas_pressure, Field::liquid_mass, Field::temperature};
+      FaultView::reads | GasOutside::reads | Materials::reads |
+      FieldSet{Field::gas_gain, Field::gas_heat, Field::trial, Field::liquid_mass, Field::temperature};
   static constexpr FieldSet writes =
       Materials::writes | FieldSet{Field::gas_content, Field::mass,     Field::density,    Field::velocity,
                                    Field::gas_inflow,  Field::enthalpy, Field::heat_inflow};
   const SphConstants* constants;
   const Materials* materials;
-  std::shared_ptr<const SurfaceEscape> surface;  ///< nullptr: there is none
+  GasOutside outside;
+  bool implicit;
+  std::shared_ptr<ContentChange> change;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
+    *change = {};
     for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
       const RowRange& r = range_of(step.ranges, c);
       for (std::size_t i = r.first; i < r.last; ++i) exchange(p, i, step);
@@ -74,37 +80,30 @@ struct Contents {
     double &m = p.get<Field::gas_content>()[i], &mass = p.get<Field::mass>()[i],
            &rho = p.get<Field::density>()[i];
     const double* gain = p.get<Field::gas_gain>() + i * (d + 1);
-    const double* of_walls = p.get<Field::wall_gas>();
-    const double outside = (of_walls != nullptr ? of_walls[i] : 0.0) - escape(p, i, mass / rho);
-    if (gain[0] == 0 && outside == 0) return;
-    m += dt * (gain[0] + outside) / liquid;
-    if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += dt * outside;
+    const double drive = (implicit ? p.get<Field::trial>() : p.get<Field::gas_pressure>())[i];
+    const double from_outside = outside.rate(p, i, drive), more = dt * (gain[0] + from_outside) / liquid;
+    change->see(std::fabs(more), m);
+    if (gain[0] == 0 && from_outside == 0) return;
+    m += more;
+    if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += dt * from_outside;
     if (!(m >= 0 && m < 1))
       find_fault(
           *constants, p, i, step,
           fmt::format("has a gas content of {:.3g}; reduce time.dt, time.cfl or group.permeability", m));
     const double now = liquid * (1 + m);
-    if (p.get<Field::enthalpy>() != nullptr) carry_heat(p, i, dt, outside, now);
+    if (p.get<Field::enthalpy>() != nullptr) carry_heat(p, i, dt, from_outside, now);
     rho *= now / mass;
     mass = now;
     for (std::size_t a = 0; a < d; ++a) p.get<Field::velocity>()[i * d + a] += dt * gain[1 + a] / now;
   }
 
   /// What comes and goes through walls and the surface is as warm as the particle.
-  void carry_heat(const View<reads, writes>& p, std::size_t i, double dt, double outside, double now) const {
+  void carry_heat(const View<reads, writes>& p, std::size_t i, double dt, double gas, double now) const {
     const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
-    const double heat = dt * outside * (g.heat.material.specific_heat * p.get<Field::temperature>()[i]);
+    const double heat = dt * gas * (g.heat.material.specific_heat * p.get<Field::temperature>()[i]);
     double& h = p.get<Field::enthalpy>()[i];
     h = (p.get<Field::mass>()[i] * h + dt * p.get<Field::gas_heat>()[i] + heat) / now;
     if (double* inflow = p.get<Field::heat_inflow>()) inflow[i] += heat;
-  }
-
-  [[nodiscard]] double escape(const View<reads, writes>& p, std::size_t i, double volume) const {
-    if (surface == nullptr) return 0;
-    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
-    const double b = p.get<Field::gas_mobility>()[i], drive = p.get<Field::gas_pressure>()[i];
-    if (!(b > 0 && drive > 0)) return 0;
-    return g.bubbly.permeability.coefficient * b * volume * (*surface)(p, i) * drive;
   }
 };
 
@@ -125,19 +124,31 @@ void Degassing::add_to(Builder& b) const {
   if (walls || escape) b.add_fields({Field::gas_inflow});
   if ((walls || escape) && s.has_heat()) b.add_fields({Field::heat_inflow});
   b.add_update("gas mobilities", Mobilities{&s});
-  if (s.has_heat())
-    add_exchange(b, "gas flow", {term<GasFlow>, term<GasHeat>});
-  else
-    add_exchange(b, "gas flow", {term<GasFlow>});
+  const bool implicit = s.terms.exchange.implicit_gas_flow;
+  const GasOutside outside{constants_, escape ? std::make_shared<const SurfaceEscape>(*constants_) : nullptr};
   if (walls) add_exchange(b, "gas of walls", {term<WallGas>});
-  b.add_update("gas contents",
-               Contents{constants_, materials_,
-                        escape ? std::make_shared<const SurfaceEscape>(*constants_) : nullptr});
+  if (implicit) {
+    add_exchange(b, "gas flow at the start", {term<GasFlow>});
+    add_implicit_gas_pressures(b, outside);
+  }
+  std::vector<Term> terms{implicit ? term<ImplicitGasFlow> : term<GasFlow>};
+  if (s.has_heat()) terms.push_back(implicit ? term<ImplicitGasHeat> : term<GasHeat>);
+  add_exchange(b, "gas flow", terms);
+  b.add_update("gas contents", Contents{constants_, materials_, outside, implicit, change_});
 }
 
 void Degassing::reserve(Reduction& r) {
   in_.conductance = r.add_maximum();
   in_.stiffness = r.add_maximum();
+  if (!constants_->scene->terms.exchange.implicit_gas_flow) return;
+  in_.change = r.add_maximum();
+  in_.content = r.add_maximum();
+  in_.dt = r.add_maximum();
+}
+
+void ContentChange::see(double change, double of) {
+  most = larger(change, most);
+  content = larger(of, content);
 }
 
 void Degassing::Fastest::see(double of_conductance, double of_stiffness) {
@@ -156,10 +167,10 @@ double Degassing::start(const decomp::Comm& comm, Particles& p, GlobalState&) {
   std::array<double, 2> largest{own.conductance, own.stiffness};
   comm.max(largest);
   const double longest = limit({largest[0], largest[1]});
-  if (scene.time.dt && *scene.time.dt > longest)
+  if (scene.time.dt && *scene.time.dt > longest && !scene.terms.exchange.implicit_gas_flow)
     throw InputError(fmt::format(
-        "{}: time.dt: {:.6g} s is above the limit of gas that flows, {:.6g} s; set it to that or less, or "
-        "leave it out",
+        "{}: time.dt: {:.6g} s is above the limit of gas that flows, {:.6g} s; set it to that or less, "
+        "leave it out, or set terms.implicit_gas_flow",
         scene.file, *scene.time.dt, longest));
   return scene.time.dt ? *scene.time.dt : longest;
 }
@@ -202,20 +213,40 @@ bool Degassing::report(const StepState& s, Reduction& r) {
   }
   r[in_.conductance] = found.conductance;
   r[in_.stiffness] = found.stiffness;
+  if (scene.terms.exchange.implicit_gas_flow) {
+    r[in_.change] = change_->most;
+    r[in_.content] = change_->content;
+    r[in_.dt] = s.global.dt;
+  }
   return std::isfinite(found.conductance) && std::isfinite(found.stiffness);
 }
 
 double Degassing::longest_step(const Reduction& r) const {
-  if (constants_->scene->time.dt) return *constants_->scene->time.dt;
-  return limit({r[in_.conductance], r[in_.stiffness]});
+  const Scene& scene = *constants_->scene;
+  if (scene.time.dt) return *scene.time.dt;
+  const double by_stability = limit({r[in_.conductance], r[in_.stiffness]});
+  if (!scene.terms.exchange.implicit_gas_flow) return by_stability;
+  const double dt = r[in_.dt], faster = r[in_.change] / (change_in_a_step * r[in_.content]);
+  const double longer = faster > 1 / growth_of_steps ? dt / faster : growth_of_steps * dt;
+  return std::fmin(longer, longest_explicit * by_stability);
 }
 
 void Degassing::guard_step(const Reduction& r, const GlobalState& global) const {
-  const std::optional<double> dt = constants_->scene->time.dt;
+  const Scene& scene = *constants_->scene;
+  if (scene.terms.exchange.implicit_gas_flow) {
+    const double change = r[in_.change] / r[in_.content];
+    if (change > most_change)
+      throw GuardError(
+          fmt::format("step {}: a gas content changes by {:.2g} of the largest; set time.dt to {:.3g} s or "
+                      "less, or leave it out",
+                      global.step, change, change_in_a_step / change * r[in_.dt]));
+    return;
+  }
   const double longest = limit({r[in_.conductance], r[in_.stiffness]});
-  if (dt && *dt > longest)
+  if (scene.time.dt && *scene.time.dt > longest)
     throw GuardError(fmt::format(
-        "step {}: the gas flows too fast for the time step: set time.dt to {:.3g} s or less, or leave it out",
+        "step {}: the gas flows too fast for the time step: set time.dt to {:.3g} s or less, leave "
+        "it out, or set terms.implicit_gas_flow",
         global.step, 0.9 * longest));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/conduction_solver.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
 #include "sph/models/faults.hpp"
@@ -36,7 +37,7 @@ struct Temperatures {
            *inflow = p.get<Field::heat_inflow>();
     for_movers(step.ranges, [&](std::size_t i) {
       const double outside =
-          (of_walls != nullptr ? of_walls[i] : 0.0) + (friction != nullptr ? friction[i] : 0.0);
+          (of_walls != nullptr ? of_walls[2 * i] : 0.0) + (friction != nullptr ? friction[i] : 0.0);
       h[i] += dt * (gain[i] + outside) / mass[i];
       if (inflow != nullptr) inflow[i] += dt * outside;
       t[i] = temperature(scene.groups[group[i]].heat.material, h[i]);
@@ -55,6 +56,7 @@ double mean_conductivity(const Group& a, const Group& b) {
 }  // namespace
 
 double longest_heat_step(const Scene& scene) {
+  if (scene.terms.exchange.implicit_conduction) return 0;
   const double h = scene.kernel.smoothing_length;
   double fastest = 0;
   for (const Group& g : scene.groups)
@@ -73,17 +75,19 @@ bool has_warm_walls(const Scene& scene) {
 
 void Heat::add_to(Builder& b) const {
   b.add_fields({Field::enthalpy, Field::temperature});
-  add_exchange(b, "conduction", {term<Conduction>});
   const Terms& terms = b.scene().terms;
+  const bool implicit = terms.exchange.implicit_conduction;
+  if (!implicit) add_exchange(b, "conduction", {term<Conduction>});
   if (has_warm_walls(b.scene()) || terms.exchange.viscous_heat) b.add_fields({Field::heat_inflow});
   if (terms.exchange.viscous_heat)
     add_exchange(
         b, "viscous heat",
         {terms.viscous.form == ViscosityForm::symmetric ? term<SymmetricViscousHeat> : term<ViscousHeat>});
-  if (has_warm_walls(b.scene())) {
-    add_exchange(b, "heat of walls", {term<WallConduction>});
-  }
-  b.add_update("temperatures", Temperatures{constants_});
+  if (has_warm_walls(b.scene())) add_exchange(b, "heat of walls", {term<WallConduction>});
+  if (implicit)
+    add_implicit_conduction(b);
+  else
+    b.add_update("temperatures", Temperatures{constants_});
 }
 
 double Heat::start(const decomp::Comm&, Particles& p, GlobalState&) {

@@ -10,9 +10,13 @@ namespace {
 template <class Kernel, int D>
 std::vector<Fusion> exchanges() {
   return {fusion_of<double, D, Kernel, Conduction>(),
+          fusion_of<double, D, Kernel, ConductionOperator>(),
           fusion_of<double, D, Kernel, WallConduction>(),
           fusion_of<double, D, Kernel, GasFlow>(),
           fusion_of<double, D, Kernel, GasFlow, GasHeat>(),
+          fusion_of<double, D, Kernel, GasOperator>(),
+          fusion_of<double, D, Kernel, ImplicitGasFlow>(),
+          fusion_of<double, D, Kernel, ImplicitGasFlow, ImplicitGasHeat>(),
           fusion_of<double, D, Kernel, WallGas>(),
           fusion_of<double, D, Kernel, ViscousHeat>(),
           fusion_of<double, D, Kernel, SymmetricViscousHeat>()};

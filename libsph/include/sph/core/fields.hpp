@@ -89,6 +89,8 @@ enum class Field : std::uint8_t {
   waiting_for,
   waiting_time,
   released_energy,
+  trial,
+  exchange_sums,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -257,8 +259,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of fluids and solids with heat, above that at 0 K"},
     {Field::heat_gain, "heat_gain", "W", Type::f64, Shape::scalar, false, false,
      "heat that is conducted to a particle from others", SumScale::force},
-    {Field::wall_heat, "wall_heat", "W", Type::f64, Shape::scalar, false, false, "... and from walls",
-     SumScale::force},
+    {Field::wall_heat, "wall_heat", "W", Type::f64, Shape::two, false, false,
+     "... and from walls; how much less if the particle were 1 K warmer [W/K]", SumScale::force},
     {Field::heat_inflow, "heat_inflow", "J", Type::f64, Shape::scalar, true, false,
      "heat that a particle has had from walls, of friction and with gas from outside since the start"},
     {Field::liquid_mass, "liquid_mass", "kg", Type::f64, Shape::scalar, true, false,
@@ -269,8 +271,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "that drives the gas, above the surface pressure; of a wall that beyond it"},
     {Field::gas_gain, "gas_gain", "kg/s", Type::f64, Shape::spread, false, false,
      "gas that flows to a particle from others, and the momentum that it brings [N]", SumScale::force},
-    {Field::wall_gas, "wall_gas", "kg/s", Type::f64, Shape::scalar, false, false, "gas from walls",
-     SumScale::force},
+    {Field::wall_gas, "wall_gas", "kg/s", Type::f64, Shape::two, false, false,
+     "gas from walls; how much less if the particle's pressure were 1 Pa higher [kg/s/Pa]", SumScale::force},
     {Field::gas_inflow, "gas_inflow", "kg", Type::f64, Shape::scalar, true, false,
      "gas that a particle has had from walls since the start, less what escaped"},
     {Field::viscosity, "viscosity", "Pa s", Type::f64, Shape::scalar, false, true,
@@ -287,6 +289,11 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::waiting_time, "waiting_time", "s", Type::f64, Shape::scalar, true, false, "for how long it has"},
     {Field::released_energy, "released_energy", "J", Type::f64, Shape::scalar, true, false,
      "elastic energy that a particle lost by transitions since the start"},
+    {Field::trial, "trial", "K or Pa", Type::f64, Shape::scalar, false, false,
+     "implicit exchange: what is tried for the temperature or the gas pressure, or the change of it"},
+    {Field::exchange_sums, "exchange_sums", "W, kg/s", Type::f64, Shape::two, false, false,
+     "what flows to a particle if `trial` drove it, and its derivative by the particle's own, negative",
+     SumScale::force},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

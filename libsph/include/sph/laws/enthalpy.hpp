@@ -19,6 +19,13 @@ namespace sph {
   return temperature <= m.solidus ? 0.0 : (temperature - m.solidus) / (m.liquidus - m.solidus);
 }
 
+/// Derivative of enthalpy() by T, at the enthalpy given [J/kg/K].
+[[nodiscard]] inline double heat_capacity(const HeatMaterial& m, double enthalpy) {
+  const double first = m.specific_heat * m.solidus, last = m.specific_heat * m.liquidus + m.latent_heat;
+  const bool freezes = m.latent_heat > 0 && enthalpy > first && enthalpy < last;
+  return freezes ? (last - first) / (m.liquidus - m.solidus) : m.specific_heat;
+}
+
 /// Inverse of enthalpy() [K].
 [[nodiscard]] inline double temperature(const HeatMaterial& m, double enthalpy) {
   const double first = m.specific_heat * m.solidus, last = m.specific_heat * m.liquidus + m.latent_heat;

@@ -2,7 +2,8 @@
 // exchanged pair by pair (terms/gas_flow.hpp) with its volume as it is, so that mass, density and pressure follow. Gas
 // escapes through free surfaces (surface_escape.hpp) and walls that let it pass, and is counted for each particle:
 //   sum M m - sum (gas from outside) = what it was at the start,
-// but for rounding. Explicit: dt <= 0.3 h^2 / D, D = k b (1 + m) / rho dp/dm of a fixed volume.
+// but for rounding. Explicit: dt <= 0.3 h^2 / D, D = k b (1 + m) / rho dp/dm of a fixed volume. Implicit
+// (src/models/gas_flow_solver.hpp): no content changes by more than 5 % of the largest in a step.
 #pragma once
 
 #include <memory>
@@ -17,6 +18,12 @@ namespace sph {
 [[nodiscard]] bool has_open_walls(const Scene& scene);
 /// Gas leaves through a free surface.
 [[nodiscard]] bool has_escape(const Scene& scene);
+
+/// Of gas contents in a step, as far as this rank knows.
+struct ContentChange {
+  double most = 0, content = 0;
+  void see(double change, double of);
+};
 
 class Degassing final : public Model {
  public:
@@ -42,8 +49,9 @@ class Degassing final : public Model {
 
   const SphConstants* constants_;
   const Materials* materials_;
+  std::shared_ptr<ContentChange> change_ = std::make_shared<ContentChange>();
   struct Places {
-    Reduction::Maximum conductance, stiffness;
+    Reduction::Maximum conductance, stiffness, change, content, dt;  ///< the last three of implicit flow
   };
   Places in_{};  ///< the reduction
 };

@@ -2,7 +2,8 @@
 // temperature what that and the group say (laws/enthalpy.hpp). What walls and friction (terms/viscous_heat.hpp) give is
 // counted for each particle, so that
 //   sum m H - sum (heat from walls and friction) = what it was at the start,
-// but for rounding, on any number of ranks. Explicit: dt <= 0.25 h^2 rho c / k.
+// but for rounding, on any number of ranks. Heat that flowing gas brings is in gas_flow.hpp. Explicit: dt <= 0.25 h^2
+// rho c / k; implicit: src/models/conduction_solver.hpp.
 #pragma once
 
 #include "sph/models/builder.hpp"
@@ -10,7 +11,7 @@
 
 namespace sph {
 
-/// Of explicit conduction, 0 if nothing conducts [s]; a pure function of the scene.
+/// Of explicit conduction, 0 if there is none [s]; a pure function of the scene.
 [[nodiscard]] double longest_heat_step(const Scene& scene);
 /// Some walls keep a temperature or give a flux.
 [[nodiscard]] bool has_warm_walls(const Scene& scene);

@@ -19,7 +19,7 @@ struct Fusion {
   FieldSet writes;  ///< sums
   int row_bytes;
   void (*pack)(const PassContext&, std::size_t first, std::size_t last);
-  void (*repack)(const PassContext&, std::size_t first, std::size_t last);  ///< Field::direction alone
+  void (*repack)(const PassContext&, std::size_t first, std::size_t last);  ///< what is solved for alone
   void (*run)(const PassContext&, const RowRange&);
 };
 

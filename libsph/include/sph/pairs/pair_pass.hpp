@@ -125,14 +125,10 @@ struct PairPass {
 
   /// What a solver changes from one run of the pass to the next.
   static void repack(const PassContext& c, std::size_t first, std::size_t last) {
-    if constexpr (values.has(Value::direction)) {
-      T* const rows = rows_of(c);
-      const double* direction = c.particles->template data<Field::direction>();
-      for (std::size_t i = first; i < last; ++i)
-        for (int k = 0; k < D; ++k)
-          rows[i * Layout::stride + Layout::offset(Value::direction) + k] =
-              static_cast<T>(direction[i * D + k]);
-    }
+    if constexpr (values.has(Value::direction))
+      repack<Value::direction>(c, c.particles->template data<Field::direction>(), first, last);
+    if constexpr (values.has(Value::trial))
+      repack<Value::trial>(c, c.particles->template data<Field::trial>(), first, last);
   }
 
   static void run(const PassContext& c, const RowRange& range) {
@@ -141,6 +137,15 @@ struct PairPass {
   }
 
  private:
+  template <Value v>
+  static void repack(const PassContext& c, const double* numbers, std::size_t first, std::size_t last) {
+    constexpr std::size_t n = components(v, D);
+    T* const rows = rows_of(c);
+    for (std::size_t i = first; i < last; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        rows[i * Layout::stride + Layout::offset(v) + k] = static_cast<T>(numbers[i * n + k]);
+  }
+
   /// Of each block of `lanes` rows those from `part` on.
   [[gnu::always_inline]] static void run(const PassContext& c, const RowRange& range, std::size_t part,
                                          std::size_t lanes) {

@@ -183,12 +183,15 @@ struct BondColumns {
   }
 };
 
-/// Of implicit viscosity.
-struct ViscousColumns {
-  explicit ViscousColumns(const Particles& p)
-      : owned(p.owned()), direction(p.data<Field::direction>()), wall_slope(p.data<Field::wall_slope>()) {}
+/// Of what is solved for.
+struct ImplicitColumns {
+  explicit ImplicitColumns(const Particles& p)
+      : owned(p.owned()),
+        direction(p.data<Field::direction>()),
+        wall_slope(p.data<Field::wall_slope>()),
+        trial(p.data<Field::trial>()) {}
   std::size_t owned;
-  const double *direction, *wall_slope;
+  const double *direction, *wall_slope, *trial;
 
   template <class Row>
   [[gnu::always_inline]] void pack(const Row& row) const {
@@ -199,6 +202,7 @@ struct ViscousColumns {
     if constexpr (Row::values.has(Value::wall_slope))  // of partners it is not read
       for (int k = 0; k < D; ++k)
         row.put(Value::wall_slope, k, wall_slope != nullptr && i < owned ? wall_slope[i * D + k] : 0.0);
+    if constexpr (Row::values.has(Value::trial)) row.put(Value::trial, 0, trial[i]);
   }
 };
 
@@ -281,7 +285,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const StateColumns state(p);
   const InterfaceColumns interface(p);
   const BondColumns bonds(p);
-  const ViscousColumns viscous(p);
+  const ImplicitColumns implicit(p);
   const CorrectionColumns corrections(p);
   const HeatColumns heat(p);
   const GasFlowColumns gas(p);
@@ -291,7 +295,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     state.pack(row);
     interface.pack(row);
     bonds.pack(row);
-    viscous.pack(row);
+    implicit.pack(row);
     corrections.pack(row);
     heat.pack(row);
     gas.pack(row);

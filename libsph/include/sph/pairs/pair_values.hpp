@@ -69,6 +69,7 @@ enum class Value : std::uint8_t {
   wall_heat_flux,      ///< of walls, into what is beside them [W/m^2]
   sensible_heat,       ///< c_p T [J/kg]
   grip,                ///< 0 of walls that slip, else 1
+  trial,               ///< what an implicit exchange is solved for [K or Pa]
   count_
 };
 
@@ -140,6 +141,7 @@ class ValueSet {
   if (values.has(Value::gas_mobility)) f |= FieldSet{Field::gas_mobility};
   if (values.has(Value::gas_pressure)) f |= FieldSet{Field::gas_pressure};
   if (values.has(Value::gas_density)) f |= FieldSet{Field::group, Field::gas_pressure};
+  if (values.has(Value::trial)) f |= FieldSet{Field::trial};
   if (values.has(Value::rest_gradient)) f |= FieldSet{Field::liquid_density, Field::grain_drag};
   return f;
 }

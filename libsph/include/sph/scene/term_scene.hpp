@@ -17,6 +17,9 @@ struct ExchangeTerms {
   bool motion = true;         ///< false: nothing moves
   bool gas_escape = true;     ///< through free surfaces
   bool viscous_heat = false;  ///< friction heats
+  bool implicit_conduction = false,
+       implicit_gas_flow = false;  ///< of the end of the step: they limit no step
+  double tolerance = 1e-6;         ///< of these, a share of what a step changes
   friend bool operator==(const ExchangeTerms&, const ExchangeTerms&) = default;
 };
 

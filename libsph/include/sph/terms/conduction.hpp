@@ -11,6 +11,15 @@
 
 namespace sph {
 
+template <class P, class C>
+[[nodiscard]] typename P::V conductance(const P& p, const C& c) {
+  using V = typename P::V;
+  const V a = p.template i<Value::conductivity>(), b = p.template j<Value::conductivity>();
+  const V twice_mean = V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-300)));
+  return -(p.template i<Value::volume>() * p.template j<Value::volume>() * twice_mean *
+           (V(c.viscous.laplacian) * p.f));
+}
+
 struct Conduction {
   static constexpr std::string_view name = "Conduction";
   static constexpr bool always_double = true;
@@ -18,13 +27,23 @@ struct Conduction {
   static constexpr Field writes = Field::heat_gain;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V a = p.template i<Value::conductivity>(), b = p.template j<Value::conductivity>();
-    const V twice_mean = V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-300)));
-    const V rate = p.template i<Value::volume>() * p.template j<Value::volume>() * twice_mean *
-                   (V(c.viscous.laplacian) * p.f);
     sums.template add<Field::heat_gain>(
-        0, rate * (p.template i<Value::temperature>() - p.template j<Value::temperature>()));
+        0, conductance(p, c) * (p.template j<Value::temperature>() - p.template i<Value::temperature>()));
+  }
+};
+
+/// The same of any field of temperatures, for the implicit step (models/conduction_solver.hpp).
+struct ConductionOperator {
+  static constexpr std::string_view name = "ConductionOperator";
+  static constexpr bool always_double = true;
+  static constexpr ValueSet reads{Value::volume, Value::trial, Value::conductivity};
+  static constexpr Field writes = Field::exchange_sums;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    const typename P::V rate = conductance(p, c);
+    sums.template add<Field::exchange_sums>(
+        0, rate * (p.template j<Value::trial>() - p.template i<Value::trial>()));
+    sums.template add<Field::exchange_sums>(1, rate);
   }
 };
 
@@ -43,11 +62,12 @@ struct WallConduction {
                   where_equal(profile.steepness, V::zero(), p.r);
     const V weight = p.template i<Value::volume>() * p.template j<Value::volume>() * p.f;
     const V own = p.template i<Value::conductivity>();
-    const V kept = (own + own) * profile.share() * V(c.viscous.laplacian) *
-                   p.template j<Value::wall_warmth>() *
-                   (p.template i<Value::temperature>() - p.template j<Value::temperature>());
+    const V keeps =
+        (own + own) * profile.share() * V(c.viscous.laplacian) * p.template j<Value::wall_warmth>();
+    const V kept = keeps * (p.template i<Value::temperature>() - p.template j<Value::temperature>());
     const V given = p.template j<Value::wall_heat_flux>() * (way + way);
     sums.template add<Field::wall_heat>(0, weight * (kept - given));
+    sums.template add<Field::wall_heat>(1, -(weight * keeps));
   }
 };
 

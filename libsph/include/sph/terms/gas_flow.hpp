@@ -13,42 +13,44 @@
 
 namespace sph {
 
-template <class V>
-struct GasExchange {
-  V drive;  ///< towards the first of the pair where positive [Pa]
-  V flow;   ///< to it [kg/s]
-};
+/// Towards the first of the pair where positive, if `pressure` drove the gas [Pa].
+template <Value pressure, class P, class C>
+[[nodiscard]] typename P::V gas_drive(const P& p, const C& c) {
+  using V = typename P::V;
+  const V rho = V(static_cast<typename P::Scalar>(0.5)) *
+                (p.template i<Value::gas_density>() + p.template j<Value::gas_density>());
+  return (p.template j<pressure>() - p.template i<pressure>()) - rho * head(p, c);
+}
 
+/// Of a pair, by the pressures at the start of the step [kg/s/Pa].
 template <class P, class C>
-[[nodiscard]] GasExchange<typename P::V> gas_exchange(const P& p, const C& c) {
+[[nodiscard]] typename P::V gas_conductance(const P& p, const C& c) {
   using V = typename P::V;
   using T = typename P::Scalar;
-  const V half(T(0.5)), tiny(static_cast<T>(1e-300));
+  const V half(T(0.5)), tiny(static_cast<T>(1e-300)), drive = gas_drive<Value::gas_pressure>(p, c);
   const V k_i = p.template i<Value::permeability>(), k_j = p.template j<Value::permeability>();
   const V b_i = p.template i<Value::gas_mobility>(), b_j = p.template j<Value::gas_mobility>();
-  const V rho = half * (p.template i<Value::gas_density>() + p.template j<Value::gas_density>());
-  const V drive =
-      (p.template j<Value::gas_pressure>() - p.template i<Value::gas_pressure>()) - rho * head(p, c);
   const V up = where_less(V::zero(), drive, b_j) + where_less(drive, V::zero(), b_i);
   const V twice_scale = V(4) * (k_i * k_j) / max(k_i + k_j, tiny);
   const V conductance = twice_scale * min(half * (b_i + b_j), up + up);
-  return {drive, -(p.template i<Value::volume>() * p.template j<Value::volume>() * conductance *
-                   (V(c.viscous.laplacian) * p.f)) *
-                     drive};
+  return -(p.template i<Value::volume>() * p.template j<Value::volume>() * conductance *
+           (V(c.viscous.laplacian) * p.f));
 }
 
 inline constexpr ValueSet gas_exchange_reads{Value::volume, Value::permeability, Value::gas_mobility,
                                              Value::gas_pressure, Value::gas_density};
 
-struct GasFlow {
-  static constexpr std::string_view name = "GasFlow";
+/// Driven by the pressures at the start of the step, or by those that the implicit step has found for its end.
+template <Value by>
+struct GasFlowBy {
+  static constexpr std::string_view name = by == Value::trial ? "ImplicitGasFlow" : "GasFlow";
   static constexpr bool always_double = true;
-  static constexpr ValueSet reads = gas_exchange_reads | ValueSet{Value::velocity};
+  static constexpr ValueSet reads = gas_exchange_reads | ValueSet{Value::velocity, by};
   static constexpr Field writes = Field::gas_gain;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const V half(static_cast<typename P::Scalar>(0.5)), flow = gas_exchange(p, c).flow;
+    const V half(static_cast<typename P::Scalar>(0.5)), flow = gas_conductance(p, c) * gas_drive<by>(p, c);
     sums.template add<Field::gas_gain>(0, flow);
     for (int a = 0; a < P::dim; ++a)
       sums.template add<Field::gas_gain>(
@@ -57,18 +59,39 @@ struct GasFlow {
 };
 
 /// The heat that gas brings: c_p T of where it comes from. Latent heat stays with what is molten.
-struct GasHeat {
-  static constexpr std::string_view name = "GasHeat";
+template <Value by>
+struct GasHeatBy {
+  static constexpr std::string_view name = by == Value::trial ? "ImplicitGasHeat" : "GasHeat";
   static constexpr bool always_double = true;
-  static constexpr ValueSet reads = gas_exchange_reads | ValueSet{Value::sensible_heat};
+  static constexpr ValueSet reads = gas_exchange_reads | ValueSet{Value::sensible_heat, by};
   static constexpr Field writes = Field::gas_heat;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
-    const GasExchange<V> gas = gas_exchange(p, c);
-    const V heat = where_less(V::zero(), gas.drive, p.template j<Value::sensible_heat>()) +
-                   where_less(gas.drive, V::zero(), p.template i<Value::sensible_heat>());
-    sums.template add<Field::gas_heat>(0, gas.flow * heat);
+    const V drive = gas_drive<by>(p, c);
+    const V heat = where_less(V::zero(), drive, p.template j<Value::sensible_heat>()) +
+                   where_less(drive, V::zero(), p.template i<Value::sensible_heat>());
+    sums.template add<Field::gas_heat>(0, gas_conductance(p, c) * drive * heat);
+  }
+};
+
+using GasFlow = GasFlowBy<Value::gas_pressure>;
+using GasHeat = GasHeatBy<Value::gas_pressure>;
+using ImplicitGasFlow = GasFlowBy<Value::trial>;
+using ImplicitGasHeat = GasHeatBy<Value::trial>;
+
+/// Of any change of the pressures, for the implicit step (models/gas_flow_solver.hpp).
+struct GasOperator {
+  static constexpr std::string_view name = "GasOperator";
+  static constexpr bool always_double = true;
+  static constexpr ValueSet reads = gas_exchange_reads | ValueSet{Value::trial};
+  static constexpr Field writes = Field::exchange_sums;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    const typename P::V rate = gas_conductance(p, c);
+    sums.template add<Field::exchange_sums>(
+        0, rate * (p.template j<Value::trial>() - p.template i<Value::trial>()));
+    sums.template add<Field::exchange_sums>(1, rate);
   }
 };
 
@@ -86,9 +109,11 @@ struct WallGas {
     const V own = p.template i<Value::permeability>() * p.template i<Value::gas_mobility>();
     const V drive = (p.template j<Value::gas_pressure>() - p.template i<Value::gas_pressure>()) -
                     p.template i<Value::gas_density>() * head(p, c);
-    sums.template add<Field::wall_gas>(
-        0, -(p.template i<Value::volume>() * p.template j<Value::volume>() * p.f * V(c.viscous.laplacian)) *
-               ((own + own) * wall_profile(p).share() * p.template j<Value::wall_open>() * drive));
+    const V weight =
+        -(p.template i<Value::volume>() * p.template j<Value::volume>() * p.f * V(c.viscous.laplacian));
+    const V open = (own + own) * wall_profile(p).share() * p.template j<Value::wall_open>();
+    sums.template add<Field::wall_gas>(0, weight * (open * drive));
+    sums.template add<Field::wall_gas>(1, weight * open);
   }
 };
 
