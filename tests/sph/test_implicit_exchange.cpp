@@ -126,13 +126,13 @@ TEST(ImplicitExchange, WantsAStepWhereNothingElseLimitsIt) {
   EXPECT_THROW(parsed(dyke, {"time.dt="}), InputError);
 }
 
-/// Bubbly magma under pressure below one that has let it go, as permeable, and rock that is 10,000 times as tight.
+/// Bubbly magma whose gas rises where it is at rest otherwise, with a ball in it that is 10,000 times as tight.
 const std::string plug = R"(dimension = 2
 kernel = { h_over_dx = 1 }
 [domain]
 lower = [0, 0]
-upper = [16, 16]
-periodic = [true, true]
+upper = [16, 19]
+periodic = [true, false]
 gravity = [0, -10]
 surface_pressure = 1e5
 [[group]]
@@ -157,14 +157,21 @@ gas_rt = 5e5
 solubility_pressure = 1e10
 solubility_exponent = 2
 permeability = { law = "power", coefficient = 1e-14, exponent = 1 }
+[[group]]
+name = "floor"
+kind = "wall"
 [terms]
 motion = false
+gas_escape = false
 implicit_gas_flow = true
 [start]
 spacing = 1
 jitter = 0.1
-layer = [{ group = "magma", top = 12, pressure = 3e5 }]
-region = [{ group = "magma" }, { group = "rock", shape = "ball", centre = [8, 5], radius = 3 }]
+pressure = "hydrostatic"
+layer = [{ group = "magma", top = 18, pressure = 3e5 }]
+region = [{ group = "floor" }, { group = "magma", shape = "box", lower = [0, 3], upper = [16, 18] },
+          { group = "rock", shape = "ball", centre = [8, 9], radius = 3 },
+          { group = "none", shape = "box", lower = [0, 18], upper = [16, 19] }]
 [time]
 steps = 100
 [[monitor]]

@@ -176,7 +176,11 @@ void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
   if (start.pressure == InitialPressure::taylor_green && start.velocity.kind != InitialVelocity::taylor_green)
     table.fail("pressure", "is \"taylor_green\" without that velocity",
                "set velocity = \"taylor_green\" too");
-  if (start.pressure != InitialPressure::hydrostatic) return;
+  if (start.pressure != InitialPressure::hydrostatic) {
+    for (const auto key : {StartReader::Name<>("layer"), StartReader::Name<>("surface_height")})
+      table.only_if(false, key, "it is of pressure = \"hydrostatic\": set that too");
+    return;
+  }
   if (start.layers.empty())
     table.fail_missing("surface_height", "give the height where the hydrostatic pressure is zero");
   double weight = 0;

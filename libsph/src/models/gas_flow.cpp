@@ -172,7 +172,8 @@ double Degassing::start(const decomp::Comm& comm, Particles& p, GlobalState&) {
         "{}: time.dt: {:.6g} s is above the limit of gas that flows, {:.6g} s; set it to that or less, "
         "leave it out, or set terms.implicit_gas_flow",
         scene.file, *scene.time.dt, longest));
-  return scene.time.dt ? *scene.time.dt : longest;
+  if (scene.time.dt) return *scene.time.dt;
+  return scene.terms.exchange.implicit_gas_flow ? longest / growth_of_steps / growth_of_steps : longest;
 }
 
 Degassing::Fastest Degassing::at_start(const Particles& p) const {
@@ -235,7 +236,7 @@ void Degassing::guard_step(const Reduction& r, const GlobalState& global) const 
   const Scene& scene = *constants_->scene;
   if (scene.terms.exchange.implicit_gas_flow) {
     const double change = r[in_.change] / r[in_.content];
-    if (change > most_change)
+    if (scene.time.dt && change > most_change)
       throw GuardError(
           fmt::format("step {}: a gas content changes by {:.2g} of the largest; set time.dt to {:.3g} s or "
                       "less, or leave it out",

@@ -1,0 +1,152 @@
+// What no time step may break: contents and enthalpies stay above 0, pressures and temperatures between those of the start
+// where nothing moves, and gas and heat are counted, however sharp the contrasts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sph/output/monitors.hpp"
+#include "sph/step/simulation.hpp"
+
+namespace {
+
+using sph::Field;
+using sph::Simulation;
+
+const decomp::Comm& world() {
+  static const decomp::Comm comm(MPI_COMM_WORLD);
+  return comm;
+}
+
+std::string magma(const std::string& name, const std::string& more) {
+  return "[[group]]\nname = \"" + name +
+         "\"\nkind = \"fluid\"\neos = \"bubbly\"\ndensity = 2400\nbulk_modulus = 1e9\ngas_rt = 5e5\n"
+         "solubility_pressure = 5.92e10\nsolubility_exponent = 0.5\n" +
+         more + "\n";
+}
+
+/// A box of 16 by 16 spacings of magma at 10 MPa over its weight, in which nothing moves, with a ball of other magma.
+std::string still_box(const std::string& inside, const std::string& outside, double radius) {
+  return "kernel = { h_over_dx = 1 }\n[domain]\nlower = [0, 0]\nupper = [16, 19]\nperiodic = [true, false]\n"
+         "gravity = [0, -10]\nsurface_pressure = 1e5\n" +
+         magma("outside", outside) + magma("inside", inside) +
+         "[[group]]\nname = \"floor\"\nkind = \"wall\"\n[terms]\nmotion = false\n[start]\nspacing = "
+         "1\njitter = 0.1\n"
+         "pressure = \"hydrostatic\"\nlayer = [{ group = \"outside\", top = 18, pressure = 1e7 }]\n"
+         "region = [{ group = \"floor\" }, { group = \"outside\", shape = \"box\", lower = [0, 3], upper = "
+         "[16, 18] },\n"
+         "{ group = \"inside\", shape = \"ball\", centre = [8, 10], radius = " +
+         std::to_string(radius) +
+         " }, { group = \"none\", shape = \"box\", lower = [0, 18], upper = [16, 19] }]\n[time]\nsteps = 1\n"
+         "[[monitor]]\nkind = \"budget\"\n";
+}
+
+struct Range {
+  double lowest, highest;
+};
+template <Field F>
+Range range(const Simulation& s, const std::string& group = "") {
+  double ends[2]{-1e300, -1e300};
+  const double* value = s.particles().data<F>();
+  for (std::size_t i = 0; i < s.particles().owned(); ++i) {
+    const sph::Group& g = s.scene().groups[s.particles().data<Field::group>()[i]];
+    if (g.kind == sph::GroupKind::wall || !(group.empty() || g.name == group)) continue;
+    EXPECT_TRUE(std::isfinite(value[i]));
+    ends[0] = std::max(ends[0], -value[i]);
+    ends[1] = std::max(ends[1], value[i]);
+  }
+  s.comm().max(ends);
+  return {-ends[0], ends[1]};
+}
+
+void expect_gas_kept(const sph::Monitors& monitors, Simulation& s, const std::vector<double>& first) {
+  const std::vector<double> now = monitors.values(s);
+  EXPECT_NEAR((now[1] - now[2]) / first[1], 1, 1e-13);
+}
+
+// Permeabilities that differ a millionfold, gas that leaves through a surface at 1 bar.
+TEST(HardExchanges, PermeabilityContrastOfAMillion) {
+  const std::string content = "gas_content = 0.02\n";
+  for (const char* implicit : {"false", "true"}) {
+    Simulation s(world(), sph::parse_scene(still_box(content + "permeability = { coefficient = 6.3e-17 }",
+                                                     content + "permeability = { coefficient = 6.3e-11 }", 4),
+                                           "contrast", {"terms.implicit_gas_flow=" + std::string(implicit)}));
+    const sph::Monitors monitors(s);
+    const std::vector<double> first = monitors.values(s);
+    const Range pressures = range<Field::pressure>(s);
+    for (int k = 0; k < 300; ++k) s.step();
+    const Range now = range<Field::pressure>(s);
+    EXPECT_GE(now.lowest, 0);
+    EXPECT_LE(now.highest, 1.001 * pressures.highest);
+    EXPECT_GT(range<Field::gas_content>(s).lowest, 0);
+    EXPECT_LT(monitors.values(s)[2], -1e-4 * first[1]) << "some gas has left";
+    expect_gas_kept(monitors, s, first);
+  }
+}
+
+// One particle that lets nothing through, in magma that loses its gas.
+TEST(HardExchanges, ASealedParticleKeepsItsGas) {
+  for (const char* implicit : {"false", "true"}) {
+    Simulation s(world(), sph::parse_scene(
+                              still_box("gas_content = 0.03",
+                                        "gas_content = 0.02\npermeability = { coefficient = 6.3e-11 }", 0.8),
+                              "sealed", {"terms.implicit_gas_flow=" + std::string(implicit)}));
+    const Range before = range<Field::gas_content>(s, "inside");
+    for (int k = 0; k < 200; ++k) s.step();
+    EXPECT_EQ(range<Field::gas_content>(s, "inside").lowest, before.lowest);
+    EXPECT_EQ(range<Field::gas_content>(s, "inside").highest, before.highest);
+    EXPECT_GT(range<Field::gas_content>(s, "outside").lowest, 0);
+  }
+}
+
+// A hundredth of the volume is liquid.
+TEST(HardExchanges, FoamOfNinetyNinePercent) {
+  for (const char* implicit : {"false", "true"}) {
+    Simulation s(
+        world(),
+        sph::parse_scene(still_box("gas_content = 0.06\npermeability = { coefficient = 6.3e-11 }",
+                                   "gas_content = 0.05\npermeability = { coefficient = 6.3e-11 }", 4),
+                         "foam",
+                         {"start.layer.0.pressure=1e5", "terms.implicit_gas_flow=" + std::string(implicit)}));
+    EXPECT_GT(range<Field::void_fraction>(s).highest, 0.99);
+    const sph::Monitors monitors(s);
+    const std::vector<double> first = monitors.values(s);
+    for (int k = 0; k < 200; ++k) s.step();
+    EXPECT_GT(range<Field::gas_content>(s).lowest, 0);
+    expect_gas_kept(monitors, s, first);
+  }
+}
+
+// A plug that held 100 bar is gone in one step: the magma is thrown out at hundreds of metres a second.
+TEST(HardExchanges, AVentThatOpensInOneStep) {
+  const std::string content =
+      "gas_content = 0.02\nviscosity = 1e4\npermeability = { coefficient = 6.3e-11 }\n";
+  const std::string scene =
+      "kernel = { h_over_dx = 1.2 }\n[domain]\nlower = [0, -3]\nupper = [6.5, 3000]\nperiodic = [true, "
+      "false]\n"
+      "gravity = [0, -9.81]\nsurface_pressure = 1e5\n" +
+      magma("magma", content + "becomes = [{ group = \"spray\", void_fraction_above = 0.75 }]") +
+      magma("spray", "gas_content = 0.02\nviscosity = 100\npermeability = { coefficient = 6.3e-11 }") +
+      "[[group]]\nname = \"floor\"\nkind = \"wall\"\n[terms]\nimplicit_viscosity = true\n[start]\nspacing = "
+      "0.5\n"
+      "lower = [0, -2]\nupper = [6.5, 30]\npressure = \"hydrostatic\"\n"
+      "layer = [{ group = \"magma\", top = 30, pressure = \"9.9 MPa\" }]\n"
+      "region = [{ group = \"floor\" }, { group = \"magma\", shape = \"box\", lower = [0, 0], upper = [6.5, "
+      "30] }]\n"
+      "[time]\ncfl = 0.5\nsteps = 1\n[[monitor]]\nkind = \"budget\"\n";
+  for (const char* implicit : {"false", "true"}) {
+    Simulation s(world(),
+                 sph::parse_scene(scene, "vent", {"terms.implicit_gas_flow=" + std::string(implicit)}));
+    const sph::Monitors monitors(s);
+    const std::vector<double> first = monitors.values(s);
+    for (int k = 0; k < 1500; ++k) s.step();
+    EXPECT_GT(range<Field::gas_content>(s).lowest, 0);
+    EXPECT_GT(range<Field::density>(s).lowest, 0);
+    EXPECT_GT(monitors.values(s)[2], -first[1]);
+    expect_gas_kept(monitors, s, first);
+  }
+}
+
+}  // namespace
