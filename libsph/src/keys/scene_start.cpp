@@ -178,7 +178,7 @@ void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
                "set velocity = \"taylor_green\" too");
   if (start.pressure != InitialPressure::hydrostatic) {
     for (const auto key : {StartReader::Name<>("layer"), StartReader::Name<>("surface_height")})
-      table.only_if(false, key, "it is of pressure = \"hydrostatic\": set that too");
+      table.only_if(table.has("pressure"), key, "give pressure too: \"hydrostatic\" looks at it");
     return;
   }
   if (start.layers.empty())
