@@ -95,7 +95,7 @@ void Conduction::refresh(Field& t, bool change) {
     }
 }
 
-int Conduction::advance(double dt, Field& temperature, double theta) {
+int Conduction::advance(double dt, Field& temperature, double theta, const Field* volume) {
   const Patch& p = patch_;
   std::array<double, 3> whole{}, weight{};
   double largest = 1;
@@ -128,7 +128,9 @@ int Conduction::advance(double dt, Field& temperature, double theta) {
     rho = rho_next;
     left *= rho;
   }
-  for_own(p, [&](std::ptrdiff_t k) { temperature[k] += change_[k]; });
+  for_own(p, [&](std::ptrdiff_t k) {
+    temperature[k] += volume == nullptr ? change_[k] : change_[k] / (*volume)[k];
+  });
   return iterations;
 }
 
