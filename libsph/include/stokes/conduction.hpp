@@ -36,6 +36,10 @@ class Conduction {
   /// as M T = M T_old + D. Collective.
   int advance(double dt, Field& temperature, double theta = 1, const Field* volume = nullptr);
 
+  /// The nearest layer of copies behind walls, of any patch of the grid: on a straight line through the cell at the wall
+  /// and what that keeps, `share` times it.
+  void extend(const Patch& patch, Field& temperature, double share = 1) const;
+
   /// What goes in through a side of the domain [K m/s], summed over the faces that are this rank's; its mean over all
   /// faces of the side, which is collective. 0 of periodic axes.
   [[nodiscard]] decomp::ExactSum inflow(const Field& temperature, int axis, int side) const;

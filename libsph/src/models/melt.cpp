@@ -220,9 +220,10 @@ void Melt::carry(StepState& state) {
   if (!is_last(state.global)) return;
   const double dt = has_grains_ ? state.global.flow.interval : state.global.dt;
   const bool two = state.particles.has(Field::composition);
-  std::vector<stokes::Field*> with_all, with_melt;
-  if (work_->conduction) (has_grains_ ? with_all : with_melt).push_back(&work_->temperature);
-  if (two) with_melt.push_back(&work_->composition);
+  std::vector<stokes::Carried> with_all, with_melt;
+  if (work_->conduction)
+    (has_grains_ ? with_all : with_melt).push_back({&work_->temperature, &*work_->conduction});
+  if (two) with_melt.push_back({&work_->composition});
   stokes::Field both = work_->share;  // melt and grains have one temperature
   if (has_grains_)
     stokes::for_own(work_->patch(), [&](std::size_t k) { both[k] += work_->suspended->solid[k]; });
@@ -241,7 +242,7 @@ void Melt::carry(StepState& state) {
 }
 
 // Heat is that of both, who share a volume that stays; the melt's own flux is what grains leave of that of both.
-void Melt::advect_beside_grains(double dt, stokes::Field& both, std::span<stokes::Field* const> with_all) {
+void Melt::advect_beside_grains(double dt, stokes::Field& both, std::span<const stokes::Carried> with_all) {
   if (!with_all.empty()) work_->transport.advect(work_->flow.u, dt, both, with_all);
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a) {
     const double speed = work_->patch().grid.edge[a] / dt;

@@ -59,7 +59,7 @@ class Melt final : public Model {
   [[nodiscard]] double settling_step(const GlobalState& global, const stokes::Field& rho,
                                      const stokes::Field& eta) const;
   void carry(StepState& state);
-  void advect_beside_grains(double dt, stokes::Field& both, std::span<stokes::Field* const> with_all);
+  void advect_beside_grains(double dt, stokes::Field& both, std::span<const stokes::Carried> with_all);
 
   const decomp::Comm* comm_;
   const Scene* scene_;
