@@ -137,6 +137,31 @@ TEST_F(SnapshotTest, FirstDifferenceNamesLowestIdAndField) {
   EXPECT_NE(text.find("!= 0x1.9p+1 (3.125)"), std::string::npos) << text;
 }
 
+// A row of melts is one of their cells unless it is a grain.
+TEST_F(SnapshotTest, FirstDifferenceSaysWhereACellIs) {
+  /// The row `changed` is that of a cell (0) or of a grain (1), or none.
+  const auto write_rows = [&](const char* name, std::size_t changed) {
+    Particles p(2, {Field::id, Field::position, Field::radius, Field::flow_pressure});
+    p.table().resize(world_.rank() == 0 ? 2 : 0, 0);
+    for (std::size_t row = 0; row < p.owned(); ++row) {
+      fill_row(p, row, row + 7);
+      p.data<Field::position>()[2 * row] = 1 << 19;
+      p.data<Field::position>()[2 * row + 1] = 1 << 18;
+      p.data<Field::radius>()[row] = static_cast<double>(row);
+      if (row == changed) p.data<Field::flow_pressure>()[row] = 0.125;
+    }
+    write_snapshot(world_, dir_ / name, p, {}, make_scale(), {}, {}, {}, sort_always);
+  };
+  const auto difference = [&](std::size_t row) {
+    write_rows("a.h5", 2);
+    write_rows("b.h5", row);
+    return first_difference(dir_ / "a.h5", dir_ / "b.h5");
+  };
+  const std::string of_cell = difference(0), of_grain = difference(1);
+  EXPECT_EQ(of_cell.rfind("cell 7 at (0.5, 0.25) m: flow_pressure: ", 0), 0U) << of_cell;
+  EXPECT_EQ(of_grain.rfind("particle 8: flow_pressure: ", 0), 0U) << of_grain;
+}
+
 TEST_F(SnapshotTest, FirstDifferenceSeesMissingParticlesSignOfZeroAndGlobalValues) {
   const Particles p = make_state(world_, count, round_robin);
   write(world_, dir_ / "a.h5", p);

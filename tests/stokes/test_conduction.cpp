@@ -28,11 +28,14 @@ TEST(Conduction, InsulatingWallsKeepHeat) {
       Conduction conduction(comm, g, even_boxes(g, comm.size()), 0.3, {});
       const Patch& p = conduction.patch();
       Field t = hashed_field(p, 1, 300, 20), uniform(p.size, 1.0 / 3);
-      const auto heat = [&] { return sum_over_cells(comm, p, [&](std::ptrdiff_t k) { return t[k]; }); };
+      const Field volume = hashed_field(p, 2, 1, 0.05);
+      const auto heat = [&] {
+        return sum_over_cells(comm, p, [&](std::ptrdiff_t k) { return volume[k] * t[k]; });
+      };
       const double before = heat();
       for (int n = 0; n < 50; ++n) {
-        (void)conduction.advance(0.01, t, theta);
-        (void)conduction.advance(0.01, uniform, theta);
+        (void)conduction.advance(0.01, t, theta, &volume);
+        (void)conduction.advance(0.01, uniform, theta, &volume);
       }
       EXPECT_NEAR(heat(), before, 1e-14 * before);
       for_cells(p, [&](std::ptrdiff_t k, const Int3&) { ASSERT_EQ(uniform[k], 1.0 / 3); });

@@ -40,7 +40,7 @@ TEST(Transport, AStepInAVortexHasNoNewExtrema) {
   const double before = sum_over_cells(comm, p, [&](std::ptrdiff_t k) { return step[k] * volume[k]; });
   const double dt = transport.longest_step(u, 0.5);
   EXPECT_NEAR(dt, 0.5 * g.edge[0], 0.02 * g.edge[0]);  // |u| + |v| <= 1
-  Field* const fields[]{&step};
+  const Carried fields[]{{&step}};
   for (int n = 0; n < 400; ++n) {
     transport.advect(u, dt, volume, fields);
     for_cells(p, [&](std::ptrdiff_t k, const Int3&) {
@@ -65,7 +65,7 @@ TEST(Transport, ConservesWhatAVolumeThatChangesCarries) {
     Transport transport(comm, g, even_boxes(g, comm.size()));
     const Patch& p = transport.patch();
     Field volume(p.size, 1.0), a = hashed_field(p, 1, 2, 1), b = hashed_field(p, 2, 100, 1);
-    Field* const fields[]{&a, &b};
+    const Carried fields[]{{&a}, {&b}};
     const auto sums = [&] {
       return std::array{sum_over_cells(comm, p, [&](std::ptrdiff_t k) { return volume[k]; }),
                         sum_over_cells(comm, p, [&](std::ptrdiff_t k) { return a[k] * volume[k]; }),
@@ -94,7 +94,7 @@ TEST(Transport, WhatIsUniformStaysSoToTheBit) {
       const Patch& p = transport.patch();
       const double value = 1.0 / 3;
       Field volume(p.size, 1.0), c(p.size, value);
-      Field* const fields[]{&c};
+      const Carried fields[]{{&c}};
       for (unsigned n = 0; n < 20; ++n)
         transport.advect(hashed_velocity(p, n, 1), 0.02 * g.edge[0], volume, fields);
       for_cells(p, [&](std::ptrdiff_t k, const Int3&) { ASSERT_EQ(c[k], value); });
@@ -119,7 +119,7 @@ double hump(int dim, std::int64_t n) {
   u.fill(Field(p.size, 1.0));
   for_cells(p, [&](std::ptrdiff_t k, const Int3& x) { c[k] = exact(x, 0); });
   const auto steps = static_cast<int>(std::ceil(time / transport.longest_step(u, 0.5) * (1 - 1e-12)));
-  Field* const fields[]{&c};
+  const Carried fields[]{{&c}};
   for (int s = 0; s < steps; ++s) transport.advect(u, time / steps, volume, fields);
   for_cells(p, [&](std::ptrdiff_t k, const Int3& x) { error[k] = std::fabs(c[k] - exact(x, time)); });
   return sum_over_cells(comm, p, [&](std::ptrdiff_t k) { return error[k]; }) /
@@ -132,6 +132,33 @@ TEST(Transport, ASmoothHumpIsOfSecondOrder) {
     const double coarse = hump(dim, n), fine = hump(dim, 2 * n);
     EXPECT_GT(std::log2(coarse / fine), 1.8) << dim << "D " << coarse << ' ' << fine;
   }
+}
+
+// Up from a wall of temperature 1, in what decreases evenly from there: mirror images would make cells at the wall extrema,
+// whose upper faces have no more than their mean.
+TEST(Transport, WhatLeavesAWallThatKeepsATemperatureHasItsSlope) {
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  const Grid g = unit_box(2, 16, Side::free_slip);
+  ThermalWalls walls;
+  walls[1][0] = {ThermalWall::Kind::temperature, 1};
+  const Conduction conduction(comm, g, even_boxes(g, comm.size()), 1, walls);
+  Transport transport(comm, g, even_boxes(g, comm.size()));
+  const Patch& p = transport.patch();
+  Field volume(p.size, 1.0), t(p.size, 0.0);
+  Velocity u;
+  u.fill(Field(p.size, 0.0));
+  const double h = g.edge[1];
+  for_cells(p, [&](std::ptrdiff_t k, const Int3& x) {
+    t[k] = 1 - (static_cast<double>(x[1]) + 0.5) * h;
+    u[1][k] = x[1] == 1 ? 1 : 0;
+  });
+  const Field before = t;
+  const Carried fields[]{{&t, &conduction}};
+  transport.advect(u, 1e-3 * h, volume, fields);
+  for_cells(p, [&](std::ptrdiff_t k, const Int3& x) {
+    const double gone = (before[k] - volume[k] * t[k]) / 1e-3;
+    EXPECT_NEAR(gone, x[1] == 0 ? 1 - h : x[1] == 1 ? h - 1 : 0, 1e-3 * h);
+  });
 }
 
 // A cell without volume keeps what it has, and the next ones do not notice.
@@ -148,7 +175,7 @@ TEST(Transport, CellsWithoutVolumeStayAsTheyAre) {
     u[0][k] = x[1] == 5 ? 0 : 1;
   });
   const Field before = c;
-  Field* const fields[]{&c};
+  const Carried fields[]{{&c}};
   for (int n = 0; n < 10; ++n) transport.advect(u, 0.5 * g.edge[0], volume, fields);
   for_cells(p, [&](std::ptrdiff_t k, const Int3& x) {
     EXPECT_EQ(volume[k], x[1] == 5 ? 0 : 1);
@@ -169,12 +196,16 @@ TEST(Transport, BitsAreThoseOfOneRank) {
         const auto side = static_cast<Side>(random() % 3), other = static_cast<Side>(1 + random() % 2);
         g.sides[a] = {side, side == Side::periodic ? side : other};
       }
+      ThermalWalls walls;
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
+        for (ThermalWall& wall : walls[a]) wall = {static_cast<ThermalWall::Kind>(random() % 3), 0.5};
       const auto run = [&](const decomp::Comm& comm, const std::vector<Box>& boxes) {
         Transport transport(comm, g, boxes);
+        const Conduction conduction(comm, g, boxes, 0.1, walls);
         const Patch& p = transport.patch();
         Field volume = hashed_field(p, seed, 1, 0.3), a = hashed_field(p, 1, 2, 1),
               b = hashed_field(p, 2, 0, 1);
-        Field* const fields[]{&a, &b};
+        const Carried fields[]{{&a}, {&b, &conduction}};
         double dt = 0;
         for (unsigned n = 0; n < 10; ++n) {
           const Velocity u = hashed_velocity(p, n + 100 * seed, 1);

@@ -32,8 +32,13 @@ class Conduction {
 
   /// T after `dt` [s], D within 1e-12 of its norm. theta = 1: backward Euler, of first order, damps what is short however
   /// long the step; 1/2: Crank-Nicolson, of second order. Returns the number of iterations, about 14 times
-  /// the root of the upper bound of the spectrum. Collective.
-  int advance(double dt, Field& temperature, double theta = 1);
+  /// the root of the upper bound of the spectrum. `volume`: what of a cell is warmed, M, about 1: of M T the sum is conserved,
+  /// as M T = M T_old + D. Collective.
+  int advance(double dt, Field& temperature, double theta = 1, const Field* volume = nullptr);
+
+  /// The nearest layer of copies behind walls, of any patch of the grid: on a straight line through the cell at the wall
+  /// and what that keeps, `share` times it.
+  void extend(const Patch& patch, Field& temperature, double share = 1) const;
 
   /// What goes in through a side of the domain [K m/s], summed over the faces that are this rank's; its mean over all
   /// faces of the side, which is collective. 0 of periodic axes.

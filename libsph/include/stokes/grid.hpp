@@ -62,6 +62,8 @@ using Velocity = std::array<Field, 3>;
 /// where there is no slip; the rest is mirrored. Of velocities one layer.
 void mirror_velocity(const Patch& patch, Velocity& u);
 void mirror_cells(const Patch& patch, Field& c);
+/// In the nearest layer behind a side of the domain, as far as the patch has it: factor c + shift, c in the cell at it.
+void set_behind(const Patch& patch, int axis, int side, double factor, double shift, Field& c);
 
 /// work(index of the first cell, number of cells) for each line of the rank's own cells along x, and (y, z) of it.
 template <class Work>

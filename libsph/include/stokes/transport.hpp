@@ -10,9 +10,17 @@
 
 #include "decomp/box_exchange.hpp"
 #include "decomp/comm.hpp"
+#include "stokes/conduction.hpp"
 #include "stokes/grid.hpp"
 
 namespace stokes {
+
+/// Per volume of M. What lies behind walls mirrors it, or is what conduction sees there: where the flow leaves a wall that
+/// keeps a temperature, mirror images would have the limiter take its layer for an extremum.
+struct Carried {
+  Field* values = nullptr;
+  const Conduction* conduction = nullptr;
+};
 
 class Transport {
  public:
@@ -22,10 +30,10 @@ class Transport {
   [[nodiscard]] const Patch& patch() const { return patch_; }  ///< of all fields; its copies are not read
 
   /// One step of `dt` [s]. u [m/s]: of volume, per area of face, whatever M is; through walls nothing goes. `volume`:
-  /// M, 1 in a pure fluid; `carried`: per volume of M. There are no new extrema where the |F| of a cell's faces sum up
+  /// M, 1 in a pure fluid. There are no new extrema where the |F| of a cell's faces sum up
   /// to at most the M of both stages, M + sum F and M + 2 sum F. Where M is not above 0 what is carried stays as it is.
   /// Collective.
-  void advect(const Velocity& u, double dt, Field& volume, std::span<Field* const> carried);
+  void advect(const Velocity& u, double dt, Field& volume, std::span<const Carried> carried);
 
   /// The time [s] in which u passes the share `cfl` of a cell: cfl / max sum_a |u_a| / edge_a, of a cell's faster face
   /// along each axis, and no cell gains or loses more than a tenth of its volume: what is left of a flow at rest is the
@@ -37,7 +45,7 @@ class Transport {
   /// u dt / edge on the lower and upper faces of the rank's cells.
   void set_courant(const Velocity& u, double dt);
   /// The rank's cells of `fields` and their copies, into `wide_values_`.
-  void widen(std::span<const Field* const> fields);
+  void widen(std::span<const Carried> fields);
 
   const decomp::Comm* comm_;
   Patch patch_, wide_;  ///< the limiter looks at two cells on either side

@@ -9,6 +9,7 @@
 
 #include "inspect/compare_contacts.hpp"
 #include "sph/core/error.hpp"
+#include "sph/core/findings.hpp"
 #include "sph/inspect/inspect.hpp"
 #include "sph/output/snapshot.hpp"
 
@@ -79,6 +80,28 @@ std::string first_component(const FieldInfo& i, int dim, const std::byte* a, con
   return {};
 }
 
+template <class T>
+T value_of(const StateFile& file, Field f, std::uint64_t index) {
+  T out;
+  std::memcpy(&out, file.column(f).data() + index * sizeof(T), sizeof(T));
+  return out;
+}
+
+/// "particle 7", or "cell 7 at (0.5, 1.5) m" of a row of melts, which is no grain.
+std::string name_of(const StateFile& file, std::uint64_t id, std::uint64_t row) {
+  const auto has = [&](Field f) {
+    return std::ranges::find(file.summary().contents.fields, f) != file.summary().contents.fields.end();
+  };
+  if (!has(Field::flow_pressure) || !has(Field::position) ||
+      (has(Field::radius) && value_of<double>(file, Field::radius, row) > 0))
+    return fmt::format("particle {}", id);
+  std::vector<double> at;
+  const auto d = static_cast<std::uint64_t>(file.summary().dim);
+  for (std::uint64_t a = 0; a < d; ++a)
+    at.push_back(file.summary().scale.metres(value_of<std::int64_t>(file, Field::position, row * d + a)));
+  return fmt::format("cell {} {}", id, place_text(at));
+}
+
 void compare_field(const StateFile& a, const StateFile& b, const Ids& ids_a, const Ids& ids_b, Field f,
                    Lowest& lowest) {
   const std::vector<std::byte> values_a = a.column(f);
@@ -88,7 +111,7 @@ void compare_field(const StateFile& a, const StateFile& b, const Ids& ids_a, con
     const std::byte* at_a = values_a.data() + ids_a.row[k] * w;
     const std::byte* at_b = values_b.data() + ids_b.row[k] * w;
     if (std::memcmp(at_a, at_b, w) != 0)
-      lowest = {k, fmt::format("particle {}: {}", ids_a.id[k],
+      lowest = {k, fmt::format("{}: {}", name_of(a, ids_a.id[k], ids_a.row[k]),
                                first_component(info(f), a.summary().dim, at_a, at_b))};
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "decomp/exact_sum.hpp"
 #include "sph/core/exact_math.hpp"
@@ -92,13 +93,13 @@ bool Melt::report(const StepState& state, Reduction& reduction) {
   return std::isfinite(state.global.dt);
 }
 
-// Transport makes no new extrema unless cells are emptied: at rest, in endless steps, by what the solver leaves.
+// Transport makes no new extrema unless cells are emptied: at rest, in endless steps, by what rounding leaves.
 void Melt::guard_step(const Reduction& reduction, const GlobalState& global) const {
   constexpr double most = 0.01;
   if (reduction[beyond_] > most)
     throw GuardError(
         fmt::format("{}a cell has {:.3g} more of a melt than all of it, or less than none: what the solver "
-                    "leaves of a flow at rest carries it away; give time.dt, or reduce melt.tolerance",
+                    "leaves of a flow at rest carries it away; give time.dt",
                     step_text(global.step), reduction[beyond_]));
 }
 
@@ -138,7 +139,7 @@ void Melt::flow(StepState& state) {
     if (state.global.step == 0)
       stokes::for_own(p, [&](std::size_t k) { work_->share[k] = 1 - work_->suspended->solid[k]; });
   }
-  refuse_senseless(state.global, rho, eta);
+  const double settled = settling_step(state.global, rho, eta);
   work_->solver.set_viscosity(std::move(eta), work_->stratification(before));
   // What the tolerance left in cells flows out of them in the next step.
   stokes::Field source(p.size, 0.0);
@@ -163,7 +164,8 @@ void Melt::flow(StepState& state) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a)
     rows_.store(work_->flow.u[a], Field::velocity, state.particles, a);
   rows_.store(work_->flow.p, Field::flow_pressure, state.particles);
-  courant_step_ = std::min(work_->transport.longest_step(work_->flow.u, m.courant), conduction_step(*scene_));
+  courant_step_ =
+      std::min({work_->transport.longest_step(work_->flow.u, m.courant), conduction_step(*scene_), settled});
   if (has_grains_) {  // Suspension shares it out
     clock.interval = std::min(scene_->time.dt.value_or(any_step), courant_step_);
     if (before > 0) clock.interval = std::min(clock.interval, longer * before);
@@ -177,14 +179,18 @@ void Melt::flow(StepState& state) {
                          : not_finite(state.global));
 }
 
-void Melt::refuse_senseless(const GlobalState& global, const stokes::Field& rho,
-                            const stokes::Field& eta) const {
+// What lies a off its layer is driven by about f = drho g a / L and comes back at f L^2 / (pi^2 eta), a times drho g L /
+// (pi^2 eta); so much of it as the tolerance is what the solver leaves unknown. A tenth of the time in which that goes as
+// far as a is the longest step: in a longer one a flow at rest would throw melts further off than they are.
+double Melt::settling_step(const GlobalState& global, const stokes::Field& rho,
+                           const stokes::Field& eta) const {
   constexpr double most = std::numeric_limits<double>::infinity();
-  std::array<double, 3> ends{-most, -most, -most};  // - least density, - least and largest viscosity
+  // - least density of the melt, - least and largest viscosity, - least and largest density with grains
+  std::array<double, 5> ends{-most, -most, -most, -most, -most};
   stokes::for_own(work_->patch(), [&](std::size_t k) {
-    ends[0] = std::max(ends[0], -rho[k]);
-    ends[1] = std::max(ends[1], -eta[k]);
-    ends[2] = std::max(ends[2], eta[k]);
+    const double all = rho[k] + (has_grains_ ? work_->suspended->excess[k] : 0.0);
+    const std::array here{-rho[k], -eta[k], eta[k], -all, all};
+    for (std::size_t e = 0; e < ends.size(); ++e) ends[e] = std::max(ends[e], here[e]);
   });
   comm_->max(ends);
   if (has_grains_ && !(ends[0] < 0))  // without grains only differences of density count
@@ -199,6 +205,14 @@ void Melt::refuse_senseless(const GlobalState& global, const stokes::Field& rho,
         fmt::format("{}viscosities are {:.4g} to {:.4g} Pa s, springs of grains included: check "
                     "those of melts, melt.viscosity_fall and normal_stiffness",
                     step_text(global.step), -ends[1], ends[2]));
+  constexpr double share = 0.1 * std::numbers::pi * std::numbers::pi;
+  double g2 = 0, length = 0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a) {
+    g2 += scene_->domain.gravity[a] * scene_->domain.gravity[a];
+    length = std::max(length, scene_->domain.upper[a] - scene_->domain.lower[a]);
+  }
+  const double pull = scene_->domain.melt.tolerance * (ends[3] + ends[4]) * std::sqrt(g2) * length;
+  return pull > 0 ? share * -ends[1] / pull : most;
 }
 
 // Half of the conduction, what the flow carries, the other half (Strang 1968): steady states keep the second order.
@@ -206,28 +220,29 @@ void Melt::carry(StepState& state) {
   if (!is_last(state.global)) return;
   const double dt = has_grains_ ? state.global.flow.interval : state.global.dt;
   const bool two = state.particles.has(Field::composition);
-  std::vector<stokes::Field*> with_all, with_melt;
-  if (work_->conduction) (has_grains_ ? with_all : with_melt).push_back(&work_->temperature);
-  if (two) with_melt.push_back(&work_->composition);
-  const auto conduct = [&] {
+  std::vector<stokes::Carried> with_all, with_melt;
+  if (work_->conduction)
+    (has_grains_ ? with_all : with_melt).push_back({&work_->temperature, &*work_->conduction});
+  if (two) with_melt.push_back({&work_->composition});
+  stokes::Field both = work_->share;  // melt and grains have one temperature
+  if (has_grains_)
+    stokes::for_own(work_->patch(), [&](std::size_t k) { both[k] += work_->suspended->solid[k]; });
+  const auto conduct = [&](const stokes::Field& volume) {
     if (!work_->conduction) return;
     const double theta = implicitness(work_->patch().grid, scene_->domain.melt.diffusivity, 0.5 * dt);
-    (void)work_->conduction->advance(0.5 * dt, work_->temperature, theta);
+    (void)work_->conduction->advance(0.5 * dt, work_->temperature, theta, &volume);
   };
-  conduct();
-  if (has_grains_) advect_beside_grains(dt, with_all);
+  conduct(both);
+  if (has_grains_) advect_beside_grains(dt, both, with_all);
   work_->transport.advect(work_->flow.u, dt, work_->share, with_melt);
-  conduct();
+  conduct(has_grains_ ? both : work_->share);
   if (work_->conduction) rows_.store(work_->temperature, Field::temperature, state.particles);
   if (two) rows_.store(work_->composition, Field::composition, state.particles);
   rows_.store(work_->share, Field::melt_share, state.particles);
 }
 
 // Heat is that of both, who share a volume that stays; the melt's own flux is what grains leave of that of both.
-void Melt::advect_beside_grains(double dt, std::span<stokes::Field* const> with_all) {
-  stokes::Field both(work_->patch().size, 1.0);
-  stokes::for_own(work_->patch(),
-                  [&](std::size_t k) { both[k] = work_->share[k] + work_->suspended->solid[k]; });
+void Melt::advect_beside_grains(double dt, stokes::Field& both, std::span<const stokes::Carried> with_all) {
   if (!with_all.empty()) work_->transport.advect(work_->flow.u, dt, both, with_all);
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a) {
     const double speed = work_->patch().grid.edge[a] / dt;

@@ -32,7 +32,7 @@ std::vector<double> Melt::values(const Particles& cells, const GlobalState& glob
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene_->dim); ++a)
       square += work_->flow.u[a][k] * work_->flow.u[a][k];
     sums[0].add(square);
-    sums[1].add(work_->temperature[k]);
+    sums[1].add(work_->temperature[k] * (has_grains_ ? 1.0 : work_->share[k]));
     sums[2].add(work_->composition[k] * work_->share[k]);
   });
   decomp::ExactSum::all_reduce(*comm_, sums);

@@ -74,28 +74,26 @@ Conduction::Conduction(const decomp::Comm& comm, const Grid& grid, const std::ve
 void Conduction::refresh(Field& t, bool change) {
   const std::array values{decomp::cell_values(std::span(t), patch_.frame)};
   halo_.copy(values, values);
-  for (int axis = 0; axis < patch_.grid.dim; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      const auto a = static_cast<std::size_t>(axis);
-      const ThermalWall& wall = walls_[a][static_cast<std::size_t>(side)];
-      const std::ptrdiff_t behind = side == 0 ? -patch_.stride[a] : patch_.stride[a];
-      const double value = change ? 0.0 : wall.value;
-      switch (wall.kind) {
-        case ThermalWall::Kind::insulating:
-          for_cells_at(patch_, axis, side, [&](std::ptrdiff_t k) { t[k + behind] = t[k]; });
-          break;
-        case ThermalWall::Kind::temperature:
-          for_cells_at(patch_, axis, side, [&](std::ptrdiff_t k) { t[k + behind] = 2 * value - t[k]; });
-          break;
-        case ThermalWall::Kind::flux: {
-          const double rise = value * patch_.grid.edge[a] / diffusivity_;
-          for_cells_at(patch_, axis, side, [&](std::ptrdiff_t k) { t[k + behind] = t[k] + rise; });
-        }
-      }
-    }
+  extend(patch_, t, change ? 0.0 : 1.0);
 }
 
-int Conduction::advance(double dt, Field& temperature, double theta) {
+void Conduction::extend(const Patch& patch, Field& t, double share) const {
+  for (int axis = 0; axis < patch.grid.dim; ++axis) {
+    if (patch.grid.periodic(axis)) continue;
+    const auto a = static_cast<std::size_t>(axis);
+    for (int side = 0; side < 2; ++side) {
+      const ThermalWall& wall = walls_[a][static_cast<std::size_t>(side)];
+      const double value = share * wall.value;
+      if (wall.kind == ThermalWall::Kind::temperature)
+        set_behind(patch, axis, side, -1, 2 * value, t);
+      else
+        set_behind(patch, axis, side, 1,
+                   wall.kind == ThermalWall::Kind::flux ? value * patch.grid.edge[a] / diffusivity_ : 0.0, t);
+    }
+  }
+}
+
+int Conduction::advance(double dt, Field& temperature, double theta, const Field* volume) {
   const Patch& p = patch_;
   std::array<double, 3> whole{}, weight{};
   double largest = 1;
@@ -128,7 +126,9 @@ int Conduction::advance(double dt, Field& temperature, double theta) {
     rho = rho_next;
     left *= rho;
   }
-  for_own(p, [&](std::ptrdiff_t k) { temperature[k] += change_[k]; });
+  for_own(p, [&](std::ptrdiff_t k) {
+    temperature[k] += volume == nullptr ? change_[k] : change_[k] / (*volume)[k];
+  });
   return iterations;
 }
 

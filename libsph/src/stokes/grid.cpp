@@ -99,4 +99,12 @@ void mirror_cells(const Patch& p, Field& c) {
   }
 }
 
+void set_behind(const Patch& p, int axis, int side, double factor, double shift, Field& c) {
+  const auto a = static_cast<std::size_t>(axis);
+  const std::int64_t at = side == 0 ? 0 : p.grid.cells[a] - 1, behind = side == 0 ? -1 : at + 1;
+  if (p.own.empty() || behind < p.frame.lo[a] || behind >= p.frame.hi[a]) return;
+  const std::ptrdiff_t from = (at - p.frame.lo[a]) * p.stride[a], to = (behind - p.frame.lo[a]) * p.stride[a];
+  for_frame_lines(p, a, [&](std::ptrdiff_t k) { c[k + to] = factor * c[k + from] + shift; });
+}
+
 }  // namespace stokes

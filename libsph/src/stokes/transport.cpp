@@ -117,20 +117,24 @@ void Transport::set_courant(const Velocity& u, double dt) {
   mirror_velocity(patch_, courant_);
 }
 
-void Transport::widen(std::span<const Field* const> fields) {
+void Transport::widen(std::span<const Carried> fields) {
   wide_values_.resize(std::max(wide_values_.size(), fields.size()), Field(wide_.size, 0.0));
   std::vector<decomp::CellValues> values;
   for (std::size_t f = 0; f < fields.size(); ++f) {
     for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t y, std::int64_t z) {
-      std::copy_n(fields[f]->data() + first, n, wide_values_[f].data() + wide_.at(wide_.own.lo[0], y, z));
+      std::copy_n(fields[f].values->data() + first, n,
+                  wide_values_[f].data() + wide_.at(wide_.own.lo[0], y, z));
     });
     values.push_back(decomp::cell_values(std::span(wide_values_[f]), wide_.frame));
   }
   cell_halo_.copy(values, values);
-  for (std::size_t f = 0; f < fields.size(); ++f) mirror_cells(wide_, wide_values_[f]);
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    mirror_cells(wide_, wide_values_[f]);
+    if (fields[f].conduction != nullptr) fields[f].conduction->extend(wide_, wide_values_[f]);
+  }
 }
 
-void Transport::advect(const Velocity& u, double dt, Field& volume, std::span<Field* const> carried) {
+void Transport::advect(const Velocity& u, double dt, Field& volume, std::span<const Carried> carried) {
   set_courant(u, dt);
   for_lines(patch_, [&](std::ptrdiff_t first, std::int64_t n, std::int64_t, std::int64_t) {
     for (std::ptrdiff_t k = first; k < first + n; ++k) growth_[k] = 0;
@@ -140,22 +144,22 @@ void Transport::advect(const Velocity& u, double dt, Field& volume, std::span<Fi
     }
   });
   const double *m = volume.data(), *growth = growth_.data();
-  widen({carried.data(), carried.size()});
+  widen(carried);
   stage_.resize(std::max(stage_.size(), carried.size()), Field(patch_.size, 0.0));
-  std::vector<const Field*> stages;
+  std::vector<Carried> stages;
   for (std::size_t f = 0; f < carried.size(); ++f) {
-    const double* old = carried[f]->data();
+    const double* old = carried[f].values->data();
     double* next = stage_[f].data();
     for_inflow(patch_, wide_, courant_, wide_values_[f],
                [&](std::ptrdiff_t first, std::int64_t n, const double* in) {
                  for (std::ptrdiff_t k = first; k < first + n; ++k)
                    next[k] = old[k] + share(in[k - first], m[k] + growth[k]);
                });
-    stages.push_back(&stage_[f]);
+    stages.push_back({&stage_[f], carried[f].conduction});
   }
   widen(stages);
   for (std::size_t f = 0; f < carried.size(); ++f) {
-    double* c = carried[f]->data();
+    double* c = carried[f].values->data();
     const double* middle = stage_[f].data();
     for_inflow(patch_, wide_, courant_, wide_values_[f],
                [&](std::ptrdiff_t first, std::int64_t n, const double* in) {

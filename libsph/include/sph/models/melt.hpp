@@ -54,10 +54,12 @@ class Melt final : public Model {
 
  private:
   void flow(StepState& state);
-  /// Throws GuardError.
-  void refuse_senseless(const GlobalState& global, const stokes::Field& rho, const stokes::Field& eta) const;
+  /// The longest step [s] in which what the solver leaves unknown of a flow at rest does not count. Throws GuardError
+  /// of what makes no sense. Collective.
+  [[nodiscard]] double settling_step(const GlobalState& global, const stokes::Field& rho,
+                                     const stokes::Field& eta) const;
   void carry(StepState& state);
-  void advect_beside_grains(double dt, std::span<stokes::Field* const> with_all);
+  void advect_beside_grains(double dt, stokes::Field& both, std::span<const stokes::Carried> with_all);
 
   const decomp::Comm* comm_;
   const Scene* scene_;
