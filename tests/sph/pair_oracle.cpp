@@ -70,6 +70,7 @@ void PairOracle::load() {
     }
     q.mass = get(Field::mass, row, 0);
     q.density = get(Field::density, row, 0);
+    q.weight = q.density * (1 - scene_.domain.background.density / g.density);
     q.volume = q.density > 0 ? q.mass / q.density : 0.0;
     q.sound = get(Field::sound_speed, row, 0);
     if (!p.has(Field::sound_speed)) {
@@ -85,7 +86,6 @@ void PairOracle::load() {
     q.temperature = get(Field::temperature, row, 0);
     q.conductivity = g.heat.material.conductivity;
     q.sensible_heat = g.heat.material.specific_heat * q.temperature;
-    q.wall_flux = g.heat.wall_flux.value_or(0);
     q.warm = g.heat.temperature.has_value();
     q.permeability = g.bubbly.permeability.coefficient;
     q.gas_mobility = get(Field::gas_mobility, row, 0);
@@ -182,6 +182,7 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("WallShare"):
     case key("Conduction"):
     case key("WallConduction"):
+    case key("WallTransferConduction"):
     case key("GasFlow"):
     case key("GasHeat"):
     case key("WallGas"):

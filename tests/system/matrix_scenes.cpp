@@ -131,6 +131,8 @@ const std::vector<Source>& sources() {
         "terms.viscous_heat=true"}},
       // melt that freezes and rock that melts, magma that fragments and heals, after a while
       {"freezing2d", "tests/scenes/freezing2d.toml", {"time.steps=1"}},
+      // boxes that renew what flows through them, a background, walls that cool and radiate, means that are state
+      {"through2d", "tests/scenes/through2d.toml", {"time.steps=1"}},
       {"laws3d",
        "tests/scenes/box3d_gas.toml",
        {"group.magma.becomes.0.void_fraction_above=0.09", "group.magma.viscosity=",

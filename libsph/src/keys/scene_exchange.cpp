@@ -62,6 +62,23 @@ void read_heat(const GroupReader& table, Group& group) {
   inner.finish();
 }
 
+/// Heat by a coefficient and by radiation add up; a temperature or a flux stands alone.
+void read_wall_heat(const GroupReader& table, Group& group) {
+  if (table.has("heat_transfer")) {
+    const auto inner = table.table<keys::heat_transfer>();
+    inner.read(group.heat.transfer);
+    inner.finish();
+  }
+  if (table.has("radiation")) {
+    const auto inner = table.table<keys::radiation>();
+    inner.read(group.heat.radiation);
+    inner.finish();
+  }
+  using Name = GroupReader::Name<>;
+  for (const Name way : {Name("heat_transfer"), Name("radiation")})
+    for (const Name other : {Name("temperature"), Name("heat_flux")}) table.not_both(other, way);
+}
+
 /// All matter has heat, or none; what has starts with a temperature.
 void check_heat(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
   const auto warm = [](const Group& g) { return g.heat.material.specific_heat > 0; };
@@ -71,7 +88,9 @@ void check_heat(const std::vector<GroupReader>& tables, const std::vector<Group>
     if (!is_matter(g) && g.kind != GroupKind::wall) continue;
     if (!any) {
       tables[k].only_if(false, "temperature", "there is no heat: give a fluid or a solid group.heat");
-      tables[k].only_if(false, "heat_flux", "there is no heat: give a fluid or a solid group.heat");
+      using Name = GroupReader::Name<>;
+      for (const Name way : {Name("heat_flux"), Name("heat_transfer"), Name("radiation")})
+        tables[k].only_if(false, way, "there is no heat: give a fluid or a solid group.heat");
       continue;
     }
     if (any_grains(groups) && warm(g))
@@ -137,6 +156,7 @@ void check_viscosity_laws(const std::vector<GroupReader>& tables, const std::vec
 void read_exchange(const GroupReader& table, Group& group) {
   read_permeability(table, group);
   read_heat(table, group);
+  if (group.kind == GroupKind::wall) read_wall_heat(table, group);
   read_viscosity_law(table, group);
 }
 

@@ -27,18 +27,27 @@ double mobility(const Group& g, double absolute_pressure, double void_fraction) 
          g.bubbly.permeability.gas_viscosity;
 }
 
+/// BubblyEos::gas_stiffness(), of a group that exsolves slowly with what is dissolved.
+double stiffness(const Group& g, double gas_content, const double* dissolved, double pressure) {
+  return g.bubbly.exsolution_time > 0 ? SlowBubblyEos(g, gas_content, *dissolved).gas_stiffness(pressure)
+                                      : bubbly_eos(g, gas_content).gas_stiffness(pressure);
+}
+
 struct Mobilities {
-  static constexpr FieldSet reads{Field::pressure, Field::void_fraction, Field::group};
+  static constexpr FieldSet reads{Field::position, Field::pressure, Field::void_fraction, Field::group};
   static constexpr FieldSet writes{Field::gas_mobility, Field::gas_pressure};
   const Scene* scene;
+  const Materials* materials;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     const double *pressure = p.get<Field::pressure>(), *psi = p.get<Field::void_fraction>();
     const auto* group = p.get<Field::group>();
     double *b = p.get<Field::gas_mobility>(), *drives = p.get<Field::gas_pressure>();
     for_movers(step.ranges, [&](std::size_t i) {
-      b[i] = mobility(scene->groups[group[i]], pressure[i] + scene->domain.surface_pressure, psi[i]);
-      drives[i] = pressure[i];
+      const Group& g = scene->groups[group[i]];
+      const double outside = materials->outer(p, i, g);
+      b[i] = mobility(g, pressure[i] + outside, psi[i]);
+      drives[i] = pressure[i] + (outside - scene->domain.surface_pressure);
     });
     for_walls(step.ranges, [&](std::size_t i) {
       b[i] = 0;
@@ -124,7 +133,7 @@ void Degassing::add_to(Builder& b) const {
   b.add_fields({Field::liquid_mass, Field::gas_mobility, Field::gas_pressure});
   if (walls || escape) b.add_fields({Field::gas_inflow});
   if ((walls || escape) && s.has_heat()) b.add_fields({Field::heat_inflow});
-  b.add_update("gas mobilities", Mobilities{&s});
+  b.add_update("gas mobilities", Mobilities{&s, materials_});
   if (s.has_heat())
     add_exchange(b, "gas flow", {term<GasFlow>, term<GasHeat>});
   else
@@ -174,8 +183,9 @@ Degassing::Fastest Degassing::at_start(const Particles& p) const {
     if (!flows(g)) continue;
     const BubblyEos eos = bubbly_eos(g, content[i]);
     const double pressure = eos.pressure(rho[i]);
+    const double dissolved = dissolved_gas(g, content[i], pressure);  // all starts in equilibrium
     found.see(g.bubbly.permeability.coefficient * mobility(g, pressure, eos.void_fraction(pressure)),
-              eos.gas_stiffness(pressure));
+              stiffness(g, content[i], &dissolved, pressure));
   }
   return found;
 }
@@ -192,13 +202,14 @@ bool Degassing::report(const StepState& s, Reduction& r) {
   const Particles& p = s.particles;
   const auto* group = p.data<Field::group>();
   const double *b = p.data<Field::gas_mobility>(), *pressure = p.data<Field::gas_pressure>();
+  const double* w = p.data<Field::dissolved_gas>();
   Fastest found;
   for (std::size_t i = 0; i < p.owned(); ++i) {
     const Group& g = scene.groups[group[i]];
     if (flows(g))
       found.see(g.bubbly.permeability.coefficient * b[i],
-                bubbly_eos(g, p.data<Field::gas_content>()[i])
-                    .gas_stiffness(pressure[i] + scene.domain.surface_pressure));
+                stiffness(g, p.data<Field::gas_content>()[i], w != nullptr ? w + i : nullptr,
+                          pressure[i] + scene.domain.surface_pressure));
   }
   r[in_.conductance] = found.conductance;
   r[in_.stiffness] = found.stiffness;

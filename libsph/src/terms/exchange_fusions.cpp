@@ -11,6 +11,7 @@ template <class Kernel, int D>
 std::vector<Fusion> exchanges() {
   return {fusion_of<double, D, Kernel, Conduction>(),
           fusion_of<double, D, Kernel, WallConduction>(),
+          fusion_of<double, D, Kernel, WallTransferConduction>(),
           fusion_of<double, D, Kernel, GasFlow>(),
           fusion_of<double, D, Kernel, GasFlow, GasHeat>(),
           fusion_of<double, D, Kernel, WallGas>(),

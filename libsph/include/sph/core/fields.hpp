@@ -88,6 +88,9 @@ enum class Field : std::uint8_t {
   gas_heat,
   waiting_for,
   waiting_time,
+  void_fraction_mean,
+  temperature_mean,
+  dissolved_gas,
   released_energy,
   count_
 };
@@ -285,6 +288,12 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::waiting_for, "waiting_for", "1", Type::u32, Shape::scalar, true, false,
      "row of its group's table of transitions that holds, from 1; 0: none"},
     {Field::waiting_time, "waiting_time", "s", Type::f64, Shape::scalar, true, false, "for how long it has"},
+    {Field::void_fraction_mean, "void_fraction_mean", "1", Type::f64, Shape::scalar, true, true,
+     "running mean that transitions are judged by"},
+    {Field::temperature_mean, "temperature_mean", "K", Type::f64, Shape::scalar, true, true,
+     "running mean that transitions are judged by"},
+    {Field::dissolved_gas, "dissolved_gas", "1", Type::f64, Shape::scalar, true, true,
+     "w: what of bubbly magma's volatiles is dissolved where that lags behind, per mass of liquid melt"},
     {Field::released_energy, "released_energy", "J", Type::f64, Shape::scalar, true, false,
      "elastic energy that a particle lost by transitions since the start"},
 }};

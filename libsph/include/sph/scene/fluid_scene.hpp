@@ -26,6 +26,7 @@ struct BubblyMaterial {
   double gas_rt = 0;               ///< R T, Ida eq. (13) [m^2/s^2]
   double solubility_pressure = 0;  ///< p_s [Pa]
   double solubility_exponent = 1;  ///< gamma [1]
+  double exsolution_time = 0;      ///< tau, in which what is dissolved follows the pressure; 0: at once [s]
   Permeability permeability;       ///< of its gas
   friend bool operator==(const BubblyMaterial&, const BubblyMaterial&) = default;
 };
