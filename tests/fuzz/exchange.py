@@ -36,8 +36,50 @@ class Exchanges:
             terms["gas_escape"] = d.chance("escape", 0.5)
         if not terms:
             del scene["terms"]
-        if (warm or flows) and d.chance("budget", 0.3):
+        self.means(d, matter)
+        renewed = self.resets(d, scene, matter, warm)
+        if (warm or flows or renewed) and d.chance("budget", 0.3):
             scene["monitor"] = [{"kind": "budget"}]
+        self.background(d, scene)
+
+    def means(self, d, matter):
+        for k, g in enumerate(matter):
+            for row in g.get("becomes", []):
+                if d.chance(f"means/{k}", 0.3):
+                    row["average"] = d.part("mean", k).log("over", 0.1, 20) * self.h / self.c
+
+    def resets(self, d, scene, matter, warm):
+        gas = [g["gas_content"] for g in matter if g.get("eos") == "bubbly"]
+        boxes, domain = [], scene["domain"]
+        for k in range(d.weighted("resets", {0: 5, 1: 2, 2: 1}) if warm or gas else 0):
+            b_d, box = d.part("reset", k), {"lower": [], "upper": []}
+            for a, (low, high) in enumerate(zip(domain["lower"], domain["upper"])):
+                ends = sorted(b_d.real(f"{a}/{side}", low, high) for side in "lu")
+                box["lower"].append(ends[0]), box["upper"].append(ends[1] + 1e-3 * self.dx)
+            if warm and (not gas or b_d.chance("warm", 0.7)):
+                box["temperature"] = matter[0]["temperature"] * b_d.real("T", 0.7, 1.4)
+            if gas and ("temperature" not in box or b_d.chance("gas", 0.5)):
+                box["gas_content"] = gas[0] * b_d.one("m", [0.0, 0.8, 1.1, 1.5])
+            boxes.append(box)
+        if boxes:
+            scene["reset"] = boxes
+        return bool(boxes)
+
+    def background(self, d, scene):
+        """Where there is no surface."""
+        box, gas = self.box, any(g.get("eos") == "bubbly" for g in scene["group"])
+        along = [g for g, end in zip(self.gravity, box.ends) if end == "periodic" and g]
+        closed = all(end == "wall" or (end == "periodic" and n == high - low) for end, n, low, high in
+                     zip(box.ends, box.n, box.lower, box.upper))
+        empty = any(r["group"] == "none" for r in scene["start"]["region"])
+        if not closed or empty or self.pulled or not any(self.gravity) or (gas and along) or not d.chance("background", 0.5):
+            return
+        scene["domain"]["background_density"] = self.rho * d.one("background is", [1.0, 1.0, 0.5, 1.3])
+        if gas:
+            g = math.sqrt(sum(x * x for x in self.gravity))
+            highest = sum(max(-pull * low, -pull * high) for pull, low, high in
+                          zip(self.gravity, scene["domain"]["lower"], scene["domain"]["upper"])) / g
+            scene["domain"]["background_surface"] = highest + d.one("deep", [0.0, 5.0, 30.0]) * self.dx
 
     def heat(self, d, matter, walls, fastest):
         alike = d.chance("alike", 0.4)
@@ -63,11 +105,21 @@ class Exchanges:
                     row["hold"] = c_d.log("hold is", 0.1, 5) * self.h / self.c
                 g["becomes"] = [*g.get("becomes", []), row]
         for k, w in enumerate(walls):
-            way = d.part("wall", k).one("wall", ["tight", "temperature", "flux"])
+            way = d.part("wall", k).one("wall", ["tight", "temperature", "flux", "face"])
             if way == "temperature":
                 w["temperature"] = mean * d.part("wall", k).real("T", 0.7, 1.4)
+            elif way == "face":
+                self.face(d.part("wall", k), w, capacity, mean)
             elif way == "flux":
                 w["heat_flux"] = 1e-3 * self.rho * capacity * mean * self.c * d.part("wall", k).real("q", -0.1, 1)
+
+    def face(self, d, wall, capacity, mean):
+        rate = self.rho * capacity * self.c
+        both = d.chance("both", 0.3)
+        if both or d.chance("linear", 0.5):
+            wall["heat_transfer"] = {"coefficient": rate * d.log("h", 1e-4, 1e3), "temperature": mean * d.real("T", 0, 2)}
+        if both or "heat_transfer" not in wall:
+            wall["radiation"] = {"emissivity": d.real("e", 0.05, 1), "temperature": mean * d.real("T_a", 0, 3)}
 
     def gas_flow(self, d, matter, walls, fastest):
         flows = False
@@ -83,6 +135,11 @@ class Exchanges:
                 made["exponent"] = d.part("law", k).one("exponent", [1.0, 2.0, 3.4])
             if law == "percolation":
                 made["threshold"] = d.part("law", k).one("threshold", [0.0, 0.01, 0.1, 0.3])
+                if d.chance(f"latch/{k}", 0.4):
+                    made["closing_threshold"] = made["threshold"] * d.part("law", k).one("closing", [0.0, 0.5, 1.0])
+            if d.chance(f"inertia/{k}", 0.3):
+                made["inertial_coefficient"] = d.part("law", k).log("inertia", 1e-4, 1) * made["coefficient"]
+                made["inertial_exponent"] = d.part("law", k).one("inertial exponent", [0.0, 0.3])
             g["permeability"], flows = made, True
         for k, w in enumerate(walls):
             if flows and d.chance(f"open/{k}", 0.5):

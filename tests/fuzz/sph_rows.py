@@ -53,7 +53,9 @@ class FromFile:
             row["id"] = number
         for key in ("lattice", "origin", "lower", "upper", "region", "jitter"):
             start.pop(key, None)
-        if d.chance("surface", 0.3):
+        if "background_density" in case["scene"]["domain"]:
+            start["free_surface"] = False
+        elif d.chance("surface", 0.3):
             start["free_surface"] = d.chance("free", 0.5)
         case["rows of start"] = rows
         case["format"] = d.one("format", ["csv", "csv", "h5"])

@@ -161,6 +161,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
         if exponent != 1:
             group["solubility_exponent"] = exponent
         self.viscosities(d, group)
+        if d.chance("lags", 0.3):
+            group["exsolution_time"] = d.log("tau", 1e-3, 100) * self.h / self.c
         if not d.chance("fragments", 0.5):
             return [group]
         spray = dict(group, name=group["name"] + "_spray")
@@ -237,6 +239,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
         out = {"spacing": self.dx}
         if self.dim == 2 and d.chance("hexagonal", 0.15):
             out["lattice"] = "hexagonal"
+        elif self.dim == 3 and "periodic" not in box.ends and d.chance("fcc", 0.15):
+            out["lattice"] = "fcc"
         elif d.chance("say square", 0.1):
             out["lattice"] = "square"
         out |= {"lower": self.metres(lower), "upper": self.metres(upper)}

@@ -31,6 +31,7 @@ Scene scene_for(const Fusion& fusion) {
   for (std::size_t a = 0; a < 3; ++a)
     s.domain.lower[a] = -0.3 - 0.1 * static_cast<double>(a), s.domain.upper[a] = 3;
   s.domain.gravity = {1.7, -8.9, 2.3};
+  s.domain.background.density = 400;
   s.domain.central_pull = 2.9;
   s.domain.pull_centre = {0.11, -0.07, 0.23};
   s.groups.resize(5);
@@ -50,7 +51,12 @@ Scene scene_for(const Fusion& fusion) {
   s.groups[solid].bubbly.permeability.coefficient = 0;
   s.groups[wall].heat.temperature = 800;
   s.groups[wall].wall.gas_pressure = 300;
-  s.groups[clamp].heat.wall_flux = 70;
+  if (needs(Value::wall_transfer)) {
+    s.groups[clamp].heat.transfer = {90, 700};
+    s.groups[clamp].heat.radiation = {0.7, 900};
+  } else {
+    s.groups[clamp].heat.wall_flux = 70;
+  }
   s.groups[clamp].wall.slip = true;
   s.groups[solid].solid.shear_modulus = 0.4 * s.groups[solid].eos.bulk_modulus;
   s.groups[clamp].wall.clamps = solid;

@@ -15,6 +15,26 @@ constexpr double contact_stiffness = 0.5, interface_damping = 0.03, background =
 double power(double x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
 /// 2ab / (a + b)
 double harmonic(double a, double b) { return a + b > 0 ? 2 * a * b / (a + b) : 0.0; }
+/// Into a particle at T, whose way to the face conducts so much: the face is as warm as makes both fluxes the same.
+struct FaceFlux {
+  double given, slope;
+};
+FaceFlux face_flux(const GroupHeat& wall, double t, double conducts) {
+  if (wall.wall_flux) return {*wall.wall_flux, 0};
+  const auto from_wall = [&](double face) {
+    return wall.transfer.coefficient * (wall.transfer.temperature - face) +
+           wall.radiation.emissivity * 5.670374419e-8 *
+               (power(wall.radiation.temperature, 4) - power(face, 4));
+  };
+  double cold = 0, warm = 1e5;
+  for (int k = 0; k < 200; ++k) {
+    const double face = 0.5 * (cold + warm);
+    (from_wall(face) > conducts * (face - t) ? cold : warm) = face;
+  }
+  const double takes =
+      wall.transfer.coefficient + 4 * wall.radiation.emissivity * 5.670374419e-8 * power(cold, 3);
+  return {from_wall(cold), takes > 0 ? 1 / (1 / takes + 1 / conducts) : 0.0};
+}
 double approach(const Vec& x, const Vec& dv) { return std::min(x.dot(dv), 0.0); }
 
 }  // namespace
@@ -41,7 +61,8 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     for (int a = 0; a < dim_; ++a) head += scene_.domain.gravity[static_cast<std::size_t>(a)] * x(a);
     return head;
   }();
-  const double rho = 0.5 * (i.density + j.density), w_ij = w(r, h_);
+  const double rho = 0.5 * (i.density + j.density);
+  const double w_ij = w(r, h_);
   const double delta = 2 * scene_.terms.density_diffusion * h_;
   switch (key(term.name)) {
     case key("Divergence"):
@@ -68,9 +89,10 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
         rest += 0.5 * scene_.domain.central_pull * (to_i - to_j);
       }
       return one(Field::diffusion, 0,
-                 i.group != j.group ? 0.0
-                                    : delta * j.volume * (i.pressure - j.pressure + rho * rest) /
-                                          std::max(i.sound, j.sound) * slope / r);
+                 i.group != j.group
+                     ? 0.0
+                     : delta * j.volume * (i.pressure - j.pressure + 0.5 * (i.weight + j.weight) * rest) /
+                           std::max(i.sound, j.sound) * slope / r);
     }
     case key("MixtureDensityDiffusion"):
       return one(Field::diffusion, 0,
@@ -81,9 +103,11 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
                            std::max(i.sound, j.sound) * slope / r);
     case key("UniformDensityDiffusion"): {
       const Group& fluid = scene_.groups[light];
-      return one(Field::diffusion, 0,
-                 delta * j.volume * (i.pressure - j.pressure + fluid.density * gravity) /
-                     std::sqrt(fluid.eos.bulk_modulus / fluid.density) * slope / r);
+      return one(
+          Field::diffusion, 0,
+          delta * j.volume *
+              (i.pressure - j.pressure + (fluid.density - scene_.domain.background.density) * gravity) /
+              std::sqrt(fluid.eos.bulk_modulus / fluid.density) * slope / r);
     }
     case key("Xsph"):
       return vector(Field::added, 0, (j.mover ? j.volume * j.density / rho : 0.0) * (w_ij / h_) * dv);
@@ -99,7 +123,7 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("MixtureWallExtrapolationByDensity"): {
       if (!j.mover) return;
       const bool mixture = term.name.starts_with("Mixture");
-      const double rise = mixture ? j.rest_gradient.dot(x) : j.density * gravity;
+      const double rise = mixture ? j.rest_gradient.dot(x) : j.weight * gravity;
       const double part = bare(w_ij), of_pressure = part * (j.pressure - rise);
       if (term.name.ends_with("ByDensity")) {
         one(Field::wall_sums_by_density, j.heavy ? 2 : 0, part);
@@ -141,11 +165,13 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("Conduction"):
     case key("ConductionOperator"):
     case key("WallConduction"):
+    case key("WallTransferConduction"):
     case key("GasFlow"):
     case key("GasHeat"):
     case key("ImplicitGasFlow"):
     case key("ImplicitGasHeat"):
     case key("GasOperator"):
+    case key("GasSlope"):
     case key("WallGas"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):
@@ -345,14 +371,25 @@ void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const
     if (term.name == "Conduction") return one(Field::heat_gain, 0, rate * (j.temperature - i.temperature));
     one(Field::exchange_sums, 0, rate * (j.trial - i.trial));
     one(Field::exchange_sums, 1, rate);
-  } else if (term.name == "WallConduction") {
+  } else if (term.name == "WallConduction" || term.name == "WallTransferConduction") {
     if (j.mover) return;
     if (j.warm) {
       one(Field::wall_heat, 0, weight * i.conductivity * profile * (j.temperature - i.temperature));
       one(Field::wall_heat, 1, weight * i.conductivity * profile);
     }
     const double way = steepness > 0 ? across / steepness * h_ : pair.r;
-    one(Field::wall_heat, 0, -2 * j.wall_flux * i.volume * j.volume * pair.slope / pair.r * way);
+    const double area = -2 * i.volume * j.volume * pair.slope / pair.r * way;
+    const FaceFlux flux = face_flux(scene_.groups[static_cast<std::size_t>(j.group)].heat, i.temperature,
+                                    i.conductivity * (steepness > 0 ? steepness / h_ : 1 / pair.r));
+    one(Field::wall_heat, 0, area * flux.given);
+    one(Field::wall_heat, 1, area * flux.slope);
+  } else if (term.name == "GasSlope") {
+    if (!j.mover && !j.open) return;
+    const double weight_j = j.volume * pair.slope / pair.r;
+    for (int a = 0; a < dim_; ++a)
+      one(Field::gas_slope, a,
+          weight_j * (j.gas_pressure - i.gas_pressure - i.gas_density * head) * pair.x(a));
+    one(Field::gas_slope, dim_, weight_j * pair.x.squaredNorm() / h_);
   } else if (term.name.ends_with("GasFlow") || term.name.ends_with("GasHeat") || term.name == "GasOperator") {
     if (!j.mover) return;
     const double lift = 0.5 * (i.gas_density + j.gas_density) * head;

@@ -70,6 +70,7 @@ void PairOracle::load() {
     }
     q.mass = get(Field::mass, row, 0);
     q.density = get(Field::density, row, 0);
+    q.weight = q.density * (1 - scene_.domain.background.density / g.density);
     q.volume = q.density > 0 ? q.mass / q.density : 0.0;
     q.sound = get(Field::sound_speed, row, 0);
     if (!p.has(Field::sound_speed)) {
@@ -86,7 +87,6 @@ void PairOracle::load() {
     q.trial = get(Field::trial, row, 0);
     q.conductivity = g.heat.material.conductivity;
     q.sensible_heat = g.heat.material.specific_heat * q.temperature;
-    q.wall_flux = g.heat.wall_flux.value_or(0);
     q.warm = g.heat.temperature.has_value();
     q.permeability = g.bubbly.permeability.coefficient;
     q.gas_mobility = get(Field::gas_mobility, row, 0);
@@ -184,11 +184,13 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("Conduction"):
     case key("ConductionOperator"):
     case key("WallConduction"):
+    case key("WallTransferConduction"):
     case key("GasFlow"):
     case key("GasHeat"):
     case key("ImplicitGasFlow"):
     case key("ImplicitGasHeat"):
     case key("GasOperator"):
+    case key("GasSlope"):
     case key("WallGas"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):

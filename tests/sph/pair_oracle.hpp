@@ -27,9 +27,9 @@ struct PairParticle {
   std::array<std::int64_t, 3> x{}, reference{};  ///< [quanta]
   Vec v, colour, direction, slope, rest_gradient;
   Mat stress, bond_stress, gradient;  ///< stress: the total one
-  double mass, density, pressure, volume, sound, energy, width, correction, curvature, viscosity;
+  double mass, density, weight, pressure, volume, sound, energy, width, correction, curvature, viscosity;
   double rest_volume, modulus;
-  double temperature, trial, conductivity, sensible_heat, wall_flux;
+  double temperature, trial, conductivity, sensible_heat;
   double permeability, gas_mobility, gas_pressure, gas_density;
   std::array<double, 2> wall_pressures;
   bool mover, shears, heavy, owned, warm, open, slips;

@@ -96,6 +96,56 @@ TEST_F(StartCounts, EqualWhatIsPlaced) {
                                           "[0.97, 0.4]\njitter = 0.2\n" +
                                           painted_square));
     expect_as_placed(scene_of(cube, dx + painted_cube));
+    expect_as_placed(scene_of(cube, dx + "lattice = \"fcc\"\n" + painted_cube));
+  }
+}
+
+// Each point has 12 neighbours at 2^(1/6) spacings and none nearer, through periods too, and a volume of spacing^3.
+TEST_F(StartCounts, CloseInThreeDimensions) {
+  const std::string periods =
+      "dimension = 3\n[domain]\nlower = [0, 0, 0]\nupper = [1, 1.2, 1.4]\nperiodic = [true, "
+      "true, true]\n[decomposition]\nskin = 0\n";
+  const double edge = 0.1, spacing = edge / fcc_edge;
+  const std::string start =
+      "lattice = \"fcc\"\nspacing = " + std::to_string(spacing) + "\n[[start.region]]\ngroup = \"water\"\n";
+  const Scene scene = scene_of(periods, start);
+  const PositionScale scale = position_scale(scene);
+  const decomp::Comm alone(MPI_COMM_SELF);
+  Distribution distribution(alone, scene, scale);
+  Particles p(3, Parts(alone, scene, scale).sets.front().fields);
+  place_particles(scene, scale, distribution, p);
+  ASSERT_EQ(p.owned(), 4U * 10 * 12 * 14);
+  const double length[]{1, 1.2, 1.4}, near = edge / std::sqrt(2.0);
+  double mass = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) mass += p.data<Field::mass>()[i];
+  for (std::size_t i = 0; i < p.owned(); i += 41) {
+    int touching = 0;
+    for (std::size_t j = 0; j < p.owned(); ++j) {
+      double apart = i == j ? 1 : 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double x =
+            scale.metres(p.data<Field::position>()[3 * j + a] - p.data<Field::position>()[3 * i + a]);
+        const double across = x - length[a] * std::nearbyint(x / length[a]);
+        apart += across * across;
+      }
+      EXPECT_GT(apart, near * near * (1 - 1e-4));
+      touching += apart < near * near * 1.01 ? 1 : 0;
+    }
+    EXPECT_EQ(touching, 12);
+  }
+  EXPECT_NEAR(mass, scene.groups[0].density * 1.2 * 1.4, 1e-3 * mass);
+}
+
+TEST_F(StartCounts, RefuseAPeriodThatCutsCubes) {
+  const std::string periods =
+      "dimension = 3\n[domain]\nlower = [0, 0, 0]\nupper = [1, 1, 1]\nperiodic = [true, false, false]\n";
+  try {
+    (void)scene_of(periods, "lattice = \"fcc\"\nspacing = 0.1\n[[start.region]]\ngroup = \"water\"\n");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("divides the periodic length in x into 6.29961 cells"),
+              std::string::npos)
+        << error.what();
   }
 }
 

@@ -117,6 +117,8 @@ const std::vector<Source>& sources() {
                    "terms.viscous_heat=true"})},
       // melt that freezes and rock that melts, magma that fragments and heals, after a while
       {"freezing2d", "tests/scenes/freezing2d.toml", {"time.steps=1"}},
+      // boxes that renew what flows through them, a background, walls that cool and radiate, means that are state
+      {"through2d", "tests/scenes/through2d.toml", {"time.steps=1"}},
       {"laws3d",
        "tests/scenes/box3d_gas.toml",
        {"group.magma.becomes.0.void_fraction_above=0.09", "group.magma.viscosity=",
@@ -130,8 +132,8 @@ const std::vector<Source>& sources() {
       {"implicit3d",
        "tests/scenes/box3d_gas.toml",
        {"group.magma.becomes.0.void_fraction_above=0.09",
-        "group.magma.permeability={law=\"percolation\", coefficient=1e-6, threshold=0.01}",
-        "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-6}", "group.wall.gas_pressure=0",
+        "group.magma.permeability={law=\"percolation\", coefficient=1e-6, threshold=0.01, closing_threshold=0.005}",
+        "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-6, inertial_coefficient=1e-9, inertial_exponent=0}", "group.wall.gas_pressure=0",
         "terms.implicit_gas_flow=true"}},
       // ideal gases: energy is state, and the time step follows the hottest particle
       {"blast2d", "tests/scenes/blast2d.toml", {}},

@@ -30,6 +30,7 @@ inline constexpr auto top_keys = std::to_array<Key>({
     {"group", Inner{&group}, "The materials.", Default{"required"}},
     {"wall", Inner{&wall}, "Planes and boxes that hold grains.", of_grains},
     {"stage", Inner{&stage}, "Changes of the walls.", of_grains},
+    {"reset", Inner{&reset}, "Boxes where matter is renewed.", of_fluids},
     {"start", Inner{&start}, "The first state.", Default{"required"}},
     {"terms", Inner{&terms}, "What acts between particles.",
      sph_only("they are of SPH; grains follow from [contact]")},
@@ -40,10 +41,10 @@ inline constexpr auto top_keys = std::to_array<Key>({
 });
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
-inline constexpr std::array<const KeyTable*, 27> all{
-    &top,           &domain, &kernel,     &group,     &becomes, &permeability, &viscosity_law,   &heat,
-    &start,         &region, &layer,      &tile,      &fill,    &terms,        &surface_tension, &contact,
-    &contact_pair,  &drag,   &melt_table, &melt_side, &wall,    &stage,        &stage_wall,      &time,
-    &decomposition, &output, &monitor};
+inline constexpr std::array<const KeyTable*, 30> all{
+    &top,   &domain,          &kernel,    &reset,         &group,  &becomes,    &permeability, &viscosity_law,
+    &heat,  &heat_transfer,   &radiation, &start,         &region, &layer,      &tile,         &fill,
+    &terms, &surface_tension, &contact,   &contact_pair,  &drag,   &melt_table, &melt_side,    &wall,
+    &stage, &stage_wall,      &time,      &decomposition, &output, &monitor};
 
 }  // namespace sph::keys

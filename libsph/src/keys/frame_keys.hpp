@@ -45,7 +45,36 @@ inline constexpr auto domain_keys = std::to_array<Key>({
     {"surface_pressure", Number{dimension::pressure, not_negative},
      "The atmosphere, added in every equation of state.", at<&Domain::surface_pressure>,
      sph_only("grains have no equation of state")},
+    {"background_density", Number{dimension::density, positive},
+     "rho_b: gravity acts as g (1 - rho_b / rho_0), on gas as it is, pressures are the excess over that of a "
+     "background at "
+     "rest, "
+     "which gas feels too. Densities and moduli of liquids and solids are then those in place, and their "
+     "sound "
+     "need not be fast against sqrt(g H). Fluids and updated solids without free surface, grains and ideal "
+     "gases; not \"ida\".",
+     at<&Domain::background, &Background::density>, of_fluids, Default{"none"}},
+    {"background_surface", Number{dimension::length},
+     "Height against gravity where the background's pressure is surface_pressure.", of_fluids,
+     Default{"required of bubbly fluids"}},
 });
+inline constexpr auto reset_keys = std::to_array<Key>({
+    {"lower", Vector{dimension::length}, "A corner of the box: lower <= x < upper.", at<&Reset::lower>,
+     required},
+    {"upper", Vector{dimension::length}, "Its other corner.", at<&Reset::upper>, required},
+    {"temperature", Number{dimension::temperature, not_negative}, "Of fluids and solids in it.",
+     at<&Reset::temperature>, Default{"as it is; one of the two is required"}},
+    {"gas_content",
+     Number{dimension::none,
+            {.least = 0, .most = 1, .below_most = true, .is = "it is a mass per mass of liquid,"}},
+     "m of bubbly fluids in it.", at<&Reset::gas_content>, Default{"as it is"}},
+});
+inline constexpr Table<Reset> reset{
+    {"reset", true,
+     "A box in which particles have another temperature or gas content after each step: what flows along a "
+     "period comes in as new. Velocity and pressure stay; a budget counts what comes in.",
+     reset_keys}};
+
 inline constexpr Table<Domain> domain{
     {"domain", false, "The box that holds everything, and its gravity.", domain_keys}};
 

@@ -22,6 +22,11 @@ inline constexpr auto becomes_keys = std::to_array<Key>({
     {"hold", Number{dimension::time, not_negative},
      "For so long without a break, against noise. The first row of the table that holds counts alone.",
      at<&Transition::hold>},
+    {"average", Number{dimension::time, not_negative},
+     "The limit is one of the running mean over so long, exponential, anew in each group; rows of one table "
+     "that have "
+     "one of the same quantity have the same.",
+     at<&Transition::average>},
 });
 inline constexpr Table<Transition> becomes{
     {"group.becomes", true,
@@ -44,7 +49,21 @@ inline constexpr auto permeability_keys = std::to_array<Key>({
     {"threshold",
      Number{dimension::none, {.least = 0, .most = 1, .below_most = true, .is = "it is a share,"}},
      "Below it bubbles are not connected.", at<&Permeability::threshold>, where("law", "percolation")},
+    {"closing_threshold",
+     Number{dimension::none, {.least = 0, .most = 1, .below_most = true, .is = "it is a share,"}},
+     "Bubbles that were connected stay so down to this psi, above which the law then counts (Rust & Cashman "
+     "2004).",
+     at<&Permeability::closing_threshold>, where("law", "percolation"), Default{"threshold"}},
     {"gas_viscosity", Number{dimension::viscosity, positive}, "eta_g.", at<&Permeability::gas_viscosity>},
+    {"inertial_coefficient", Number{dimension::none, not_negative},
+     "Gas that flows fast loses pressure to its inertia (Forchheimer): the gradient is eta_g v / k + rho_g "
+     "v^2 / k_2 "
+     "with k_2 = inertial_coefficient k^inertial_exponent in SI units (Rust & Cashman 2004: 1.5e8, 1.353). "
+     "0: it "
+     "does not.",
+     at<&Permeability::inertial_coefficient>},
+    {"inertial_exponent", Number{dimension::none, not_negative}, "See there.",
+     at<&Permeability::inertial_exponent>},
 });
 inline constexpr Table<Permeability> permeability{
     {"group.permeability", false, "Gas flows through bubbly fluid.", permeability_keys}};
@@ -107,6 +126,28 @@ inline constexpr auto heat_keys = std::to_array<Key>({
 });
 inline constexpr Table<HeatMaterial> heat{
     {"group.heat", false, "Heat of a fluid or a solid: all of them have it, or none.", heat_keys}};
+
+inline constexpr auto heat_transfer_keys = std::to_array<Key>({
+    {"coefficient", Number{dimension::heat_transfer, positive}, "h_c: q = h_c (temperature - T).",
+     at<&WallTransfer::coefficient>, required},
+    {"temperature", Number{dimension::temperature, not_negative}, "Of what is beyond the wall.",
+     at<&WallTransfer::temperature>, required},
+});
+inline constexpr Table<WallTransfer> heat_transfer{
+    {"group.heat_transfer", false, "Heat from a wall by a coefficient, of the temperature T of its face.",
+     heat_transfer_keys}};
+
+inline constexpr auto radiation_keys = std::to_array<Key>({
+    {"emissivity",
+     Number{dimension::none, {.least = 0, .most = 1, .above_least = true, .is = "it is a share,"}},
+     "epsilon of the face: q = epsilon sigma (temperature^4 - T^4).", at<&WallRadiation::emissivity>,
+     required},
+    {"temperature", Number{dimension::temperature, not_negative}, "Of what the face sees.",
+     at<&WallRadiation::temperature>, required},
+});
+inline constexpr Table<WallRadiation> radiation{
+    {"group.radiation", false,
+     "Heat that the face of a wall, at T, radiates and gets; heat_transfer adds to it.", radiation_keys}};
 
 inline constexpr Where bubbly = where("eos", "bubbly"), gas = where("eos", "ideal_gas");
 inline constexpr Where solid = where("kind", "solid"), walls = where("kind", "wall");
@@ -188,6 +229,10 @@ inline constexpr auto group_keys = std::to_array<Key>({
      of_sph, bubbly, required},
     {"solubility_exponent", Number{dimension::none, positive}, "gamma of the solubility.",
      at<&Group::bubbly, &BubblyMaterial::solubility_exponent>, of_sph, bubbly},
+    {"exsolution_time", Number{dimension::time, not_negative},
+     "tau, in which what is dissolved follows the pressure: dw/dt = (min(m, m_d) - w) / tau. All starts in "
+     "equilibrium.",
+     at<&Group::bubbly, &BubblyMaterial::exsolution_time>, of_sph, bubbly, Default{"0: at once"}},
     {"becomes", Inner{&becomes}, "When particles join another group.", of_sph, matter},
     {"permeability", Inner{&permeability}, "Gas flows through a bubbly fluid by Darcy's law.", of_sph,
      bubbly},
@@ -221,6 +266,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"heat_flux", Number{dimension::heat_flux},
      "From a wall into what is beside it, instead of a temperature.", at<&Group::heat, &GroupHeat::wall_flux>,
      of_sph, walls},
+    {"heat_transfer", Inner{&heat_transfer}, "From a wall into what is beside it, or back.", of_sph, walls},
+    {"radiation", Inner{&radiation}, "The same by radiation.", of_sph, walls},
     {"restitution", Number{dimension::none, {.least = 0, .most = 1, .above_least = true}},
      "Of a head-on impact.", at<&Group::grain, &GrainMaterial::restitution>, of_restitution, grain, required},
     {"friction", Number{dimension::none, not_negative}, "Coulomb's mu.",

@@ -26,6 +26,12 @@ void read_permeability(const GroupReader& table, Group& group) {
     group.bubbly.permeability.exponent = 0;  // not written
   inner.only_if(group.bubbly.permeability.law != PermeabilityLaw::kozeny_carman, "exponent",
                 "law = \"kozeny_carman\" has none");
+  inner.only_if(group.bubbly.permeability.inertial_coefficient > 0, "inertial_exponent",
+                "give inertial_coefficient too");
+  if (const Permeability& m = group.bubbly.permeability;
+      m.closing_threshold && *m.closing_threshold > m.threshold)
+    inner.fail("closing_threshold", fmt::format("is {}, above threshold", *m.closing_threshold),
+               "bubbles that part at less than what connects them keep it below");
   inner.finish();
 }
 
@@ -62,6 +68,23 @@ void read_heat(const GroupReader& table, Group& group) {
   inner.finish();
 }
 
+/// Heat by a coefficient and by radiation add up; a temperature or a flux stands alone.
+void read_wall_heat(const GroupReader& table, Group& group) {
+  if (table.has("heat_transfer")) {
+    const auto inner = table.table<keys::heat_transfer>();
+    inner.read(group.heat.transfer);
+    inner.finish();
+  }
+  if (table.has("radiation")) {
+    const auto inner = table.table<keys::radiation>();
+    inner.read(group.heat.radiation);
+    inner.finish();
+  }
+  using Name = GroupReader::Name<>;
+  for (const Name way : {Name("heat_transfer"), Name("radiation")})
+    for (const Name other : {Name("temperature"), Name("heat_flux")}) table.not_both(other, way);
+}
+
 /// All matter has heat, or none; what has starts with a temperature.
 void check_heat(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
   const auto warm = [](const Group& g) { return g.heat.material.specific_heat > 0; };
@@ -71,7 +94,9 @@ void check_heat(const std::vector<GroupReader>& tables, const std::vector<Group>
     if (!is_matter(g) && g.kind != GroupKind::wall) continue;
     if (!any) {
       tables[k].only_if(false, "temperature", "there is no heat: give a fluid or a solid group.heat");
-      tables[k].only_if(false, "heat_flux", "there is no heat: give a fluid or a solid group.heat");
+      using Name = GroupReader::Name<>;
+      for (const Name way : {Name("heat_flux"), Name("heat_transfer"), Name("radiation")})
+        tables[k].only_if(false, way, "there is no heat: give a fluid or a solid group.heat");
       continue;
     }
     if (any_grains(groups) && warm(g))
@@ -137,6 +162,7 @@ void check_viscosity_laws(const std::vector<GroupReader>& tables, const std::vec
 void read_exchange(const GroupReader& table, Group& group) {
   read_permeability(table, group);
   read_heat(table, group);
+  if (group.kind == GroupKind::wall) read_wall_heat(table, group);
   read_viscosity_law(table, group);
 }
 

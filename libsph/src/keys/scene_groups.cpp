@@ -130,6 +130,11 @@ void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>
     row.only_if(warm, "temperature_below", "there is no heat: give group.heat");
     row.only_if(bubbly, "void_fraction_above", "the group has no gas: set eos = \"bubbly\"");
     row.only_if(bubbly, "void_fraction_below", "the group has no gas: set eos = \"bubbly\"");
+    for (const Transition& other : group.becomes)
+      if (change.average > 0 && other.average > 0 && other.average != change.average &&
+          other.of_temperature() == change.of_temperature())
+        row.fail("average", fmt::format("is {} s, and {} s in a row before", change.average, other.average),
+                 "a particle keeps one mean of a quantity: give both rows the same");
     row.finish();
     group.becomes.push_back(change);
   }

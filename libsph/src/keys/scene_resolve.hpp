@@ -73,6 +73,13 @@ void read_melt(const TopReader& top, const DomainReader& domain, const StartRead
 /// Refuses what the grid of melts cannot be, once all is read.
 void check_melt_grid(const StartReader& start, const Scene& scene);
 
+/// [domain], once the dimension is known.
+void read_domain(const DomainReader& table, Scene& scene);
+/// [[reset]], once the groups are.
+void read_resets(const TopReader& top, Scene& scene);
+/// Refuses what a background cannot bear, once all is read.
+void check_background(const DomainReader& domain, const Scene& scene);
+
 /// [start], once dimension, domain, groups and spacing of `scene` are known.
 void read_start(const StartReader& table, Scene& scene);
 /// [terms], once the groups are known.

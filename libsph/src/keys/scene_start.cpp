@@ -71,12 +71,13 @@ void check_fill(const StartReader& table, const Scene& scene) {
 /// A filled period must hold whole cells of the lattice, or its seam would be wider or narrower than dx.
 void check_seam(const StartReader& table, const Scene& scene) {
   const LatticeFill& lattice = scene.start.lattice;
-  const std::size_t axes = lattice.kind == LatticeKind::square ? static_cast<std::size_t>(scene.dim) : 1;
+  const std::size_t axes = lattice.kind == LatticeKind::hexagonal ? 1 : static_cast<std::size_t>(scene.dim);
+  const double edge = lattice.kind == LatticeKind::fcc ? fcc_edge : 1.0;
   for (std::size_t a = 0; a < axes; ++a) {
     const bool filled =
         lattice.lower[a] == scene.domain.lower[a] && lattice.upper[a] == scene.domain.upper[a];
     if (!scene.domain.periodic[a] || !filled) continue;
-    const double cells = (scene.domain.upper[a] - scene.domain.lower[a]) / scene.start.spacing;
+    const double cells = (scene.domain.upper[a] - scene.domain.lower[a]) / (edge * scene.start.spacing);
     if (std::fabs(cells - std::nearbyint(cells)) > 1e-6 * cells)
       table.fail(
           "spacing",
@@ -91,7 +92,9 @@ void check_seam(const StartReader& table, const Scene& scene) {
 void read_lattice(const StartReader& table, Scene& scene) {
   Start& start = scene.start;
   if (start.lattice.kind == LatticeKind::hexagonal && scene.dim != 2)
-    table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\"");
+    table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\" or \"fcc\"");
+  if (start.lattice.kind == LatticeKind::fcc && scene.dim != 3)
+    table.fail("lattice", "is \"fcc\", which exists in 3D only", "use \"square\" or \"hexagonal\"");
   if (!table.has("origin")) start.lattice.origin = start.lattice.lower;
   check_fill(table, scene);
   if (!scene.has_melt()) check_seam(table, scene);  // cells fit, however wide

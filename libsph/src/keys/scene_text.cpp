@@ -21,6 +21,8 @@ void write_group(SceneWriter& out, const Group& g) {
   if (g.bubbly.permeability.coefficient > 0) out.table(keys::permeability, g.bubbly.permeability);
   if (g.viscosity_law.varies()) out.table(keys::viscosity_law, g.viscosity_law);
   if (g.heat.material.specific_heat > 0) out.table(keys::heat, g.heat.material);
+  if (g.heat.transfer.coefficient > 0) out.table(keys::heat_transfer, g.heat.transfer);
+  if (g.heat.radiation.emissivity > 0) out.table(keys::radiation, g.heat.radiation);
   for (const Transition& row : g.becomes) out.table(keys::becomes, row);
 }
 
@@ -67,6 +69,8 @@ std::string to_toml(const Scene& scene) {
   out.keys(keys::top, scene);
   out.table(keys::domain, scene.domain);
   if (scene.domain.central_pull > 0) out.vector("pull_centre", scene.domain.pull_centre);
+  if (scene.domain.background.density > 0 && has_eos(scene, EosKind::bubbly))
+    out.number("background_surface", scene.domain.background.surface);
   if (scene.has_matter()) out.table(keys::kernel, scene.kernel);
   if (scene.has_grains()) write_contacts(out, scene);
   if (scene.has_grains_in_flow()) write_drag(out, scene);
@@ -77,6 +81,7 @@ std::string to_toml(const Scene& scene) {
       write_group(out, g);
   if (scene.has_grains()) write_walls(out, scene);
   if (scene.has_melt()) write_melt(out, scene.domain.melt);
+  for (const Reset& box : scene.domain.resets) out.table(keys::reset, box);
   write_start(out, scene);
   if (scene.has_matter()) write_terms(out, scene.terms);
   TimeControl time = scene.time;

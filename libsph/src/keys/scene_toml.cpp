@@ -1,4 +1,4 @@
-// From TOML to a resolved Scene: top level, kernel, domain, time, and the checks between tables.
+// From TOML to a resolved Scene: top level, kernel, time, and the checks between tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,27 +54,10 @@ struct Tables {
     (void)contact.tables<keys::contact_pair>();
     (void)top.table<keys::melt_table>().tables<keys::melt_side>();
     (void)top.tables<keys::wall>();
+    (void)top.tables<keys::reset>();
     for (const auto& stage : top.tables<keys::stage>()) (void)stage.tables<keys::stage_wall>();
   }
 };
-
-void read_pull(const DomainReader& table, Scene& scene) {
-  table.only_if(scene.domain.central_pull > 0, "pull_centre", "give central_pull too");
-  scene.domain.pull_centre = table.vector("pull_centre").value_or(Double3{});
-  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    if (scene.domain.central_pull > 0 && scene.domain.periodic[a])
-      table.fail("central_pull", fmt::format("would jump across the period in {}", axis_names[a]),
-                 "use it in domains without periods");
-}
-
-void read_domain(const DomainReader& table, Scene& scene) {
-  table.read(scene.domain);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
-    if (!(scene.domain.lower[a] < scene.domain.upper[a]))
-      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the domain is empty");
-  read_pull(table, scene);
-  table.finish();
-}
 
 void read_kernel(const KernelReader& table, Scene& scene) {
   table.not_both("smoothing_length", "h_over_dx");
@@ -161,6 +144,7 @@ void read_fluids_and_solids(const Tables& tables, Scene& scene) {
   scene.start.spacing = *tables.start.number("spacing");
   check_extent(tables.domain, scene);
   read_groups(tables.top, scene);
+  read_resets(tables.top, scene);
   read_kernel(tables.kernel, scene);
   const std::vector<GroupReader> groups = tables.top.tables<keys::group>();
   for (std::size_t k = 0; k < groups.size(); ++k)
@@ -226,6 +210,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   check_implicit_conduction(tables.terms, scene);
   if (scene.has_matter()) check_ranges(tables.top, tables.domain, tables.terms, scene);
   scene.start.has_surface = scene.has_matter() && has_free_surface(scene);
+  check_background(tables.domain, scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);
     check_file(tables.start.table<keys::tile>(), "file", scene.start.tile.file);

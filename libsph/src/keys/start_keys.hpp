@@ -70,7 +70,11 @@ inline constexpr auto start_keys = std::to_array<Key>({
      at<&Start::file>},
     {"tile", Inner{&tile}, "Instead of a lattice: a settled packing of grains side by side.",
      of_grains_alone},
-    {"lattice", Words{lattice_kind_words}, "\"square\" is cubic in 3D; \"hexagonal\" is of 2D.",
+    {"lattice", Words{lattice_kind_words},
+     "\"square\" is cubic in 3D. The close packing is \"hexagonal\" in 2D, with neighbours 1.075 spacings "
+     "apart, and "
+     "\"fcc\" in 3D, 1.122 apart, whose cubes are 4^(1/3) = 1.5874010519682 spacings long: a period holds "
+     "whole ones.",
      at<&Start::lattice, &LatticeFill::kind>, of_lattices},
     {"origin", Vector{dimension::length}, "A corner of a lattice cell: particles sit at its centre.",
      at<&Start::lattice, &LatticeFill::origin>, of_lattices, Default{"lower"}},

@@ -95,6 +95,7 @@ constexpr std::array named{
     NamedDimension{dimension::specific_heat, "a heat capacity per mass", "J/kg/K"},
     NamedDimension{dimension::conductivity, "a thermal conductivity", "W/m/K"},
     NamedDimension{dimension::heat_flux, "a heat flux", "W/m2"},
+    NamedDimension{dimension::heat_transfer, "a heat transfer coefficient", "W/m2/K"},
 };
 
 constexpr int max_power = 9;

@@ -80,8 +80,8 @@ inline constexpr auto lagrangian_words =
     std::to_array<Word>({{"updated", Lagrangian::updated}, {"total", Lagrangian::total}});
 inline constexpr auto region_shape_words = std::to_array<Word>(
     {{"everywhere", RegionShape::everywhere}, {"box", RegionShape::box}, {"ball", RegionShape::ball}});
-inline constexpr auto lattice_kind_words =
-    std::to_array<Word>({{"square", LatticeKind::square}, {"hexagonal", LatticeKind::hexagonal}});
+inline constexpr auto lattice_kind_words = std::to_array<Word>(
+    {{"square", LatticeKind::square}, {"hexagonal", LatticeKind::hexagonal}, {"fcc", LatticeKind::fcc}});
 inline constexpr auto initial_pressure_words =
     std::to_array<Word>({{"zero", InitialPressure::zero},
                          {"hydrostatic", InitialPressure::hydrostatic},

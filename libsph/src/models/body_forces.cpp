@@ -18,10 +18,15 @@ Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
   const double pull = scene.domain.central_pull, control = tension_control(p, i);
   const double* grains = p.get<Field::grain_pull>();
   Double3 acceleration = scene.domain.gravity;
-  if (expands_) {
-    const HeatMaterial& m = scene.groups[p.get<Field::group>()[i]].heat.material;
-    const double lighter = 1 - m.expansion * (p.get<Field::temperature>()[i] - m.reference_temperature);
-    for (double& g : acceleration) g *= lighter;
+  if (expands_ || scene.domain.background.density > 0) {
+    const std::uint32_t group = p.get<Field::group>()[i];
+    const GroupTable::Weight& of = constants_->groups.weight;
+    double weight = of.share[group] - of.borne[group] / p.get<Field::density>()[i];
+    if (expands_) {
+      const HeatMaterial& m = scene.groups[group].heat.material;
+      weight -= m.expansion * (p.get<Field::temperature>()[i] - m.reference_temperature);
+    }
+    for (double& g : acceleration) g *= weight;
   }
   for (std::size_t a = 0; a < d; ++a) {
     if (grains != nullptr) acceleration[a] += grains[i * d + a];

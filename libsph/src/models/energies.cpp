@@ -1,5 +1,7 @@
 #include "sph/models/energies.hpp"
 
+#include "sph/laws/background.hpp"
+
 namespace sph {
 
 bool is_held(const Group& group) { return group.kind == GroupKind::wall || group.grain.fixed; }
@@ -22,7 +24,10 @@ double potential_energy(const Scene& scene, const PositionScale& scale, const Wr
     work += scene.domain.gravity[a] * x;
     work -= 0.5 * scene.domain.central_pull * (away * away);
   }
-  return -p.data<Field::mass>()[row] * work;
+  const double mass = p.data<Field::mass>()[row];
+  if (!(scene.domain.background.density > 0)) return -mass * work;
+  const Group& g = scene.groups[p.data<Field::group>()[row]];
+  return -mass * weight_share(scene, g, p.data<Field::density>()[row]) * work;
 }
 
 }  // namespace sph

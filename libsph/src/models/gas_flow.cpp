@@ -25,28 +25,72 @@ constexpr double change_in_a_step = 0.05, most_change = 0.2, growth_of_steps = 1
 [[nodiscard]] bool flows(const Group& g) { return g.bubbly.permeability.coefficient > 0; }
 
 /// b of a particle: density of its gas, times f(psi), over its viscosity [s/m^2].
-double mobility(const Group& g, double absolute_pressure, double void_fraction) {
+double mobility(const Group& g, double absolute_pressure, double void_fraction, bool connected = false) {
   if (!flows(g) || !(absolute_pressure > 0)) return 0;
-  return absolute_pressure / g.bubbly.gas_rt * relative_permeability(g.bubbly.permeability, void_fraction) /
+  return absolute_pressure / g.bubbly.gas_rt *
+         relative_permeability(g.bubbly.permeability, void_fraction, connected) /
          g.bubbly.permeability.gas_viscosity;
 }
 
+/// Bubbles of some group stay connected below the threshold.
+bool latches(const Group& g) { return flows(g) && g.bubbly.permeability.closing_threshold.has_value(); }
+/// Gas of some group is fast.
+bool has_inertia(const Group& g) { return flows(g) && g.bubbly.permeability.inertial_coefficient > 0; }
+
 struct Mobilities {
-  static constexpr FieldSet reads{Field::pressure, Field::void_fraction, Field::group};
-  static constexpr FieldSet writes{Field::gas_mobility, Field::gas_pressure};
+  static constexpr FieldSet reads{Field::position, Field::pressure, Field::void_fraction, Field::group};
+  static constexpr FieldSet writes{Field::gas_mobility, Field::gas_pressure, Field::connected};
   const Scene* scene;
+  const Materials* materials;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     const double *pressure = p.get<Field::pressure>(), *psi = p.get<Field::void_fraction>();
     const auto* group = p.get<Field::group>();
     double *b = p.get<Field::gas_mobility>(), *drives = p.get<Field::gas_pressure>();
     for_movers(step.ranges, [&](std::size_t i) {
-      b[i] = mobility(scene->groups[group[i]], pressure[i] + scene->domain.surface_pressure, psi[i]);
-      drives[i] = pressure[i];
+      const Group& g = scene->groups[group[i]];
+      const double outside = materials->outer(p, i, g);
+      b[i] = mobility(g, pressure[i] + outside, psi[i], connect(p, i, g, psi[i]));
+      drives[i] = pressure[i] + (outside - scene->domain.surface_pressure);
     });
     for_walls(step.ranges, [&](std::size_t i) {
       b[i] = 0;
       drives[i] = scene->groups[group[i]].wall.gas_pressure.value_or(0);
+    });
+  }
+
+  /// A bubble that was connected stays so until it shrinks below the closing threshold.
+  static bool connect(const View<reads, writes>& p, std::size_t i, const Group& g, double psi) {
+    auto* connected = p.get<Field::connected>();
+    if (connected == nullptr) return false;
+    const Permeability& m = g.bubbly.permeability;
+    const bool was = connected[i] != 0;
+    connected[i] = latches(g) && (psi > m.threshold || (was && psi > *m.closing_threshold)) ? 1 : 0;
+    return connected[i] != 0;
+  }
+};
+
+/// What its inertia leaves of the gas's flow.
+struct Inertia {
+  static constexpr FieldSet reads{Field::gas_slope, Field::gas_pressure, Field::group};
+  static constexpr FieldSet writes{Field::gas_mobility};
+  const Scene* scene;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double *sums = p.get<Field::gas_slope>(), *pressure = p.get<Field::gas_pressure>();
+    for_movers(step.ranges, [&](std::size_t i) {
+      const Group& g = scene->groups[p.get<Field::group>()[i]];
+      double& b = p.get<Field::gas_mobility>()[i];
+      const double *own = sums + i * (d + 1),
+                   density = (pressure[i] + scene->domain.surface_pressure) / g.bubbly.gas_rt;
+      if (!has_inertia(g) || !(density > 0) || own[d] == 0) return;
+      double square = 0;
+      for (std::size_t a = 0; a < d; ++a) square += own[a] * own[a];
+      const double gradient =
+          static_cast<double>(d) * std::sqrt(square) / std::fabs(own[d]) / scene->kernel.smoothing_length;
+      const Permeability& m = g.bubbly.permeability;
+      b *= inertial_share(m, m.coefficient * b * m.gas_viscosity / density, density, gradient);
     });
   }
 };
@@ -123,7 +167,12 @@ void Degassing::add_to(Builder& b) const {
   b.add_fields({Field::liquid_mass, Field::gas_mobility, Field::gas_pressure});
   if (walls || escape) b.add_fields({Field::gas_inflow});
   if ((walls || escape) && s.has_heat()) b.add_fields({Field::heat_inflow});
-  b.add_update("gas mobilities", Mobilities{&s});
+  if (std::ranges::any_of(s.groups, latches)) b.add_fields({Field::connected});
+  b.add_update("gas mobilities", Mobilities{&s, materials_});
+  if (std::ranges::any_of(s.groups, has_inertia)) {
+    add_exchange(b, "slopes of gas pressure", {term<GasSlope>});
+    b.add_update("inertia of gas", Inertia{&s});
+  }
   const bool implicit = s.terms.exchange.implicit_gas_flow;
   const GasOutside outside{constants_, escape ? std::make_shared<const SurfaceEscape>(*constants_) : nullptr};
   if (walls) add_exchange(b, "gas of walls", {term<WallGas>});
@@ -186,8 +235,9 @@ Degassing::Fastest Degassing::at_start(const Particles& p) const {
     if (!flows(g)) continue;
     const BubblyEos eos = bubbly_eos(g, content[i]);
     const double pressure = eos.pressure(rho[i]);
+    const double dissolved = dissolved_gas(g, content[i], pressure);  // all starts in equilibrium
     found.see(g.bubbly.permeability.coefficient * mobility(g, pressure, eos.void_fraction(pressure)),
-              eos.gas_stiffness(pressure));
+              gas_stiffness(g, content[i], &dissolved, pressure));
   }
   return found;
 }
@@ -204,13 +254,14 @@ bool Degassing::report(const StepState& s, Reduction& r) {
   const Particles& p = s.particles;
   const auto* group = p.data<Field::group>();
   const double *b = p.data<Field::gas_mobility>(), *pressure = p.data<Field::gas_pressure>();
+  const double* w = p.data<Field::dissolved_gas>();
   Fastest found;
   for (std::size_t i = 0; i < p.owned(); ++i) {
     const Group& g = scene.groups[group[i]];
     if (flows(g))
       found.see(g.bubbly.permeability.coefficient * b[i],
-                bubbly_eos(g, p.data<Field::gas_content>()[i])
-                    .gas_stiffness(pressure[i] + scene.domain.surface_pressure));
+                gas_stiffness(g, p.data<Field::gas_content>()[i], w != nullptr ? w + i : nullptr,
+                              pressure[i] + scene.domain.surface_pressure));
   }
   r[in_.conductance] = found.conductance;
   r[in_.stiffness] = found.stiffness;

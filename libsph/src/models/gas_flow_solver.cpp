@@ -17,8 +17,9 @@ constexpr double rounding = 1e-14;
 
 class GasFlowSolver final : public Solver {
  public:
-  static constexpr FieldSet reads = GasOutside::reads | FieldSet{Field::gas_content, Field::gas_gain,
-                                                                 Field::exchange_sums, Field::liquid_mass};
+  static constexpr FieldSet reads =
+      GasOutside::reads | FieldSet{Field::gas_content, Field::gas_gain, Field::exchange_sums,
+                                   Field::liquid_mass, Field::dissolved_gas};
   static constexpr FieldSet writes{Field::trial};
   using Rows = View<reads, writes>;
 

@@ -48,6 +48,13 @@ struct Temperatures {
   }
 };
 
+/// Some walls have a coefficient or radiate.
+bool takes_heat(const Scene& scene) {
+  return std::ranges::any_of(scene.groups, [](const Group& g) {
+    return g.heat.transfer.coefficient > 0 || g.heat.radiation.emissivity > 0;
+  });
+}
+
 double mean_conductivity(const Group& a, const Group& b) {
   const double sum = a.heat.material.conductivity + b.heat.material.conductivity;
   return sum > 0 ? 2 * a.heat.material.conductivity * (b.heat.material.conductivity / sum) : 0;
@@ -68,9 +75,9 @@ double longest_heat_step(const Scene& scene) {
 }
 
 bool has_warm_walls(const Scene& scene) {
-  return std::ranges::any_of(scene.groups, [](const Group& g) {
-    return g.kind == GroupKind::wall && (g.heat.temperature || g.heat.wall_flux);
-  });
+  return takes_heat(scene) || std::ranges::any_of(scene.groups, [](const Group& g) {
+           return g.kind == GroupKind::wall && (g.heat.temperature || g.heat.wall_flux);
+         });
 }
 
 void Heat::add_to(Builder& b) const {
@@ -83,7 +90,9 @@ void Heat::add_to(Builder& b) const {
     add_exchange(
         b, "viscous heat",
         {terms.viscous.form == ViscosityForm::symmetric ? term<SymmetricViscousHeat> : term<ViscousHeat>});
-  if (has_warm_walls(b.scene())) add_exchange(b, "heat of walls", {term<WallConduction>});
+  if (has_warm_walls(b.scene()))
+    add_exchange(b, "heat of walls",
+                 {takes_heat(b.scene()) ? term<WallTransferConduction> : term<WallConduction>});
   if (implicit)
     add_implicit_conduction(b);
   else

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sph/laws/background.hpp"
+#include "sph/laws/eos/bubbly.hpp"
 #include "sph/laws/eos/law.hpp"
 
 namespace sph {
@@ -14,10 +16,11 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
   EosRows rows{p.template get<Field::density>(),
                p.template get<Field::gas_content>(),
                p.template get<Field::specific_energy>(),
+               p.template get<Field::dissolved_gas>(),
                p.template get<Field::pressure>(),
                nullptr,
                nullptr,
-               scene.domain.surface_pressure};
+               0};
   if (const double* liquid = p.template get<Field::liquid_density>()) rows.density = liquid;
   double* sound = nullptr;
   if constexpr (V::writes.has(Field::sound_speed)) {
@@ -43,9 +46,39 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
       std::fill(rows.pressure + begin, rows.pressure + end, 0.0);
       if (rows.void_fraction != nullptr) std::fill(rows.void_fraction + begin, rows.void_fraction + end, 0.0);
     } else {
+      const bool excess = scene.domain.background.density > 0;
+      rows.surface_pressure = excess ? 0.0 : scene.domain.surface_pressure;
       g.eos.law->derive(g, rows, begin, end);
+      for (std::size_t i = begin; excess && i < end; ++i) rows.pressure[i] -= outer(p, i, g);
     }
   }
+}
+
+double Materials::outer(const Placed& p, std::size_t i, const Group& group) const {
+  const Scene& scene = *constants_->scene;
+  Double3 x{};
+  const auto d = static_cast<std::size_t>(p.dim());
+  for (std::size_t a = 0; a < d; ++a) x[a] = constants_->scale.metres(p.get<Field::position>()[i * d + a]);
+  return outer_pressure(scene, group, x);
+}
+
+// Bubbly matter cannot be torn.
+double Materials::density_of(const AtPressure& p, std::size_t i, const Group& group, double gas_content,
+                             const Step& step) const {
+  const double* porosity = p.get<Field::porosity>();
+  const double share = porosity != nullptr ? porosity[i] : 1.0;
+  const double outside = outer(p, i, group), above = p.get<Field::pressure>()[i], all = above + outside;
+  if (group.eos.law->kind != EosKind::bubbly)
+    return group.eos.law->start(group, above, outside).density * share;
+  const bool slow = group.bubbly.exsolution_time > 0;
+  const double* dissolved = p.get<Field::dissolved_gas>();
+  const bool torn = gas_content > (slow ? dissolved[i] : 0.0) && !(all > 0);
+  if (torn && !(outside > 0))
+    find_fault(*constants_, p, i, step,
+               "is torn where it becomes bubbly \"" + group.name + "\"; raise domain.surface_pressure");
+  const double at = torn ? outside : all;
+  return share * (slow ? SlowBubblyEos(group, gas_content, dissolved[i]).density(at)
+                       : bubbly_eos(group, gas_content).density(at));
 }
 
 void Materials::derive(const View<reads, writes>& p, std::size_t first, std::size_t last) const {

@@ -6,6 +6,7 @@
 #include "models/stability.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/laws/eos/law.hpp"
+#include "sph/models/exsolution.hpp"
 #include "sph/models/physics.hpp"
 #include "sph/models/viscosities.hpp"
 #include "start/start_densities.hpp"
@@ -15,6 +16,7 @@ namespace sph {
 
 double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
   check_start_densities(comm, *scene_, particles);
+  start_exsolution(constants_, particles);
   const StepMaxima own = maxima_at_start(particles);
   std::array<double, 4> largest{own.speed, own.sound, own.viscosity, own.bulk};
   comm.max(largest);

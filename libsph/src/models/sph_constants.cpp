@@ -91,6 +91,17 @@ constexpr double interface_damping = 0.03;
 // interface of a drop at rest moves ten times as fast, with 0.3 2.5 times.
 constexpr double background = 0.75;
 
+constexpr double stefan_boltzmann = 5.670374419e-8;  // CODATA 2018 [W/m^2/K^4]
+
+void add_wall_heat(const GroupHeat& of, GroupTable::Heat& heat) {
+  const double glow = of.radiation.emissivity * stefan_boltzmann, t = of.radiation.temperature;
+  const double given = of.transfer.coefficient * of.transfer.temperature + glow * (t * t * (t * t));
+  heat.wall_flux.push_back(of.wall_flux.value_or(given));
+  heat.wall_transfer.push_back(of.transfer.coefficient);
+  heat.wall_glow.push_back(glow);
+  heat.wall_warmest.push_back(std::max(of.transfer.temperature, t));
+}
+
 GroupTable group_table(const Scene& of) {
   const double divide = density_divide(of);
   GroupTable groups;
@@ -101,7 +112,11 @@ GroupTable group_table(const Scene& of) {
     groups.side.push_back(side_of(of, static_cast<int>(&g - of.groups.data())));
     groups.mover.push_back(g.kind == GroupKind::wall ? 0.0 : 1.0);
     groups.shears.push_back(g.kind == GroupKind::fluid ? 0.0 : 1.0);
-    groups.density.push_back(g.density);
+    groups.weight.density.push_back(g.density);
+    const double borne = of.domain.background.density;
+    const bool bubbly = g.kind != GroupKind::grain && g.eos.law->kind == EosKind::bubbly;
+    groups.weight.share.push_back(bubbly || borne == 0 ? 1.0 : 1 - borne / g.density);
+    groups.weight.borne.push_back(bubbly ? borne : 0.0);
     const std::size_t body = g.wall.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.wall.clamps);
     groups.body.push_back(static_cast<double>(body));
     groups.modulus.push_back(of.groups[body].eos.bulk_modulus +
@@ -109,7 +124,7 @@ GroupTable group_table(const Scene& of) {
     groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
     groups.heat.specific_heat.push_back(g.heat.material.specific_heat);
     groups.heat.wall_warmth.push_back(g.kind == GroupKind::wall && g.heat.temperature ? 1.0 : 0.0);
-    groups.heat.wall_flux.push_back(g.heat.wall_flux.value_or(0));
+    add_wall_heat(g.heat, groups.heat);
     groups.heat.grip.push_back(g.wall.slip ? 0.0 : 1.0);
     groups.gas_flow.permeability.push_back(g.kind == GroupKind::wall ? 0.0
                                                                      : g.bubbly.permeability.coefficient);
@@ -167,7 +182,7 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   terms.viscous.laplacian = 1 / kernel.second;
   terms.viscous.symmetric = (of.dim + 2) / kernel.fourth;
   terms.viscous.uniform = fluid->viscosity / h * terms.viscous.laplacian;
-  terms.density = fluid->density;
+  terms.density = fluid->density * groups.weight.share[static_cast<std::size_t>(fluid - of.groups.begin())];
   terms.inverse_sound_speed = 1 / std::sqrt(fluid->eos.bulk_modulus / fluid->density);
   terms.artificial_viscosity = of.terms.artificial_viscosity;
   terms.shock.quadratic_viscosity = of.terms.gas.quadratic_viscosity;

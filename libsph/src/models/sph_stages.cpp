@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "sph/laws/eos/law.hpp"
+#include "sph/models/exsolution.hpp"
 #include "sph/models/models.hpp"
+#include "sph/models/resets.hpp"
 #include "sph/models/transitions.hpp"
 #include "sph/models/viscosities.hpp"
 #include "sph/terms/shifting.hpp"
@@ -50,7 +52,9 @@ void add_end_of_step(Builder& b, const SphModels& m) {
   if (m.shifting) m.shifting->add_to(b);
   add_drifts(b);
   if (bulk_viscous(s)) add_pressures(b);
+  if (exsolves_slowly(s)) add_exsolution(b);
   if (has_transitions(s)) add_transitions(b);
+  if (!s.domain.resets.empty()) add_resets(b);
   if (m.shifting) m.shifting->add_motion_to(b);
   if (has_eos(b.scene(), EosKind::ideal_gas)) add_heat(b);
   if (std::ranges::any_of(s.groups, stiffens)) add_sound(b);
@@ -77,7 +81,9 @@ void add_still_matter(Builder& b, const SphModels& m) {
   }
   if (has_escape(b.scene())) b.add_sums("concentration", {term<Concentration>});
   add_exchanges(b, m);
+  if (exsolves_slowly(b.scene())) add_exsolution(b);
   if (has_transitions(b.scene())) add_transitions(b);
+  if (!b.scene().domain.resets.empty()) add_resets(b);
   if (b.scene().output.average_time > 0) add_averages(b);
 }
 

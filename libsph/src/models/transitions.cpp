@@ -6,9 +6,7 @@
 
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
-#include "sph/laws/eos/bubbly.hpp"
 #include "sph/laws/eos/law.hpp"
-#include "sph/models/faults.hpp"
 
 namespace sph {
 namespace {
@@ -16,7 +14,8 @@ namespace {
 bool same_state(const Group& a, const Group& b) {
   return a.eos == b.eos && a.density == b.density && a.bubbly.gas_rt == b.bubbly.gas_rt &&
          a.bubbly.solubility_pressure == b.bubbly.solubility_pressure &&
-         a.bubbly.solubility_exponent == b.bubbly.solubility_exponent;
+         a.bubbly.solubility_exponent == b.bubbly.solubility_exponent &&
+         (a.bubbly.exsolution_time > 0) == (b.bubbly.exsolution_time > 0);
 }
 
 /// s:s / (4 mu) of the deviator, in two dimensions of plane strain [J/m^3].
@@ -36,24 +35,48 @@ struct Transitions {
   static constexpr FieldSet reads =
       FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::mass};
   static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::group,        Field::density,        Field::stress,
-                                   Field::temperature,  Field::liquid_mass,    Field::waiting_for,
-                                   Field::waiting_time, Field::released_energy};
+      Materials::writes | FieldSet{Field::group,           Field::density,         Field::stress,
+                                   Field::temperature,     Field::liquid_mass,     Field::waiting_for,
+                                   Field::waiting_time,    Field::released_energy, Field::void_fraction_mean,
+                                   Field::temperature_mean};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
   const Materials* materials;
 
   void operator()(const Rows& p, const Step& step) const {
     const double *psi = p.get<Field::void_fraction>(), *t = p.get<Field::temperature>();
+    const double *psi_mean = p.get<Field::void_fraction_mean>(), *t_mean = p.get<Field::temperature_mean>();
+    const auto of = [](const double* now, const double* mean, const Transition& row, std::size_t i) {
+      const double* value = row.average > 0 ? mean : now;
+      return value != nullptr ? value[i] : 0.0;
+    };
     for_movers(step.ranges, [&](std::size_t i) {
       const std::vector<Transition>& table = constants->scene->groups[p.get<Field::group>()[i]].becomes;
+      for (const Transition& row : table) {
+        if (!(row.average > 0) || &row != &first_mean(table, row)) continue;
+        row.of_temperature()
+            ? follow(p.get<Field::temperature_mean>()[i], t[i], row.average, step.global)
+            : follow(p.get<Field::void_fraction_mean>()[i], psi[i], row.average, step.global);
+      }
       const auto first = std::ranges::find_if(table, [&](const Transition& row) {
-        return row.holds(psi != nullptr ? psi[i] : 0, t != nullptr ? t[i] : 0);
+        return row.holds(of(psi, psi_mean, row, i), of(t, t_mean, row, i));
       });
       if (has_waited(p, i, first == table.end() ? nullptr : &*first,
                      static_cast<std::uint32_t>(first - table.begin()), step.global.dt))
         change(p, i, static_cast<std::uint32_t>(first->group), step);
     });
+  }
+
+  /// The first row with a mean of the same quantity.
+  static const Transition& first_mean(const std::vector<Transition>& table, const Transition& row) {
+    return *std::ranges::find_if(table, [&](const Transition& other) {
+      return other.average > 0 && other.of_temperature() == row.of_temperature();
+    });
+  }
+
+  /// a += dt/T (f - a), T the time since the start until that is the window.
+  static void follow(double& mean, double value, double window, const GlobalState& global) {
+    mean += std::fmin(global.dt / std::fmin(window, global.time + global.dt), 1.0) * (value - mean);
   }
 
   static bool has_waited(const Rows& p, std::size_t i, const Transition* row, std::uint32_t number,
@@ -78,8 +101,8 @@ struct Transitions {
     double& rho = p.get<Field::density>()[i];
     if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
     if (!same_state(old, now)) {
-      const double* porosity = p.get<Field::porosity>();
-      rho = density(p, i, now, step) * (porosity != nullptr ? porosity[i] : 1.0);
+      const double* gas = p.get<Field::gas_content>();
+      rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
     }
     group[i] = to;
     const bool bubbly = now.eos.law->kind == EosKind::bubbly;
@@ -89,6 +112,8 @@ struct Transitions {
       liquid[i] = mass / (1 + p.get<Field::gas_content>()[i]);
     if (const double* h = p.get<Field::enthalpy>())
       p.get<Field::temperature>()[i] = temperature(now.heat.material, h[i]);
+    if (double* mean = p.get<Field::void_fraction_mean>()) mean[i] = p.get<Field::void_fraction>()[i];
+    if (double* mean = p.get<Field::temperature_mean>()) mean[i] = p.get<Field::temperature>()[i];
   }
 
   void release(const Rows& p, std::size_t i, const Group& old, const Group& now, double* stress,
@@ -98,17 +123,6 @@ struct Transitions {
     if (old.kind == GroupKind::solid && now.kind == GroupKind::fluid) std::fill_n(stress + i * n, n, 0.0);
     if (double* released = p.get<Field::released_energy>())
       released[i] += (before - elastic_energy(now, stress + i * n, d)) * volume;
-  }
-
-  /// Of the other matter at the pressure of this one; bubbly matter cannot be torn.
-  [[nodiscard]] double density(const Rows& p, std::size_t i, const Group& now, const Step& step) const {
-    const double surface = constants->scene->domain.surface_pressure, above = p.get<Field::pressure>()[i];
-    if (now.eos.law->kind != EosKind::bubbly) return now.eos.law->start(now, above, surface).density;
-    const double gas = p.get<Field::gas_content>()[i], absolute = above + surface;
-    if (gas > 0 && !(absolute > 0) && !(surface > 0))
-      find_fault(*constants, p, i, step,
-                 "is torn where it becomes bubbly \"" + now.name + "\"; raise domain.surface_pressure");
-    return bubbly_eos(now, gas).density(gas > 0 && !(absolute > 0) ? surface : absolute);
   }
 };
 
@@ -128,6 +142,10 @@ void add_transitions(Builder& b) {
     return std::ranges::any_of(g.becomes, [](const Transition& row) { return row.hold > 0; });
   });
   if (waits) b.add_fields({Field::waiting_for, Field::waiting_time});
+  for (const Group& g : b.scene().groups)
+    for (const Transition& row : g.becomes)
+      if (row.average > 0)
+        b.add_fields({row.of_temperature() ? Field::temperature_mean : Field::void_fraction_mean});
   if (has_released_energy(b.scene())) b.add_fields({Field::released_energy});
   b.add_kick("transitions", Transitions{&b.constants(), &b.materials()});
 }

@@ -79,9 +79,11 @@ double Viscosities::of(const Particles& p, std::size_t i) const {
   if (const double* psi = p.get<Field::void_fraction>()) s.void_fraction = psi[i];
   if (g.viscosity_law.law == ViscosityLaw::hess_dingwell) {
     const double m = p.get<Field::gas_content>()[i];
-    const double all =
-        bubbly_eos(g, m).dissolved(p.get<Field::pressure>()[i] + scene.domain.surface_pressure);
-    const double dissolved = std::fmin(m, all);
+    const double* w = p.get<Field::dissolved_gas>();
+    const double dissolved =
+        w != nullptr && g.bubbly.exsolution_time > 0
+            ? std::fmin(m, w[i])
+            : dissolved_gas(g, m, p.get<Field::pressure>()[i] + Materials(*constants_).outer(p, i, g));
     s.water = dissolved / (1 + dissolved);
   }
   return melt_viscosity(g, s);

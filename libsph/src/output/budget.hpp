@@ -15,7 +15,7 @@ struct Budget {
     std::vector<std::string> out{"mass"};
     if (p.has(Field::enthalpy)) out.emplace_back("heat");
     if (p.has(Field::heat_inflow)) out.emplace_back("heat_in");
-    if (p.has(Field::liquid_mass)) out.emplace_back("gas");
+    if (has_gas(p)) out.emplace_back("gas");
     if (p.has(Field::gas_inflow)) out.emplace_back("gas_in");
     if (p.has(Field::released_energy)) out.emplace_back("released");
     return out;
@@ -27,10 +27,18 @@ struct Budget {
     add(mass);
     if (const double* h = p.data<Field::enthalpy>()) add(mass * h[row]);
     if (const double* inflow = p.data<Field::heat_inflow>()) add(inflow[row]);
-    if (const double* liquid = p.data<Field::liquid_mass>())
-      add(liquid[row] * p.data<Field::gas_content>()[row]);
+    if (has_gas(p)) {
+      const double m = p.data<Field::gas_content>()[row];
+      const double* liquid = p.data<Field::liquid_mass>();
+      add(m * (liquid != nullptr ? liquid[row] : mass / (1 + m)));
+    }
     if (const double* inflow = p.data<Field::gas_inflow>()) add(inflow[row]);
     if (const double* energy = p.data<Field::released_energy>()) add(energy[row]);
+  }
+
+ private:
+  [[nodiscard]] static bool has_gas(const Particles& p) {
+    return p.has(Field::liquid_mass) || p.has(Field::gas_inflow);
   }
 };
 

@@ -47,7 +47,11 @@ double fall_of(const Scene& scene, double height) {
   Double3 g = scene.domain.gravity;
   for (std::size_t a = 0; a < 3; ++a)
     if (scene.domain.periodic[a]) g[a] = 0;
-  return std::sqrt(length(g) * height);
+  double weight = 0;  // that a background leaves
+  for (const Group& matter : scene.groups)
+    if (is_matter(matter))
+      weight = std::max(weight, std::fabs(1 - scene.domain.background.density / matter.density));
+  return std::sqrt(length(g) * weight * height);
 }
 
 }  // namespace

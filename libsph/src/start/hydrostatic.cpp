@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "sph/core/error.hpp"
+#include "sph/laws/background.hpp"
 
 namespace sph {
 
 HydrostaticColumn::HydrostaticColumn(const Scene& scene)
-    : pull_(scene.domain.gravity),
-      surface_pressure_(scene.domain.surface_pressure),
-      step_(scene.start.spacing) {
+    : pull_(scene.domain.gravity), scene_(&scene), step_(scene.start.spacing) {
   double square = 0;
   for (const double g : pull_) square += g * g;
   gravity_ = std::sqrt(square);
@@ -25,7 +24,7 @@ HydrostaticColumn::HydrostaticColumn(const Scene& scene)
     const double bottom = k + 1 < layers.size() ? layers[k + 1].top : lowest;
     Part part{&fluid, layers[k].top, pressure};
     if (fluid.eos.law->pressure_below == nullptr) {
-      part.below.push_back(pressure + surface_pressure_);
+      part.below.push_back(pressure + outer(part, 0));
       if (fluid.eos.law->needs_pressure && !(part.below.back() > 0))
         throw InputError(scene.file + ": start.pressure: the layer \"" + fluid.name +
                          "\" begins without pressure, where it is all gas; give domain.surface_pressure");
@@ -58,9 +57,20 @@ double HydrostaticColumn::at_depth(const Part& part, double depth) const {
     const double node = std::clamp(std::floor(depth / step_), 0.0, nodes);
     double p = part.below[static_cast<std::size_t>(node)], rest = depth - node * step_;
     for (; rest > step_; rest -= step_) p = descend(*part.fluid, p, step_);  // below the domain
-    return descend(*part.fluid, p, rest) - surface_pressure_;
+    return descend(*part.fluid, p, rest) - outer(part, depth);
   }
-  return fluid.eos.law->pressure_below(fluid, {part.pressure, surface_pressure_, gravity_, depth});
+  return fluid.eos.law->pressure_below(fluid, {part.pressure, outer(part, 0), pull_on(fluid), depth});
+}
+
+double HydrostaticColumn::pull_on(const Group& fluid) const {
+  if (fluid.eos.law->kind == EosKind::bubbly) return gravity_;  // whose pressure is all of it here
+  return gravity_ * weight_share(*scene_, fluid, fluid.density);
+}
+
+double HydrostaticColumn::outer(const Part& part, double depth) const {
+  Double3 x{};
+  for (std::size_t a = 0; a < 3; ++a) x[a] = -pull_[a] / gravity_ * (part.top - depth);
+  return outer_pressure(*scene_, *part.fluid, x);
 }
 
 // Eight steps of the classical Runge-Kutta method for a way of one spacing or less: 1e-10 of the pressure,
@@ -68,7 +78,8 @@ double HydrostaticColumn::at_depth(const Part& part, double depth) const {
 double HydrostaticColumn::descend(const Group& fluid, double p, double way) const {
   constexpr int steps = 8;
   const double dd = way / steps;
-  const auto slope = [&](double pressure) { return fluid.eos.law->density(fluid, pressure) * gravity_; };
+  const double pull = pull_on(fluid);
+  const auto slope = [&](double pressure) { return fluid.eos.law->density(fluid, pressure) * pull; };
   for (int k = 0; k < steps; ++k) {
     const double k1 = slope(p), k2 = slope(p + 0.5 * dd * k1), k3 = slope(p + 0.5 * dd * k2),
                  k4 = slope(p + dd * k3);

@@ -1,5 +1,5 @@
 // Pressure of still layers under their own weight: dp/dd = rho(p) g along the depth d, each layer with its
-// own equation of state. Closed form where the law has one; else a table of Runge-Kutta steps of fixed
+// own equation of state, less what a background bears (laws/background.hpp). Closed form where the law has one; else a table of Runge-Kutta steps of fixed
 // length, so that the pressure at a point depends on nothing but the scene.
 #pragma once
 
@@ -30,10 +30,14 @@ class HydrostaticColumn {
   [[nodiscard]] double at_depth(const Part& part, double depth) const;
   [[nodiscard]] double descend(const Group& fluid, double pressure, double way) const;
 
-  [[nodiscard]] double height(const Double3& x) const;  ///< against gravity [m]
+  /// What the equation of state sees besides the pressure.
+  [[nodiscard]] double outer(const Part& part, double depth) const;
+  [[nodiscard]] double pull_on(const Group& fluid) const;  ///< [m/s^2]
+  [[nodiscard]] double height(const Double3& x) const;     ///< against gravity [m]
 
   Double3 pull_;
-  double gravity_, surface_pressure_, step_;
+  const Scene* scene_;
+  double gravity_, step_;
   std::vector<Part> parts_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/random.hpp"
 #include "sph/core/exact_math.hpp"
+#include "sph/laws/background.hpp"
 #include "sph/laws/eos/law.hpp"
 #include "sph/scene/grain_mass.hpp"
 #include "sph/scene/melt_grid.hpp"
@@ -77,7 +78,7 @@ void InitialFields::set(NewParticle& p) const {
     p.density = g.density;
     p.velocity = g.wall.velocity;
   } else {
-    const EosStart start = g.eos.law->start(g, pressure(x), scene.domain.surface_pressure);
+    const EosStart start = g.eos.law->start(g, pressure(x), outer_pressure(scene, g, x));
     p.density = start.density;
     p.energy = start.specific_energy;
     if (g.kind == GroupKind::wall) {
@@ -121,6 +122,9 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* inflow = particles.data<Field::gas_inflow>()) inflow[i] = 0;
   if (auto* waiting = particles.data<Field::waiting_for>()) waiting[i] = 0;
   if (auto* time = particles.data<Field::waiting_time>()) time[i] = 0;
+  if (auto* w = particles.data<Field::dissolved_gas>()) w[i] = 0;  // of pressures, once all are placed
+  if (auto* mean = particles.data<Field::void_fraction_mean>()) mean[i] = 0;  // until the first step
+  if (auto* mean = particles.data<Field::temperature_mean>()) mean[i] = 0;
   if (auto* released = particles.data<Field::released_energy>()) released[i] = 0;
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;

@@ -1,5 +1,6 @@
-// The start's lattice in index space and the regions that paint it. Square: cell centres. Hexagonal (2D):
-// rows of alternating offset with the same area per point as the square lattice of that spacing.
+// The start's lattice in index space and the regions that paint it. Square: cell centres. Close
+// packings have the same area or volume per point as the square lattice of that spacing: hexagonal (2D), rows of
+// alternating offset, and face-centred cubic (3D), of cubes of edge a with 4 points, neighbours a / sqrt(2) apart.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +25,10 @@ class Lattice {
       step_[0] = scene.start.spacing * std::sqrt(2 / std::sqrt(3.0));
       step_[1] = step_[0] * (0.5 * std::sqrt(3.0));
     }
+    if (fill_.kind == LatticeKind::fcc) {
+      step_[0] = scene.start.spacing * fcc_edge;
+      step_[1] = step_[2] = 0.5 * step_[0];
+    }
     for (std::size_t a = 0; a < dim_; ++a) {
       // A margin of one point: whether a point is inside is decided on its coordinate.
       first_[a] = static_cast<std::int64_t>(std::floor((fill_.lower[a] - fill_.origin[a]) / step_[a])) - 1;
@@ -41,7 +46,10 @@ class Lattice {
     Double3 x{};
     for (std::size_t a = 0; a < dim_; ++a)
       x[a] = fill_.origin[a] + (static_cast<double>(k[a]) + 0.5) * step_[a];
-    if (fill_.kind == LatticeKind::hexagonal && (k[1] & 1) != 0) x[0] += 0.5 * step_[0];
+    const bool odd = ((k[1] + k[2]) & 1) != 0;
+    if (fill_.kind != LatticeKind::square && odd) x[0] += 0.5 * step_[0];
+    if (fill_.kind == LatticeKind::fcc)
+      x[0] -= 0.25 * step_[0];  // no point on an edge, and of a period none twice
     return x;
   }
   [[nodiscard]] bool inside(const Double3& x) const {

@@ -11,7 +11,7 @@ namespace {
 
 double sound_at(const Group& g, double density) {
   double pressure, sound;
-  g.eos.law->derive(g, {&density, nullptr, nullptr, &pressure, &sound, nullptr, 0}, 0, 1);
+  g.eos.law->derive(g, {&density, nullptr, nullptr, nullptr, &pressure, &sound, nullptr, 0}, 0, 1);
   return sound;
 }
 

@@ -88,9 +88,14 @@ enum class Field : std::uint8_t {
   gas_heat,
   waiting_for,
   waiting_time,
+  void_fraction_mean,
+  temperature_mean,
+  dissolved_gas,
   released_energy,
   trial,
   exchange_sums,
+  gas_slope,
+  connected,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -287,6 +292,12 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::waiting_for, "waiting_for", "1", Type::u32, Shape::scalar, true, false,
      "row of its group's table of transitions that holds, from 1; 0: none"},
     {Field::waiting_time, "waiting_time", "s", Type::f64, Shape::scalar, true, false, "for how long it has"},
+    {Field::void_fraction_mean, "void_fraction_mean", "1", Type::f64, Shape::scalar, true, true,
+     "running mean that transitions are judged by"},
+    {Field::temperature_mean, "temperature_mean", "K", Type::f64, Shape::scalar, true, true,
+     "running mean that transitions are judged by"},
+    {Field::dissolved_gas, "dissolved_gas", "1", Type::f64, Shape::scalar, true, true,
+     "w: what of bubbly magma's volatiles is dissolved where that lags behind, per mass of liquid melt"},
     {Field::released_energy, "released_energy", "J", Type::f64, Shape::scalar, true, false,
      "elastic energy that a particle lost by transitions since the start"},
     {Field::trial, "trial", "K or Pa", Type::f64, Shape::scalar, false, false,
@@ -294,6 +305,12 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::exchange_sums, "exchange_sums", "W, kg/s", Type::f64, Shape::two, false, false,
      "what flows to a particle if `trial` drove it, and its derivative by the particle's own, negative",
      SumScale::force},
+    {Field::gas_slope, "gas_slope", "1/m", Type::f64, Shape::spread, false, false,
+     "sums for the gradient that drives gas: over neighbours of its difference [Pa/m], and of squared "
+     "distances",
+     SumScale::gradient},
+    {Field::connected, "connected", "1", Type::u32, Shape::scalar, true, true,
+     "1: bubbles have been enough to be connected, and still are"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

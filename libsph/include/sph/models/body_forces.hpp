@@ -1,6 +1,6 @@
 // What accelerates a particle besides its pairs: gravity, on matter that is lighter where it is warm (Boussinesq:
-// g (1 - alpha (T - T_0))), a central pull, grains in the fluid as far as known from the
-// step before (models/drag.hpp), and, beside a free surface where particles are shifted, the control of tension.
+// g (1 - alpha (T - T_0))), less what a background bears (laws/background.hpp), a central pull, grains in the fluid as
+// far as known from the step before (models/drag.hpp), and, beside a free surface where particles are shifted, the control of tension.
 #pragma once
 
 #include "sph/models/sph_constants.hpp"

@@ -14,8 +14,8 @@ namespace sph {
 class Viscosities {
  public:
   static constexpr FieldSet reads =
-      FaultView::reads |
-      FieldSet{Field::temperature, Field::pressure, Field::gas_content, Field::void_fraction, Field::density};
+      FaultView::reads | FieldSet{Field::temperature,   Field::pressure, Field::gas_content,
+                                  Field::void_fraction, Field::density,  Field::dissolved_gas};
   static constexpr FieldSet writes{Field::viscosity};
   using Particles = View<reads, writes>;
 

@@ -81,6 +81,8 @@ struct StateColumns {
     if constexpr (S.has(Value::volume)) row.put(Value::volume, 0, mass[i] / rho[i] * scale.inverse_volume);
     if constexpr (S.has(Value::pressure)) row.put(Value::pressure, 0, pressure[i]);
     if constexpr (S.has(Value::density)) row.put(Value::density, 0, rho[i]);
+    if constexpr (S.has(Value::weight))
+      row.put(Value::weight, 0, rho[i] * groups.weight.share[row.group] - groups.weight.borne[row.group]);
     if constexpr (S.has(Value::viscosity))
       row.put(Value::viscosity, 0,
               (viscosity != nullptr ? viscosity[i] : groups.viscosity[row.group]) * scale.inverse_h);
@@ -175,7 +177,8 @@ struct BondColumns {
         row.put(Value::reference_cell, k,
                 static_cast<double>(reference(k) >> (row.scale.position_shift + 29)));
     if constexpr (S.has(Value::reference_volume))
-      row.put(Value::reference_volume, 0, mass[i] / groups.density[row.group] * row.scale.inverse_volume);
+      row.put(Value::reference_volume, 0,
+              mass[i] / groups.weight.density[row.group] * row.scale.inverse_volume);
     if constexpr (S.has(Value::body)) row.put(Value::body, 0, groups.body[row.group]);
     if constexpr (S.has(Value::bond_stress))
       for (int k = 0; k < D * D; ++k) row.put(Value::bond_stress, k, stress[i * D * D + k]);
@@ -251,6 +254,11 @@ struct HeatColumns {
       row.put(Value::wall_warmth, 0, groups.heat.wall_warmth[row.group]);
     if constexpr (S.has(Value::wall_heat_flux))
       row.put(Value::wall_heat_flux, 0, groups.heat.wall_flux[row.group]);
+    if constexpr (S.has(Value::wall_transfer)) {
+      row.put(Value::wall_transfer, 0, groups.heat.wall_transfer[row.group]);
+      row.put(Value::wall_glow, 0, groups.heat.wall_glow[row.group]);
+      row.put(Value::wall_warmest, 0, groups.heat.wall_warmest[row.group]);
+    }
     if constexpr (S.has(Value::sensible_heat))
       row.put(Value::sensible_heat, 0, groups.heat.specific_heat[row.group] * temperature[row.i]);
     if constexpr (S.has(Value::grip)) row.put(Value::grip, 0, groups.heat.grip[row.group]);

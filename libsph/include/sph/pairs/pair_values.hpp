@@ -66,10 +66,14 @@ enum class Value : std::uint8_t {
   gas_pressure,        ///< [Pa]
   gas_density,         ///< 0 of walls [kg/m^3]
   wall_open,           ///< 1 for walls that let gas pass, else 0
-  wall_heat_flux,      ///< of walls, into what is beside them [W/m^2]
+  wall_heat_flux,      ///< of walls, into what is beside them, or would be were that at 0 K [W/m^2]
+  wall_transfer,       ///< of walls: what of it a kelvin of the face takes [W/m^2/K] ...
+  wall_glow,           ///< ... and its fourth power [W/m^2/K^4]
+  wall_warmest,        ///< of walls with one of these: no face is warmer beside cold matter [K]
   sensible_heat,       ///< c_p T [J/kg]
   grip,                ///< 0 of walls that slip, else 1
   trial,               ///< what an implicit exchange is solved for [K or Pa]
+  weight,              ///< density, less what a background bears of its weight [kg/m^3]
   count_
 };
 
@@ -108,6 +112,7 @@ class ValueSet {
   if (values.has(Value::volume)) f |= FieldSet{Field::mass, Field::density};
   if (values.has(Value::pressure)) f |= FieldSet{Field::pressure};
   if (values.has(Value::density)) f |= FieldSet{Field::density};
+  if (values.has(Value::weight)) f |= FieldSet{Field::density, Field::group};
   if (values.has(Value::viscosity)) f |= FieldSet{Field::group, Field::viscosity};
   if (values.has(Value::sound_speed)) f |= FieldSet{Field::group, Field::sound_speed};
   if (values.has(Value::phase)) f |= FieldSet{Field::group};
@@ -135,7 +140,7 @@ class ValueSet {
   if (values.has(Value::temperature)) f |= FieldSet{Field::temperature};
   if (values.has(Value::sensible_heat)) f |= FieldSet{Field::group, Field::temperature};
   if (values.has(Value::conductivity) || values.has(Value::wall_warmth) ||
-      values.has(Value::wall_heat_flux) || values.has(Value::grip))
+      values.has(Value::wall_heat_flux) || values.has(Value::wall_transfer) || values.has(Value::grip))
     f |= FieldSet{Field::group};
   if (values.has(Value::permeability) || values.has(Value::wall_open)) f |= FieldSet{Field::group};
   if (values.has(Value::gas_mobility)) f |= FieldSet{Field::gas_mobility};
@@ -155,9 +160,14 @@ struct GroupTable {
   std::vector<double> side;         ///< 1, -1 or 0
   std::vector<double> shears;       ///< 1 or 0
   double surface_tension = 0;       ///< [N/m]
-  std::vector<double> density;      ///< rho_0 [kg/m^3]
   std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
   std::vector<double> modulus;      ///< K + 4/3 mu [Pa]
+  /// Gravity acts on rho share - borne: rho (1 - rho_b / rho_0), of bubbly groups rho - rho_b.
+  struct Weight {
+    std::vector<double> density;       ///< rho_0 [kg/m^3]
+    std::vector<double> share, borne;  ///< [1], [kg/m^3]
+  };
+  Weight weight;
   struct GasFlow {
     std::vector<double> permeability;  ///< scale [m^2]
     std::vector<double> inverse_rt;    ///< [s^2/m^2]
@@ -165,8 +175,8 @@ struct GroupTable {
     double surface_pressure = 0;       ///< [Pa]
   };
   struct Heat {
-    std::vector<double> conductivity, specific_heat, wall_warmth, wall_flux,
-        grip;  ///< as the values have them
+    std::vector<double> conductivity, specific_heat, wall_warmth, wall_flux, wall_transfer, wall_glow,
+        wall_warmest, grip;  ///< as the values have them
   };
   GasFlow gas_flow;
   Heat heat;

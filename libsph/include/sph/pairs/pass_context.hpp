@@ -45,7 +45,7 @@ struct BodyContactConstants {
 template <class T>
 struct TermConstants {
   T gravity[3];            ///< g h [m^2/s^2]
-  T density;               ///< rho_0 where there is one fluid [kg/m^3]
+  T density;               ///< rho_0 where there is one fluid, less what a background bears of it [kg/m^3]
   T inverse_sound_speed;   ///< where there is one fluid [s/m]
   T artificial_viscosity;  ///< alpha
   T inverse_w_spacing;     ///< 1 / w(spacing/h), unnormalised kernel

@@ -17,6 +17,10 @@ struct Permeability {
   double exponent = 3.4;        ///< n
   double threshold = 0.3;       ///< of psi
   double gas_viscosity = 2e-5;  ///< [Pa s]
+  /// Of psi, at which bubbles that were connected are no more; none: at `threshold`.
+  std::optional<double> closing_threshold;
+  /// Forchheimer's second permeability is coefficient k^exponent [m]; 0: gas flows too slowly for it.
+  double inertial_coefficient = 0, inertial_exponent = 1.353;
   friend bool operator==(const Permeability&, const Permeability&) = default;
 };
 
@@ -26,6 +30,7 @@ struct BubblyMaterial {
   double gas_rt = 0;               ///< R T, Ida eq. (13) [m^2/s^2]
   double solubility_pressure = 0;  ///< p_s [Pa]
   double solubility_exponent = 1;  ///< gamma [1]
+  double exsolution_time = 0;      ///< tau, in which what is dissolved follows the pressure; 0: at once [s]
   Permeability permeability;       ///< of its gas
   friend bool operator==(const BubblyMaterial&, const BubblyMaterial&) = default;
 };

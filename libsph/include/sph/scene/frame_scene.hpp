@@ -4,11 +4,20 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "sph/scene/grain_scene.hpp"
 #include "sph/scene/melt_scene.hpp"
+#include "sph/scene/reset_scene.hpp"
 
 namespace sph {
+
+/// Matter at rest that pressures are the excess over: its weight is taken from all other.
+struct Background {
+  double density = 0;  ///< rho_b; 0: there is none [kg/m^3]
+  double surface = 0;  ///< height against gravity where its pressure is that of the surface [m]
+  friend bool operator==(const Background&, const Background&) = default;
+};
 
 /// The box that holds everything, and what acts on all of it.
 struct Domain {
@@ -18,7 +27,9 @@ struct Domain {
   double central_pull = 0;      ///< acceleration towards pull_centre over the distance from it [1/s^2]
   Double3 pull_centre{};        ///< [m]
   double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
-  MeltControl melt;             ///< that fills it
+  Background background;
+  std::vector<Reset> resets;  ///< in their order
+  MeltControl melt;           ///< that fills it
   friend bool operator==(const Domain&, const Domain&) = default;
 };
 

@@ -22,7 +22,9 @@ struct Region {
   friend bool operator==(const Region&, const Region&) = default;
 };
 
-enum class LatticeKind { square, hexagonal };
+/// Cubic in 3D; close packings, hexagonal in 2D, face-centred cubic in 3D.
+enum class LatticeKind { square, hexagonal, fcc };
+inline constexpr double fcc_edge = 1.5874010519681994;  ///< 4^(1/3): of a cube of 4 points, in spacings
 
 /// A lattice that regions paint.
 struct LatticeFill {

@@ -11,6 +11,7 @@ struct Transition {
   std::optional<double> void_fraction_above, void_fraction_below;  ///< one of the four ...
   std::optional<double> temperature_above, temperature_below;      ///< ... [K]
   double hold = 0;                                                 ///< [s]
+  double average = 0;  ///< the value is a running mean over so long; 0: that of now [s]
 
   [[nodiscard]] int limits() const {
     int n = 0;

@@ -3,8 +3,12 @@
 // with k_ij the harmonic mean, which keeps the flux where the conductivity jumps (Cleary & Monaghan 1999, eq. 29; the
 // arithmetic mean is 7 % off at 1 : 1000). Walls have no heat of their own. One that keeps a temperature T_w gives a
 // particle what the straight profile between them says (wall_profile.hpp); one with a flux q gives 2 q |S| V_i, S the
-// gradient of the walls' share of the kernel along the normal, which over all rows is one half. Always in double
-// precision: sums of heat must not lose what single precision rounds.
+// gradient of the walls' share of the kernel along the normal, which over all rows is one half. One that takes heat
+// from its face by a coefficient or by radiation does so with
+//   q = q_0 - h_c T_f - e sigma T_f^4 = k (T_f - T_i) / d,   q_0 = h_c T_w + e sigma T_a^4,
+// in series with the way d to the face (Incropera et al. 2007, eqs. 1.3 and 1.7), so that no coefficient asks for a
+// shorter time step than a kept temperature does. Always in double precision: sums of heat must not lose what single
+// precision rounds.
 #pragma once
 
 #include "sph/terms/wall_profile.hpp"
@@ -47,6 +51,29 @@ struct ConductionOperator {
   }
 };
 
+/// Into a particle through the face of a wall.
+template <class V>
+struct FaceFlux {
+  V given;  ///< [W/m^2]
+  V slope;  ///< how much less if the particle were 1 K warmer [W/m^2/K]
+};
+
+/// Heat that walls keep or give.
+template <class P, class C, class S>
+void add_heat_of_wall(const P& p, const C& c, const WallProfile<typename P::V>& profile,
+                      const FaceFlux<typename P::V>& flux, S& sums) {
+  using V = typename P::V;
+  // Between walls so near that there is no normal they give all of their flux.
+  const V way = profile.across / max(sqrt(profile.steepness), V(static_cast<typename P::Scalar>(1e-300))) +
+                where_equal(profile.steepness, V::zero(), p.r);
+  const V weight = p.template i<Value::volume>() * p.template j<Value::volume>() * p.f;
+  const V own = p.template i<Value::conductivity>();
+  const V keeps = (own + own) * profile.share() * V(c.viscous.laplacian) * p.template j<Value::wall_warmth>();
+  const V kept = keeps * (p.template i<Value::temperature>() - p.template j<Value::temperature>());
+  sums.template add<Field::wall_heat>(0, weight * (kept - flux.given * (way + way)));
+  sums.template add<Field::wall_heat>(1, -(weight * (keeps + flux.slope * (way + way))));
+}
+
 struct WallConduction {
   static constexpr std::string_view name = "WallConduction";
   static constexpr bool always_double = true, only_beside_walls = true;
@@ -55,19 +82,43 @@ struct WallConduction {
   static constexpr Field writes = Field::wall_heat;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const WallProfile<V> profile = wall_profile(p);
-    // Between walls so near that there is no normal they give all of their flux.
-    const V way = profile.across / max(sqrt(profile.steepness), V(static_cast<typename P::Scalar>(1e-300))) +
-                  where_equal(profile.steepness, V::zero(), p.r);
-    const V weight = p.template i<Value::volume>() * p.template j<Value::volume>() * p.f;
-    const V own = p.template i<Value::conductivity>();
-    const V keeps =
-        (own + own) * profile.share() * V(c.viscous.laplacian) * p.template j<Value::wall_warmth>();
-    const V kept = keeps * (p.template i<Value::temperature>() - p.template j<Value::temperature>());
-    const V given = p.template j<Value::wall_heat_flux>() * (way + way);
-    sums.template add<Field::wall_heat>(0, weight * (kept - given));
-    sums.template add<Field::wall_heat>(1, -(weight * keeps));
+    const WallProfile<typename P::V> profile = wall_profile(p);
+    add_heat_of_wall(p, c, profile, {p.template j<Value::wall_heat_flux>(), P::V::zero()}, sums);
+  }
+};
+
+/// The same of walls some of which have a coefficient or radiate.
+struct WallTransferConduction {
+  static constexpr std::string_view name = "WallTransferConduction";
+  static constexpr bool always_double = true, only_beside_walls = true;
+  static constexpr ValueSet reads =
+      WallConduction::reads | ValueSet{Value::wall_transfer, Value::wall_glow, Value::wall_warmest};
+  static constexpr Field writes = Field::wall_heat;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    const WallProfile<typename P::V> profile = wall_profile(p);
+    add_heat_of_wall(p, c, profile, flux(p, profile), sums);
+  }
+
+ private:
+  // The balance of the face is concave and falls with T_f: from the warmest that can be, Newton's steps come down to the
+  // root, by a quarter each at least while that is far below, and then with the square.
+  template <class P, class V>
+  static FaceFlux<V> flux(const P& p, const WallProfile<V>& profile) {
+    using T = typename P::Scalar;
+    constexpr int steps = 10;
+    const V near = sqrt(profile.steepness) +
+                   where_equal(profile.steepness, V::zero(), V(T(1)) / max(p.r, V(static_cast<T>(1e-3))));
+    const V conducts = p.template i<Value::conductivity>() * near, tiny(static_cast<T>(1e-30));
+    const V own = p.template i<Value::temperature>(), given = p.template j<Value::wall_heat_flux>(),
+            linear = p.template j<Value::wall_transfer>(), glow = p.template j<Value::wall_glow>();
+    const auto out = [&](V t) { return linear * t + glow * (t * t * (t * t)); };
+    const auto slope = [&](V t) { return linear + V(T(4)) * glow * (t * t * t); };
+    V face = max(own, p.template j<Value::wall_warmest>());
+    for (int k = 0; k < steps; ++k)
+      face += (given - out(face) - conducts * (face - own)) / max(conducts + slope(face), tiny);
+    const V takes = slope(face);
+    return {given - out(face), takes * (conducts / max(conducts + takes, tiny))};
   }
 };
 

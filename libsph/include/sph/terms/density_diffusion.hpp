@@ -23,19 +23,19 @@ void exchange_density(const P& p, typename P::V rise, S& sums) {
 }
 
 template <class P>
-[[nodiscard]] typename P::V density_between(const P& p) {
+[[nodiscard]] typename P::V weight_between(const P& p) {
   return typename P::V(typename P::Scalar(0.5)) *
-         (p.template i<Value::density>() + p.template j<Value::density>());
+         (p.template i<Value::weight>() + p.template j<Value::weight>());
 }
 
 struct DensityDiffusion {
   static constexpr std::string_view name = "DensityDiffusion";
-  static constexpr ValueSet reads{Value::volume, Value::pressure, Value::density, Value::sound_speed,
+  static constexpr ValueSet reads{Value::volume, Value::pressure, Value::weight, Value::sound_speed,
                                   Value::phase};
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    exchange_density(p, density_between(p) * head(p, c), sums);
+    exchange_density(p, weight_between(p) * head(p, c), sums);
   }
 };
 
@@ -48,7 +48,7 @@ struct PulledDensityDiffusion {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     const auto rest = p.template i<Value::potential>() - p.template j<Value::potential>() + head(p, c);
-    exchange_density(p, density_between(p) * rest, sums);
+    exchange_density(p, weight_between(p) * rest, sums);
   }
 };
 

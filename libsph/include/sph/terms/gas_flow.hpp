@@ -95,6 +95,26 @@ struct GasOperator {
   }
 };
 
+/// For the gradient that drives the gas at a particle, Forchheimer's: D times the first sums over the last one and h. Walls
+/// that let gas pass count, others have no pressure.
+struct GasSlope {
+  static constexpr std::string_view name = "GasSlope";
+  static constexpr bool always_double = true;
+  static constexpr ValueSet reads{Value::volume, Value::gas_pressure, Value::gas_density, Value::wall_open,
+                                  Value::mover};
+  static constexpr Field writes = Field::gas_slope;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V weight = p.template j<Value::volume>() *
+                     (p.template j<Value::mover>() + p.template j<Value::wall_open>()) * p.f;
+    const V drive = (p.template j<Value::gas_pressure>() - p.template i<Value::gas_pressure>()) -
+                    p.template i<Value::gas_density>() * head(p, c);
+    for (int a = 0; a < P::dim; ++a) sums.template add<Field::gas_slope>(a, weight * drive * p.e[a]);
+    sums.template add<Field::gas_slope>(P::dim, weight * p.r2);
+  }
+};
+
 /// From walls that let gas pass, along a straight profile between the particle and the face (wall_profile.hpp).
 struct WallGas {
   static constexpr std::string_view name = "WallGas";

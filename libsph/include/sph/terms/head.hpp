@@ -1,5 +1,5 @@
-// g.(x_j - x_i): times a density the pressure that the weight of a fluid at rest makes between a pair
-// [m^2/s^2].
+// g.(x_j - x_i): times a density, less what a background bears of it, the pressure that the weight of a fluid
+// at rest makes between a pair [m^2/s^2].
 #pragma once
 
 #include "sph/pairs/pair_values.hpp"

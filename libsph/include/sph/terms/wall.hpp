@@ -36,11 +36,11 @@ void extrapolate_by_density(const P& p, typename P::V rise, S& sums) {
 
 struct WallExtrapolation {
   static constexpr std::string_view name = "WallExtrapolation";
-  static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::density, Value::mover};
+  static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::weight, Value::mover};
   static constexpr Field writes = Field::wall_sums;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    extrapolate<Kernel>(p, p.template j<Value::density>() * head(p, c), sums);
+    extrapolate<Kernel>(p, p.template j<Value::weight>() * head(p, c), sums);
   }
 };
 
@@ -48,11 +48,11 @@ struct WallExtrapolation {
 /// heavier fluid would throw the lighter away. Lighter and heavier ones each have their own.
 struct WallExtrapolationByDensity {
   static constexpr std::string_view name = "WallExtrapolationByDensity";
-  static constexpr ValueSet reads{Value::pressure, Value::density, Value::mover, Value::heavy};
+  static constexpr ValueSet reads{Value::pressure, Value::weight, Value::mover, Value::heavy};
   static constexpr Field writes = Field::wall_sums_by_density;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    extrapolate_by_density<Kernel>(p, p.template j<Value::density>() * head(p, c), sums);
+    extrapolate_by_density<Kernel>(p, p.template j<Value::weight>() * head(p, c), sums);
   }
 };
 

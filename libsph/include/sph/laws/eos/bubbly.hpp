@@ -2,7 +2,10 @@
 // SPH supplies rho; the pressure is the unique root of v(p) = (1-xi)/rho_l + xi RT/p - 1/rho.
 #pragma once
 
+#include <algorithm>
+
 #include "sph/laws/eos/law.hpp"
+#include "sph/laws/eos/slow_bubbly.hpp"
 
 namespace sph {
 
@@ -44,6 +47,19 @@ class BubblyEos {
           g.bubbly.gas_rt, g.bubbly.solubility_pressure, g.bubbly.solubility_exponent};
 }
 
+/// BubblyEos::gas_stiffness(), of a group that exsolves slowly with what is dissolved.
+[[nodiscard]] inline double gas_stiffness(const Group& g, double gas_content, const double* dissolved,
+                                          double pressure) {
+  return g.bubbly.exsolution_time > 0 ? SlowBubblyEos(g, gas_content, *dissolved).gas_stiffness(pressure)
+                                      : bubbly_eos(g, gas_content).gas_stiffness(pressure);
+}
+
+/// What of a gas content is dissolved in equilibrium, min(m, m_d).
+[[nodiscard]] inline double dissolved_gas(const Group& g, double gas_content, double pressure) {
+  if (!(gas_content > 0 && pressure > 0)) return 0;
+  return std::min(gas_content, bubbly_eos(g, gas_content).dissolved(pressure));
+}
+
 struct BubblyMagma : EosLaw {
   static constexpr std::string_view word = "bubbly";
   static constexpr EosKind kind = EosKind::bubbly;
@@ -53,15 +69,23 @@ struct BubblyMagma : EosLaw {
 
   static void check(const Group& g) { (void)bubbly_eos(g, g.bubbly.gas_content); }
   static void derive(const Group& g, const EosRows& rows, std::size_t first, std::size_t last) {
+    if (g.bubbly.exsolution_time > 0) {
+      for (std::size_t i = first; i < last; ++i)
+        derive_row(SlowBubblyEos(g, rows.gas_content[i], rows.dissolved_gas[i]), rows, i);
+      return;
+    }
     const BubblyEos usual = bubbly_eos(g, g.bubbly.gas_content);
     for (std::size_t i = first; i < last; ++i) {
       const double gas = rows.gas_content[i];
-      const BubblyEos eos = gas == g.bubbly.gas_content ? usual : bubbly_eos(g, gas);
-      const double absolute = eos.pressure(rows.density[i]);
-      rows.pressure[i] = absolute - rows.surface_pressure;
-      if (rows.sound_speed != nullptr) rows.sound_speed[i] = eos.sound_speed(absolute);
-      if (rows.void_fraction != nullptr) rows.void_fraction[i] = eos.void_fraction(absolute);
+      derive_row(gas == g.bubbly.gas_content ? usual : bubbly_eos(g, gas), rows, i);
     }
+  }
+  template <class Eos>
+  static void derive_row(const Eos& eos, const EosRows& rows, std::size_t i) {
+    const double absolute = eos.pressure(rows.density[i]);
+    rows.pressure[i] = absolute - rows.surface_pressure;
+    if (rows.sound_speed != nullptr) rows.sound_speed[i] = eos.sound_speed(absolute);
+    if (rows.void_fraction != nullptr) rows.void_fraction[i] = eos.void_fraction(absolute);
   }
   static EosStart start(const Group& g, double above_surface, double surface_pressure) {
     return {density(g, above_surface + surface_pressure)};

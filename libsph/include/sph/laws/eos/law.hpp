@@ -28,7 +28,7 @@ namespace sph {
 
 /// Particles whose pressure is wanted; a null pointer is what the scene does not have, or nobody wants.
 struct EosRows {
-  const double *density, *gas_content, *specific_energy;
+  const double *density, *gas_content, *specific_energy, *dissolved_gas;
   double *pressure, *sound_speed, *void_fraction;
   double surface_pressure;
 };

@@ -1,0 +1,81 @@
+// [domain] and [[reset]], and what a background cannot be combined with.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "keys/scene_resolve.hpp"
+#include "sph/laws/eos/law.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+
+void read_pull(const DomainReader& table, Scene& scene) {
+  table.only_if(scene.domain.central_pull > 0, "pull_centre", "give central_pull too");
+  scene.domain.pull_centre = table.vector("pull_centre").value_or(Double3{});
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (scene.domain.central_pull > 0 && scene.domain.periodic[a])
+      table.fail("central_pull", fmt::format("would jump across the period in {}", axis_names[a]),
+                 "use it in domains without periods");
+}
+
+}  // namespace
+
+void read_domain(const DomainReader& table, Scene& scene) {
+  table.read(scene.domain);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (!(scene.domain.lower[a] < scene.domain.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the domain is empty");
+  read_pull(table, scene);
+  scene.domain.background.surface = table.number("background_surface").value_or(0);
+  table.finish();
+}
+
+void read_resets(const TopReader& top, Scene& scene) {
+  for (const auto& table : top.tables<keys::reset>()) {
+    Reset box;
+    table.read(box);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+      if (!(box.lower[a] < box.upper[a]))
+        table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+    if (!box.temperature && !box.gas_content) table.fail_missing("temperature", "give it, or gas_content");
+    table.only_if(scene.has_heat(), "temperature", "there is no heat: give group.heat");
+    table.only_if(has_eos(scene, EosKind::bubbly), "gas_content", "no group has gas: set eos = \"bubbly\"");
+    table.finish();
+    scene.domain.resets.push_back(box);
+  }
+}
+
+void check_background(const DomainReader& domain, const Scene& scene) {
+  const bool given = scene.domain.background.density > 0, gas = has_eos(scene, EosKind::bubbly);
+  domain.only_if(given && gas, "background_surface",
+                 given ? "no bubbly fluid asks for it" : "give background_density too");
+  if (!given) return;
+  const auto refuse = [&](bool where, std::string_view what, std::string_view why) {
+    if (where) domain.fail("background_density", what, why);
+  };
+  refuse(scene.has_grains(), "is given beside grains", "they do not know its pressure");
+  refuse(has_eos(scene, EosKind::ideal_gas), "is given beside an ideal gas",
+         "its pressure is absolute: remove it");
+  refuse(scene.terms.formulation == Formulation::ida, "is given with formulation = \"ida\"",
+         "that has none: remove it");
+  refuse(scene.total_lagrangian(), "is given with total-Lagrangian solids",
+         "they start free of stress: remove it");
+  refuse(scene.domain.central_pull > 0, "is given with central_pull", "gravity alone presses on it");
+  refuse(scene.start.has_surface, "is given, and there is a free surface",
+         "nothing bears the background's pressure there: close the box with walls or periods");
+  double weight = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    weight += std::fabs(scene.domain.gravity[a]);
+    refuse(gas && scene.domain.periodic[a] && scene.domain.gravity[a] != 0,
+           fmt::format("would press on gas along the periodic {}", axis_names[a]),
+           "its pressure would jump there: use it across gravity");
+  }
+  refuse(weight == 0, "is given without gravity", "it has no weight: set domain.gravity");
+  if (gas) domain.require("background_surface");
+}
+
+}  // namespace sph

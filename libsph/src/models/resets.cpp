@@ -1,0 +1,85 @@
+#include "sph/models/resets.hpp"
+
+#include <algorithm>
+
+#include "pairs/for_rows.hpp"
+#include "sph/laws/enthalpy.hpp"
+#include "sph/laws/eos/bubbly.hpp"
+
+namespace sph {
+namespace {
+
+struct Resets {
+  static constexpr FieldSet reads = FaultView::reads | Materials::reads | FieldSet{Field::liquid_mass};
+  static constexpr FieldSet writes =
+      Materials::writes | FieldSet{Field::density,    Field::mass,         Field::gas_content,
+                                   Field::enthalpy,   Field::temperature,  Field::heat_inflow,
+                                   Field::gas_inflow, Field::dissolved_gas};
+  using Rows = View<reads, writes>;
+  const SphConstants* constants;
+  const Materials* materials;
+
+  void operator()(const Rows& p, const Step& step) const {
+    for_movers(step.ranges, [&](std::size_t i) {
+      for (const Reset& box : constants->scene->domain.resets) {
+        if (!contains(box, p, i)) continue;
+        if (box.gas_content) fill(p, i, *box.gas_content, step);
+        if (box.temperature) heat(p, i, *box.temperature);
+      }
+    });
+  }
+
+  [[nodiscard]] bool contains(const Reset& box, const Rows& p, std::size_t i) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    bool inside = true;
+    for (std::size_t a = 0; a < d; ++a) {
+      const double x =
+          constants->scale.metres(constants->wrap(static_cast<int>(a), p.get<Field::position>()[i * d + a]));
+      inside = inside && x >= box.lower[a] && x < box.upper[a];
+    }
+    return inside;
+  }
+
+  void fill(const Rows& p, std::size_t i, double content, const Step& step) const {
+    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
+    double &m = p.get<Field::gas_content>()[i], &mass = p.get<Field::mass>()[i];
+    if (g.eos.law->kind != EosKind::bubbly || m == content) return;
+    const double* liquid_mass = p.get<Field::liquid_mass>();
+    const double liquid = liquid_mass != nullptr ? liquid_mass[i] : mass / (1 + m);
+    const double now = liquid * (1 + content);
+    p.get<Field::gas_inflow>()[i] += liquid * (content - m);
+    if (const double* h = p.get<Field::enthalpy>()) p.get<Field::heat_inflow>()[i] += (now - mass) * h[i];
+    m = content;
+    mass = now;
+    if (double* w = p.get<Field::dissolved_gas>())
+      w[i] = dissolved_gas(g, m, p.get<Field::pressure>()[i] + materials->outer(p, i, g));
+    p.get<Field::density>()[i] = materials->density_of(p, i, g, content, step);
+    materials->derive(p, i, i + 1);  // as after a restart
+  }
+
+  void heat(const Rows& p, std::size_t i, double wanted) const {
+    double &t = p.get<Field::temperature>()[i], &h = p.get<Field::enthalpy>()[i];
+    if (t == wanted) return;
+    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
+    const double now = enthalpy(g.heat.material, wanted);
+    p.get<Field::heat_inflow>()[i] += p.get<Field::mass>()[i] * (now - h);
+    h = now;
+    t = temperature(g.heat.material, now);
+  }
+};
+
+}  // namespace
+
+bool resets_gas(const Scene& scene) {
+  return std::ranges::any_of(scene.domain.resets,
+                             [](const Reset& box) { return box.gas_content.has_value(); });
+}
+
+void add_resets(Builder& b) {
+  const Scene& s = b.scene();
+  if (resets_gas(s)) b.add_fields({Field::gas_inflow});
+  if (s.has_heat()) b.add_fields({Field::heat_inflow});
+  b.add_kick("resets", Resets{&b.constants(), &b.materials()});
+}
+
+}  // namespace sph
