@@ -33,7 +33,10 @@ class MeltScene:
         if d.chance("most", 0.3):
             melt["most_iterations"] = d.one("most is", [3, 50, 1000])
         if d.chance("wave", 0.5):
-            melt |= {"wave_height": d.real("height", -2, 2) * edge, "wave_length": (upper[0] - lower[0]) * d.one("waves", [1, 2])}
+            closed = [a for a in range(dim - 1) if self.periodic[a]]
+            length = (upper[closed[0] if closed else 0] - lower[closed[0] if closed else 0]) * d.one("waves", [1, 0.5] if closed else [1, 2])
+            if len(closed) < 2:  # periods of different lengths have no wave in common
+                melt |= {"wave_height": d.real("height", -2, 2) * edge, "wave_length": length}
         groups = [{"name": "first", "kind": "melt", "density": density, "viscosity": viscosity}]
         if d.chance("second", 0.7):
             groups.append({"name": "second", "kind": "melt", "density": density * d.real("ratio", 0.8, 1.2),

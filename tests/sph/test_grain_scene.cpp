@@ -297,7 +297,8 @@ TEST(GrainScene, FilesAndTilesRoundTrip) {
 TEST(GrainScene, RulesNameTheReason) {
   const std::vector<std::pair<Options, std::string>> cases{
       {{"dimension=2"}, "dimension: is 2; grains are spheres"},
-      {{"kernel.h_over_dx=1"}, "kernel: has no meaning here; grains act on each other where they touch"},
+      {{"kernel.h_over_dx=1"},
+       "kernel: has no meaning here; there is no kernel where nothing is a fluid or a solid"},
       {{"group.sand.young_modulus=1"},
        "young_modulus: has no meaning here; it is of contact.law = \"hertz\""},
       {hertz + Options{"group.sand.normal_stiffness=1"}, "normal_stiffness: has no meaning here; it is of"},

@@ -167,8 +167,8 @@ const std::vector<Source>& sources() {
       {"chamber_open",
        "tests/scenes/chamber.toml",
        {"domain.periodic=[true, true, false]", "group.crystal.friction=", "group.crystal.rolling_friction=",
-        "drag.law=beetstra", "melt.diffusivity=0",
-        "melt.expansion=", "melt.viscosity_fall=", "melt.side=[{side=\"z1\", slip=false}]",
+        "drag.law=beetstra", "melt.diffusivity=0", "group.heavy.temperature=", "melt.expansion=",
+        "melt.viscosity_fall=", "melt.side=[{side=\"z1\", slip=false}]",
         "start.grains=[{group=\"crystal\", lower=[0, 0, 2], "
         "upper=[32, 16, 14], spacing=1.3333333333333333, jitter=0.05}]"}},
   };

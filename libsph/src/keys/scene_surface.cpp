@@ -5,37 +5,13 @@
 #include <cstdint>
 
 #include "keys/scene_resolve.hpp"
+#include "scene/painting.hpp"
 
 namespace sph {
 namespace {
 
 constexpr std::int64_t samples_2d = 512;
 constexpr std::int64_t samples_3d = 64;
-
-bool contains(const Region& region, const Double3& x, int dim) {
-  bool inside = true;
-  double square = 0;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
-    inside = inside && x[a] >= region.lower[a] && x[a] < region.upper[a];
-    square += (x[a] - region.centre[a]) * (x[a] - region.centre[a]);
-  }
-  switch (region.shape) {
-    case RegionShape::everywhere:
-      return true;
-    case RegionShape::box:
-      return inside;
-    case RegionShape::ball:
-      return square < region.radius * region.radius;
-  }
-  return false;
-}
-
-int painted_group(const Scene& scene, const Double3& x) {
-  int group = -1;
-  for (const Region& region : scene.start.lattice.regions)
-    if (contains(region, x, scene.dim)) group = region.group;
-  return group;
-}
 
 }  // namespace
 

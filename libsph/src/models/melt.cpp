@@ -42,7 +42,7 @@ double implicitness(const stokes::Grid& g, double diffusivity, double dt) {
 
 std::string not_finite(const GlobalState& global) {
   return step_text(global.step) +
-         "the slow flow is not finite: check densities, viscosities, gravity and stiffnesses";
+         "the slow flow is not finite: check densities, viscosities, gravity, melt.expansion and stiffnesses";
 }
 
 }  // namespace

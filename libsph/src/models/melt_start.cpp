@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/painting.hpp"
 #include "sph/core/exact_math.hpp"
+#include "sph/core/findings.hpp"
 #include "sph/models/melt.hpp"
 #include "sph/scene/melt_grid.hpp"
-#include "sph/start/placement.hpp"
 
 namespace sph {
 namespace {
@@ -64,7 +65,7 @@ CellMeans means_of(const Scene& scene, const std::array<double, 3>& edge, const 
         at = without_wave(scene, at);
         const int group = painted_group(scene, at);
         if (group < 0)
-          throw InputError(scene.file + ": start.region: no region paints the melt " +
+          throw InputError(scene.file + ": start.region: paints no melt " +
                            place_text(std::span(at).first(static_cast<std::size_t>(scene.dim))) +
                            "; begin with one of shape \"everywhere\"");
         sum.temperature += scene.domain.melt.start.profile == MeltProfile::conductive

@@ -146,8 +146,9 @@ void Suspension::share_interval(const StepState& s) {
   clock.interval = std::min(clock.interval, scene_->domain.melt.courant / rates[1]);
   if (!(clock.interval > 0 && std::isfinite(clock.interval)))
     throw GuardError(step_text(s.global.step) +
-                     (clock.interval > 0 ? "nothing flows, and there is no time.dt: give one"
-                                         : "the slow flow is not finite: check densities and viscosities"));
+                     (clock.interval > 0
+                          ? "nothing flows, and there is no time.dt: give one"
+                          : "the slow flow is not finite: check densities, viscosities and melt.expansion"));
   const double shortest = std::max(rates[0], rates[2] / (way_of_step * size_.least_radius));
   const double steps = std::max(1.0, std::ceil(clock.interval * shortest));
   if (!(steps < most_steps))

@@ -71,18 +71,6 @@ class Lattice {
   decomp::Int3 first_{}, count_{1, 1, 1};
 };
 
-/// Monotonic in each axis' distance from the region's middle, as computed: a row of the lattice meets it in
-/// one interval.
-inline bool contains(const Region& r, const Double3& x, std::size_t dim) {
-  if (r.shape == RegionShape::everywhere) return true;
-  double distance2 = 0;
-  for (std::size_t a = 0; a < dim; ++a) {
-    if (r.shape == RegionShape::box && (x[a] < r.lower[a] || x[a] >= r.upper[a])) return false;
-    distance2 += (x[a] - r.centre[a]) * (x[a] - r.centre[a]);
-  }
-  return r.shape == RegionShape::box || distance2 < r.radius * r.radius;
-}
-
 /// Of the first point of a fill: ids of fills follow on those of the lattice, one fill after the other.
 [[nodiscard]] inline std::uint64_t first_id(const Scene& scene, const GrainFill& fill) {
   const Lattice lattice(scene);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/grain_fill.hpp"
+#include "scene/painting.hpp"
 #include "start/initial_fields.hpp"
 #include "start/lattice.hpp"
 #include "start/placement_file.hpp"
@@ -35,12 +36,6 @@ void fill_with_grains(const Scene& scene, const GrainFill& fill, const PositionS
 }
 
 }  // namespace
-
-int painted_group(const Scene& scene, const Double3& x) {
-  for (auto r = scene.start.lattice.regions.rbegin(); r != scene.start.lattice.regions.rend(); ++r)
-    if (contains(*r, x, static_cast<std::size_t>(scene.dim))) return r->group;
-  return -1;
-}
 
 void place_particles(const Scene& scene, const PositionScale& scale, Distribution& distribution,
                      Particles& particles) {

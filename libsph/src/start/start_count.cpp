@@ -9,6 +9,7 @@
 
 #include "files/agree.hpp"
 #include "scene/grain_fill.hpp"
+#include "scene/painting.hpp"
 #include "start/lattice.hpp"
 #include "start/placement_tile.hpp"
 #include "start/start_rows.hpp"

@@ -146,7 +146,8 @@ void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const Positio
                         advice(scene));
   }
   const std::string& file = scene.start.tile.file.empty() ? scene.start.file : scene.start.tile.file;
-  throw InputError(fmt::format("{}: {}", file.empty() ? "start" : file, agree(comm, what)));
+  const std::string of_scene = scene.file + (scene.start.fills.empty() ? ": start" : ": start.grains");
+  throw InputError(fmt::format("{}: {}", file.empty() ? of_scene : file, agree(comm, what)));
 }
 
 }  // namespace sph

@@ -8,9 +8,6 @@
 
 namespace sph {
 
-/// The last region of the scene's lattice that contains x [m]; -1 leaves it empty.
-[[nodiscard]] int painted_group(const Scene& scene, const Double3& x);
-
 /// Fills `particles` (empty) with this rank's share. Collective. Throws InputError if the file is wrong.
 void place_particles(const Scene& scene, const PositionScale& scale, Distribution& distribution,
                      Particles& particles);
