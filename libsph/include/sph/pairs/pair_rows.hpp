@@ -177,7 +177,8 @@ struct BondColumns {
         row.put(Value::reference_cell, k,
                 static_cast<double>(reference(k) >> (row.scale.position_shift + 29)));
     if constexpr (S.has(Value::reference_volume))
-      row.put(Value::reference_volume, 0, mass[i] / groups.weight.density[row.group] * row.scale.inverse_volume);
+      row.put(Value::reference_volume, 0,
+              mass[i] / groups.weight.density[row.group] * row.scale.inverse_volume);
     if constexpr (S.has(Value::body)) row.put(Value::body, 0, groups.body[row.group]);
     if constexpr (S.has(Value::bond_stress))
       for (int k = 0; k < D * D; ++k) row.put(Value::bond_stress, k, stress[i * D * D + k]);
