@@ -113,6 +113,24 @@ TEST(Transitions, TheFirstRowThatHoldsCounts) {
   EXPECT_EQ(course, "mmrmmmrm");  // one change a step, and the wait begins anew
 }
 
+// Heated to 1400 K at the end of the first step, by means of 1000, 1200, 1267, 1300 and 1320 K; of rock the mean begins with
+// the temperature that it has.
+TEST(Transitions, AreJudgedByRunningMeans) {
+  Simulation s(
+      world(),
+      sph::parse_scene(still("becomes = [{ group = \"rock\", temperature_above = 1310, average = 5e-3 }]\n",
+                             "becomes = [{ group = \"melt\", temperature_above = 1310, average = 5e-3 }]\n",
+                             of_melt + "[terms]\nmotion = false\n[[reset]]\nlower = [0, 0]\nupper = [12, "
+                                       "12]\ntemperature = 1400\n"),
+                       "still", {}));
+  std::string course;
+  for (int k = 0; k < 8; ++k) {
+    s.step();
+    course += count(s, "rock") > 0 ? 'r' : 'm';
+  }
+  EXPECT_EQ(course, "mmmmrmrm");
+}
+
 // 1000 K of melt are 1.1e6 J/kg, latent heat included: of rock 916.7 K.
 TEST(Transitions, KeepEnthalpyAndPressure) {
   Simulation s(world(), sph::parse_scene(still("becomes = [{ group = \"rock\", temperature_below = 1001 }]\n",

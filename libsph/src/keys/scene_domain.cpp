@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "keys/scene_resolve.hpp"
 #include "sph/laws/eos/law.hpp"
@@ -20,6 +21,19 @@ void read_pull(const DomainReader& table, Scene& scene) {
     if (scene.domain.central_pull > 0 && scene.domain.periodic[a])
       table.fail("central_pull", fmt::format("would jump across the period in {}", axis_names[a]),
                  "use it in domains without periods");
+}
+
+/// Of each bubbly fluid that may come by.
+void check_content(const Reader<keys::reset>& table, double gas_content, const std::vector<Group>& groups) {
+  for (Group g : groups) {
+    if (g.kind == GroupKind::grain || g.eos.law->kind != EosKind::bubbly) continue;
+    g.bubbly.gas_content = gas_content;
+    try {
+      g.eos.law->check(g);
+    } catch (const InputError& error) {
+      table.fail("gas_content", fmt::format("is too much for \"{}\"", g.name), error.what());
+    }
+  }
 }
 
 }  // namespace
@@ -44,6 +58,7 @@ void read_resets(const TopReader& top, Scene& scene) {
     if (!box.temperature && !box.gas_content) table.fail_missing("temperature", "give it, or gas_content");
     table.only_if(scene.has_heat(), "temperature", "there is no heat: give group.heat");
     table.only_if(has_eos(scene, EosKind::bubbly), "gas_content", "no group has gas: set eos = \"bubbly\"");
+    if (box.gas_content) check_content(table, *box.gas_content, scene.groups);
     table.finish();
     scene.domain.resets.push_back(box);
   }
