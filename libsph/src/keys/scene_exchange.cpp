@@ -28,6 +28,8 @@ void read_permeability(const GroupReader& table, Group& group) {
                 "law = \"kozeny_carman\" has none");
   inner.only_if(group.bubbly.permeability.inertial_coefficient > 0, "inertial_exponent",
                 "give inertial_coefficient too");
+  if (group.bubbly.permeability.inertial_coefficient == 0)
+    group.bubbly.permeability.inertial_exponent = -1;  // not written
   if (const Permeability& m = group.bubbly.permeability;
       m.closing_threshold && *m.closing_threshold > m.threshold)
     inner.fail("closing_threshold", fmt::format("is {}, above threshold", *m.closing_threshold),
