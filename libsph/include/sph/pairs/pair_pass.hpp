@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -68,12 +69,16 @@ struct Pair {
 /// The sums of one block of particles: one vector per component of each written field.
 template <class T, int D, FieldSet Writes>
 struct Sums {
-  [[nodiscard]] static constexpr int offset(Field field) {
-    int at = 0;
-    for (int k = 0; k < static_cast<int>(field); ++k)
-      if (Writes.has(static_cast<Field>(k))) at += components(info(static_cast<Field>(k)).shape, D);
+  /// A table, so that no offset is counted in the loop over pairs.
+  static constexpr auto offsets = [] {
+    std::array<int, field_count + 1> at{};
+    for (std::size_t k = 0; k < field_count; ++k) {
+      const auto field = static_cast<Field>(k);
+      at[k + 1] = at[k] + (Writes.has(field) ? components(info(field).shape, D) : 0);
+    }
     return at;
-  }
+  }();
+  [[nodiscard]] static constexpr int offset(Field field) { return offsets[static_cast<std::size_t>(field)]; }
   static constexpr int size = offset(Field::count_);
   Simd<T> v[size];
   template <Field F>

@@ -4,6 +4,7 @@
 // length h, volumes by spacing^D; a pass's sums are multiplied by the constant that undoes it, once.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -18,12 +19,15 @@ namespace sph {
 /// a multiple of four, the unit of the transposed load.
 template <int D, ValueSet S>
 struct RowLayout {
-  [[nodiscard]] static constexpr int offset(Value v) {
-    int at = D;
-    for (int k = 0; k < static_cast<int>(v); ++k)
-      if (S.has(static_cast<Value>(k))) at += components(static_cast<Value>(k), D);
+  /// A table, so that no offset is counted while a program runs.
+  static constexpr auto offsets = [] {
+    std::array<int, static_cast<std::size_t>(Value::count_) + 1> at{};
+    at[0] = D;
+    for (std::size_t k = 1; k < at.size(); ++k)
+      at[k] = at[k - 1] + (S.has(static_cast<Value>(k - 1)) ? components(static_cast<Value>(k - 1), D) : 0);
     return at;
-  }
+  }();
+  [[nodiscard]] static constexpr int offset(Value v) { return offsets[static_cast<std::size_t>(v)]; }
   static constexpr int used = offset(Value::count_);
   static constexpr int stride = (used + 3) / 4 * 4;
 };

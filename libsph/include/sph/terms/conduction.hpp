@@ -16,7 +16,7 @@
 namespace sph {
 
 template <class P, class C>
-[[nodiscard]] typename P::V conductance(const P& p, const C& c) {
+[[nodiscard, gnu::always_inline]] inline typename P::V conductance(const P& p, const C& c) {
   using V = typename P::V;
   const V a = p.template i<Value::conductivity>(), b = p.template j<Value::conductivity>();
   const V twice_mean = V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-300)));

@@ -15,7 +15,7 @@ namespace sph {
 
 /// Towards the first of the pair where positive, if `pressure` drove the gas [Pa].
 template <Value pressure, class P, class C>
-[[nodiscard]] typename P::V gas_drive(const P& p, const C& c) {
+[[nodiscard, gnu::always_inline]] inline typename P::V gas_drive(const P& p, const C& c) {
   using V = typename P::V;
   const V rho = V(static_cast<typename P::Scalar>(0.5)) *
                 (p.template i<Value::gas_density>() + p.template j<Value::gas_density>());
@@ -24,7 +24,7 @@ template <Value pressure, class P, class C>
 
 /// Of a pair, by the pressures at the start of the step [kg/s/Pa].
 template <class P, class C>
-[[nodiscard]] typename P::V gas_conductance(const P& p, const C& c) {
+[[nodiscard, gnu::always_inline]] inline typename P::V gas_conductance(const P& p, const C& c) {
   using V = typename P::V;
   using T = typename P::Scalar;
   const V half(T(0.5)), tiny(static_cast<T>(1e-300)), drive = gas_drive<Value::gas_pressure>(p, c);

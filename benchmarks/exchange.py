@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+"""What exchanges of heat and gas cost beside a step of a fluid without them, alternating, medians of ratios, one rank. Run
+on a quiet machine.
+
+exchange.py BUILD [--page]      --page writes the table of README.md
+"""
+import argparse
+import statistics
+from pathlib import Path
+
+import tables
+from speed import here, loop_seconds, ours
+
+def warm(conductivity):
+    return tuple(f"group.{name}.{what}" for name, t in (("magma", 1200), ("fresh", 1400)) for what in
+                 (f"heat={{specific_heat=1200, conductivity={conductivity}}}", f"temperature={t}"))
+
+
+def permeable(coefficient):
+    return tuple(f"group.{name}.permeability={{coefficient={coefficient}}}" for name in ("magma", "fresh"))
+
+
+# What is added, its settings, passes over pairs that it adds to a step.
+CASES = {
+    "conduction": (warm(2), 1),
+    "gas flow": (permeable(1e-12), 1),
+    "both, and heat that gas brings": (warm(2) + permeable(1e-12), 2),
+    "friction, too": (warm(2) + permeable(1e-12) + ("terms.viscous_heat=true",), 3),
+}
+SOLVED = {
+    "implicit conduction": (*warm(2e11), "terms.implicit_conduction=true"),
+    "implicit gas flow": (*permeable(1e-7), "terms.implicit_gas_flow=true"),
+}
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("build", type=Path)
+    arguments.add_argument("--repeats", type=int, default=5)
+    arguments.add_argument("--page", action="store_true", help="write the table of README.md")
+    options = arguments.parse_args()
+    seen = {name: [] for name in (*CASES, *SOLVED)}
+    iterations, plain = {}, []
+    for _ in range(options.repeats):
+        # So that dt, and with it the number of rebuilds, is the same in all.
+        settings = ("time.dt=1e-4", "time.cfl=")
+        step = loop_seconds(ours(options.build, "exchange.toml", 1, 100, settings))
+        plain.append(1e3 * step / 100)
+        for name, (more, _) in CASES.items():
+            seen[name].append(loop_seconds(ours(options.build, "exchange.toml", 1, 100, settings + more)) / step - 1)
+        for name, more in SOLVED.items():
+            perf = ours(options.build, "exchange.toml", 1, 100, settings + more)
+            iterations[name] = perf["solver_iterations"] / 100
+            seen[name].append(loop_seconds(perf) / step - 1)
+    rows = [("a step without exchanges", f"{statistics.median(plain):.1f} ms", "", "")]
+    for name, (_, passes) in CASES.items():
+        rows.append((name, f"+{statistics.median(seen[name]):.2f} of it", f"{passes}",
+                     f"{statistics.median(seen[name]) / passes:.2f}"))
+    for name in SOLVED:
+        rows.append((name, f"+{statistics.median(seen[name]):.2f}", f"{iterations[name]:.1f} iterations",
+                     f"{statistics.median(seen[name]) / (iterations[name] + 1):.2f}"))
+    for row in rows:
+        print(" | ".join(row))
+    if options.page:
+        tables.write(here / "README.md", "exchange", tables.origin(tables.commit_of(options.build)),
+                     tables.markdown(("added", "costs", "passes over pairs", "each"), rows))
+
+
+if __name__ == "__main__":
+    main()
