@@ -19,6 +19,10 @@ namespace sph::test {
   return hash;
 }
 
+[[nodiscard]] inline double power(double x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
+/// 2ab / (a + b)
+[[nodiscard]] inline double harmonic(double a, double b) { return a + b > 0 ? 2 * a * b / (a + b) : 0.0; }
+
 using Vec = Eigen::Vector3d;  ///< in two dimensions the third component is 0
 using Mat = Eigen::Matrix3d;
 

@@ -132,9 +132,11 @@ const std::vector<Source>& sources() {
       {"implicit3d",
        "tests/scenes/box3d_gas.toml",
        {"group.magma.becomes.0.void_fraction_above=0.09",
-        "group.magma.permeability={law=\"percolation\", coefficient=1e-6, threshold=0.01, closing_threshold=0.005}",
-        "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-6, inertial_coefficient=1e-9, inertial_exponent=0}", "group.wall.gas_pressure=0",
-        "terms.implicit_gas_flow=true"}},
+        "group.magma.permeability={law=\"percolation\", coefficient=1e-6, threshold=0.01, "
+        "closing_threshold=0.005}",
+        "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-6, inertial_coefficient=1e-9, "
+        "inertial_exponent=0}",
+        "group.wall.gas_pressure=0", "terms.implicit_gas_flow=true"}},
       // ideal gases: energy is state, and the time step follows the hottest particle
       {"blast2d", "tests/scenes/blast2d.toml", {}},
       // kernels of all widths: lists go by the wider of a pair
