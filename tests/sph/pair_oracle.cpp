@@ -11,8 +11,6 @@ namespace {
 
 using std::numbers::pi;
 
-double power(double x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
-
 }  // namespace
 
 PairOracle::PairOracle(const PairCase& of)
