@@ -85,7 +85,7 @@ TEST(Walls, LeaveALatticeAtRest) {
                                                "domain.upper=[3, 3]", std::string("kernel.shape=") + kernel,
                                                std::string("kernel.h_over_dx=") + wide, "start.spacing=0.04",
                                                "start.lower=[-0.48, -0.48]", "start.upper=[1.48, 1.48]",
-                                               "start.region.2.upper=[1, 1.48]", "start.pressure="}));
+                                               "start.region.2.upper=[1, 1.48]", "start.pressure=zero"}));
       for (int k = 0; k < 3; ++k) s.step();
       EXPECT_EQ(s.global().max_speed, 0) << kernel << ", h = " << wide << " dx";
     }

@@ -1,7 +1,7 @@
 // Laws of how gas gets through bubbles: what the inertia of fast gas leaves, bubbles that stay connected.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -45,14 +45,15 @@ double left(const std::vector<std::string>& more) {
   all.insert(all.end(), more.begin(), more.end());
   Simulation s(comm, read_scene(PEPERITE_ACCURACY_DIR "/degassing.toml", all));
   while (s.global().time < 2) s.step();
-  double sums[2]{};
+  std::array<decomp::ExactSum, 2> sums;
   const Particles& p = s.particles();
   for (std::size_t i = 0; i < p.owned(); ++i) {
     if (s.scene().groups[p.data<Field::group>()[i]].kind != GroupKind::fluid) continue;
-    sums[0] += p.data<Field::void_fraction>()[i];
-    sums[1] += 1;
+    sums[0].add(p.data<Field::void_fraction>()[i]);
+    sums[1].add(1);
   }
-  return sums[0] / sums[1];
+  decomp::ExactSum::all_reduce(comm, sums);
+  return sums[0].value() / sums[1].value();
 }
 
 // Where bubbles are no more than the threshold the foam keeps its gas, but for those that have been connected before.

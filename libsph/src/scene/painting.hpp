@@ -1,7 +1,7 @@
 // Which group the regions of a start paint at a place.
 #pragma once
 
-#include <ranges>
+#include <vector>
 
 #include "sph/scene/scene.hpp"
 
@@ -21,8 +21,9 @@ inline bool contains(const Region& r, const Double3& x, std::size_t dim) {
 
 /// The last region of the scene's lattice that contains x [m]; -1 leaves it empty.
 [[nodiscard]] inline int painted_group(const Scene& scene, const Double3& x) {
-  for (const Region& r : std::views::reverse(scene.start.lattice.regions))
-    if (contains(r, x, static_cast<std::size_t>(scene.dim))) return r.group;
+  const std::vector<Region>& regions = scene.start.lattice.regions;
+  for (auto r = regions.rbegin(); r != regions.rend(); ++r)
+    if (contains(*r, x, static_cast<std::size_t>(scene.dim))) return r->group;
   return -1;
 }
 
