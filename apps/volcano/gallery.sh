@@ -1,6 +1,5 @@
 #!/bin/sh
-# Runs the conduit, its map over viscosity and permeability, and the slot that freezes, and draws the pictures in gallery/:
-# some minutes on two cores.
+# Runs the conduit, and its map over viscosity and permeability, and draws the pictures in gallery/: a minute on two cores.
 # Runs that have already come to their end in RUNS are only drawn.
 #
 #     sh apps/volcano/gallery.sh [PROGRAMS] [RUNS] [RANKS]     default: build/bin out/gallery 2
@@ -24,6 +23,3 @@ mv "$runs/conduit/particles.png" "$here/gallery/conduit.png"
 /usr/bin/python3 -B "$here/map.py" "$runs/map" --programs "$programs" --out "$here/gallery"
 /usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/map.png" \
   --runs "$runs"/map/eta_* --scenes "$here/conduit.toml"
-/usr/bin/python3 -B "$here/dyke.py" "$runs/dyke" --programs "$programs" --out "$here/gallery"
-/usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/dyke.png" \
-  --runs "$runs"/dyke/h_* --scenes "$here/dyke.toml"
