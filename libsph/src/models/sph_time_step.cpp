@@ -66,6 +66,10 @@ double SphTimeStep::courant_number(double dt, const std::vector<double>& sounds)
 
 void SphTimeStep::guard(double sound, const GlobalState& global) const {
   const Scene& scene = *constants_->scene;
+  if (!std::isfinite(global.dt))
+    throw GuardError(fmt::format(
+        "step {}: nothing moves, no gas flows any more, and nothing limits the time step; give time.dt",
+        global.step));
   if (!scene.time.dt) return;
   const double limit = courant_limit(scene), courant = sound * *scene.time.dt / scene.kernel.smoothing_length;
   if (!(courant > limit)) return;
