@@ -222,6 +222,32 @@ TEST(HardExchanges, GasThatNoLongerFlows) {
   EXPECT_NE(end.find("nothing limits the time step; give time.dt"), std::string::npos) << end;
 }
 
+// Foam of a hundredth of its liquid's density, with a hundredth of its heat: steps follow from what it is.
+TEST(HardExchanges, ConductionOfFoam) {
+  const auto foam = [](const std::string& temperature) {
+    return "gas_content = 0.05\ntemperature = " + temperature +
+           "\nheat = { specific_heat = 1000, conductivity = 2 }";
+  };
+  const std::string box = still_box(foam("1300"), foam("1000"), 4);
+  Simulation s(world(), sph::parse_scene(box, "foam", {"start.layer.0.pressure=1e5"}));
+  const sph::Monitors monitors(s);
+  const std::vector<double> first = monitors.values(s);
+  for (int k = 0; k < 50; ++k) s.step();
+  EXPECT_GE(range<Field::temperature>(s).lowest, 1000 - 1e-9);
+  EXPECT_LE(range<Field::temperature>(s).highest, 1300 + 1e-9);
+  EXPECT_LT(range<Field::temperature>(s).highest, 1299);
+  EXPECT_NEAR(monitors.values(s)[1] / first[1], 1, 1e-13);
+  // Beyond what foam bears, not beyond what the liquid does.
+  try {
+    Simulation(world(), sph::parse_scene(box, "foam", {"start.layer.0.pressure=1e5", "time.dt=1e5"}));
+    ADD_FAILURE() << "accepted";
+  } catch (const sph::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("time.dt: 100000 s is above the limit of explicit conduction"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // Rock that hardly conducts, or not at all, beside walls that radiate to 0 K: it gives what it conducts to them at most.
 TEST(HardExchanges, RadiationOfWhatHardlyConducts) {
   for (const double conductivity : {0.0, 1e-6}) {
