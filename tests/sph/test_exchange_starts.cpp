@@ -48,6 +48,8 @@ TEST(ExchangeStarts, RefuseStepsWithoutEnd) {
   const std::string tight =
       "permeability = { law = \"percolation\", coefficient = 1e-8, threshold = 0.99 }\n";
   EXPECT_EQ(refusal(tight, "1", {"terms.motion=false"}), "");
+  // Nor does any viscosity limit a step that is given.
+  EXPECT_EQ(refusal(tight + "viscosity = 1e9\n", "1e6", {"terms.motion=false"}), "");
   for (const char* implicit : {"terms.implicit_gas_flow=false", "terms.implicit_gas_flow=true"})
     EXPECT_EQ(
         refusal(tight, "", {"terms.motion=false", implicit}),

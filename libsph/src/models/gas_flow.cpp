@@ -287,7 +287,7 @@ double Degassing::longest_step(const Reduction& r) const {
   if (scene.time.dt) return *scene.time.dt;
   const double by_stability = limit({r[in_.conductance], r[in_.stiffness]});
   if (!scene.terms.exchange.implicit_gas_flow) return by_stability;
-  if (!(r[in_.dt] > 0)) return any_step;  // no step has been made
+  if (!(r[in_.dt] > 0) || !std::isfinite(by_stability)) return any_step;  // no step yet, or nothing flows
   const double dt = r[in_.dt], faster = r[in_.change] / (change_in_a_step * r[in_.content]);
   const double longer = faster > 1 / growth_of_steps ? dt / faster : growth_of_steps * dt;
   return std::fmin(longer, longest_explicit * by_stability);
