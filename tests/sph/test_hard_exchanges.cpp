@@ -218,8 +218,11 @@ TEST(HardExchanges, GasThatNoLongerFlows) {
   const std::string flows =
       "gas_content = 0.02\npermeability = { coefficient = 6.3e-11 }\n"
       "becomes = [{ group = \"tight\", void_fraction_above = 0.01 }]";
-  const std::string end = end_of(still_box(flows, flows, 4) + magma("tight", "gas_content = 0.02"), {});
-  EXPECT_NE(end.find("nothing limits the time step; give time.dt"), std::string::npos) << end;
+  for (const char* implicit : {"false", "true"}) {
+    const std::string end = end_of(still_box(flows, flows, 4) + magma("tight", "gas_content = 0.02"),
+                                   {"terms.implicit_gas_flow=" + std::string(implicit)});
+    EXPECT_NE(end.find("nothing limits the time step; give time.dt"), std::string::npos) << end;
+  }
 }
 
 // Foam of a hundredth of its liquid's density, with a hundredth of its heat: steps follow from what it is.
@@ -246,6 +249,22 @@ TEST(HardExchanges, ConductionOfFoam) {
               std::string::npos)
         << error.what();
   }
+}
+
+// Ten million times the explicit limit: what the iterations leave is a share of what the step changes, not of what an
+// explicit one would.
+TEST(HardExchanges, ConductionInOneStepToTheEnd) {
+  const auto warm = [](const std::string& temperature) {
+    return "gas_content = 0.01\ntemperature = " + temperature +
+           "\nheat = { specific_heat = 1000, conductivity = 2 }";
+  };
+  Simulation s(world(), sph::parse_scene(still_box(warm("1300"), warm("1000"), 4), "long",
+                                         {"terms.implicit_conduction=true", "time.dt=3e12"}));
+  const sph::Monitors monitors(s);
+  const std::vector<double> first = monitors.values(s);
+  for (int k = 0; k < 3; ++k) s.step();
+  EXPECT_LT(range<Field::temperature>(s).highest - range<Field::temperature>(s).lowest, 0.01);
+  EXPECT_NEAR(monitors.values(s)[1] / first[1], 1, 1e-13);
 }
 
 // Rock that hardly conducts, or not at all, beside walls that radiate to 0 K: it gives what it conducts to them at most.
