@@ -149,4 +149,145 @@ TEST(HardExchanges, AVentThatOpensInOneStep) {
   }
 }
 
+/// What stops it within a hundred steps.
+std::string end_of(const std::string& text, const std::vector<std::string>& more) {
+  Simulation s(world(), sph::parse_scene(text, "hard", more));
+  try {
+    for (int k = 0; k < 100; ++k) s.step();
+  } catch (const sph::GuardError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Hardly any of the gas is in bubbles, and none comes out of solution: pressures change tenfold faster than in equilibrium.
+TEST(HardExchanges, GasThatStaysInSolution) {
+  const std::string content =
+      "gas_content = 0.0135\nexsolution_time = 1e9\n"
+      "permeability = { law = \"kozeny_carman\", coefficient = 1e-6 }";
+  Simulation s(world(), sph::parse_scene(still_box(content, content, 4), "slow",
+                                         {"terms.implicit_gas_flow=true", "terms.gas_escape=false",
+                                          "group.floor.gas_pressure=1.1e7"}));
+  const sph::Monitors monitors(s);
+  const std::vector<double> first = monitors.values(s);
+  const Range pressures = range<Field::pressure>(s);
+  for (int k = 0; k < 300; ++k) s.step();
+  EXPECT_LE(range<Field::pressure>(s).highest, 1.1e7);
+  EXPECT_GE(range<Field::pressure>(s).lowest, pressures.lowest);
+  expect_gas_kept(monitors, s, first);
+}
+
+// What was bubbly takes its gas along, which does not flow where it is now.
+TEST(HardExchanges, GasOfWhatIsNoLongerBubbly) {
+  const std::string flows = "gas_content = 0.02\npermeability = { coefficient = 6.3e-11 }\n";
+  const std::string glass =
+      "[[group]]\nname = \"glass\"\nkind = \"fluid\"\ndensity = 2400\nbulk_modulus = 1e9\n";
+  Simulation s(world(), sph::parse_scene(
+                            still_box(flows + "becomes = [{ group = \"glass\", void_fraction_above = 0.01 }]",
+                                      flows, 4) +
+                                glass,
+                            "glass", {"terms.implicit_gas_flow=true"}));
+  const sph::Monitors monitors(s);
+  const std::vector<double> first = monitors.values(s);
+  for (int k = 0; k < 50; ++k) s.step();
+  EXPECT_GT(range<Field::gas_content>(s, "glass").lowest, 0);
+  expect_gas_kept(monitors, s, first);
+}
+
+// So much gas that it would be denser than the liquid at saturation: told of the particle, not of the law.
+TEST(HardExchanges, GasThatNoLawHolds) {
+  const std::string foam = "gas_content = 0.05\npermeability = { coefficient = 6.3e-11 }\n";
+  const std::vector<std::string> strong{"group.outside.bulk_modulus=1e11", "group.inside.bulk_modulus=1e11"};
+  for (const char* implicit : {"false", "true"}) {
+    std::vector<std::string> more = strong;
+    more.insert(more.end(), {"group.floor.gas_pressure=1e6", "start.layer.0.pressure=1e5",
+                             "terms.implicit_gas_flow=" + std::string(implicit)});
+    const std::string end = end_of(still_box(foam, foam, 4), more);
+    EXPECT_NE(end.find("of which the densest gas is denser than the liquid"), std::string::npos) << end;
+  }
+  std::string heavy =
+      still_box(foam + "becomes = [{ group = \"heavy\", void_fraction_above = 0.5 }]", foam, 4) +
+      magma("heavy", "gas_content = 0.01");
+  heavy.replace(heavy.rfind("5.92e10"), 7, "5.92e12");
+  const std::string end = end_of(heavy, {"group.heavy.bulk_modulus=1e11", "start.layer.0.pressure=1e5"});
+  EXPECT_NE(end.find("too much for \"heavy\" which it becomes"), std::string::npos) << end;
+}
+
+// Nothing moves, and in the first step all becomes tight: no step would be too long.
+TEST(HardExchanges, GasThatNoLongerFlows) {
+  const std::string flows =
+      "gas_content = 0.02\npermeability = { coefficient = 6.3e-11 }\n"
+      "becomes = [{ group = \"tight\", void_fraction_above = 0.01 }]";
+  for (const char* implicit : {"false", "true"}) {
+    const std::string end = end_of(still_box(flows, flows, 4) + magma("tight", "gas_content = 0.02"),
+                                   {"terms.implicit_gas_flow=" + std::string(implicit)});
+    EXPECT_NE(end.find("nothing limits the time step; give time.dt"), std::string::npos) << end;
+  }
+}
+
+// Foam of a hundredth of its liquid's density, with a hundredth of its heat: steps follow from what it is.
+TEST(HardExchanges, ConductionOfFoam) {
+  const auto foam = [](const std::string& temperature) {
+    return "gas_content = 0.05\ntemperature = " + temperature +
+           "\nheat = { specific_heat = 1000, conductivity = 2 }";
+  };
+  const std::string box = still_box(foam("1300"), foam("1000"), 4);
+  Simulation s(world(), sph::parse_scene(box, "foam", {"start.layer.0.pressure=1e5"}));
+  const sph::Monitors monitors(s);
+  const std::vector<double> first = monitors.values(s);
+  for (int k = 0; k < 50; ++k) s.step();
+  EXPECT_GE(range<Field::temperature>(s).lowest, 1000 - 1e-9);
+  EXPECT_LE(range<Field::temperature>(s).highest, 1300 + 1e-9);
+  EXPECT_LT(range<Field::temperature>(s).highest, 1299);
+  EXPECT_NEAR(monitors.values(s)[1] / first[1], 1, 1e-13);
+  // Beyond what foam bears, not beyond what the liquid does.
+  try {
+    Simulation(world(), sph::parse_scene(box, "foam", {"start.layer.0.pressure=1e5", "time.dt=1e5"}));
+    ADD_FAILURE() << "accepted";
+  } catch (const sph::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("time.dt: 100000 s is above the limit of explicit conduction"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+// Ten million times the explicit limit: what the iterations leave is a share of what the step changes, not of what an
+// explicit one would.
+TEST(HardExchanges, ConductionInOneStepToTheEnd) {
+  const auto warm = [](const std::string& temperature) {
+    return "gas_content = 0.01\ntemperature = " + temperature +
+           "\nheat = { specific_heat = 1000, conductivity = 2 }";
+  };
+  Simulation s(world(), sph::parse_scene(still_box(warm("1300"), warm("1000"), 4), "long",
+                                         {"terms.implicit_conduction=true", "time.dt=3e12"}));
+  const sph::Monitors monitors(s);
+  const std::vector<double> first = monitors.values(s);
+  for (int k = 0; k < 3; ++k) s.step();
+  EXPECT_LT(range<Field::temperature>(s).highest - range<Field::temperature>(s).lowest, 0.01);
+  EXPECT_NEAR(monitors.values(s)[1] / first[1], 1, 1e-13);
+}
+
+// Rock that hardly conducts, or not at all, beside walls that radiate to 0 K: it gives what it conducts to them at most.
+TEST(HardExchanges, RadiationOfWhatHardlyConducts) {
+  for (const double conductivity : {0.0, 1e-6}) {
+    Simulation s(world(), sph::parse_scene(
+                              "kernel = { h_over_dx = 1 }\n[domain]\nlower = [0, -4]\nupper = [16, 14]\n"
+                              "periodic = [true, false]\n[[group]]\nname = \"rock\"\nkind = \"fluid\"\n"
+                              "density = 2500\nsound_speed = 100\ntemperature = 1500\nheat = { "
+                              "specific_heat = 1000, conductivity = " +
+                                  std::to_string(conductivity) +
+                                  " }\n[[group]]\nname = \"wall\"\nkind = \"wall\"\n"
+                                  "radiation = { emissivity = 1, temperature = 0 }\n[start]\nspacing = 1\n"
+                                  "region = [{ group = \"wall\" }, { group = \"rock\", shape = \"box\", "
+                                  "lower = [0, 0], upper = [16, 10] }]\n[terms]\nmotion = false\n"
+                                  "[time]\nsteps = 1\ndt = 100\n[[monitor]]\nkind = \"budget\"\n",
+                              "radiates", {}));
+    const sph::Monitors monitors(s);
+    for (int k = 0; k < 10; ++k) s.step();
+    const double most = 2 * 16 * 1000 * (conductivity * 1500 / 0.5);
+    EXPECT_LE(monitors.values(s)[2], 1e-9);
+    EXPECT_GE(monitors.values(s)[2], -1.01 * most - 1e-6);
+  }
+}
+
 }  // namespace

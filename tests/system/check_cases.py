@@ -78,6 +78,33 @@ until = 1
                 assert f"of what {key} = " not in out, out
         assert "warning" not in self.check()
 
+    STILL = """
+dimension = 2
+kernel = { h_over_dx = 1.2 }
+domain = { lower = [0, 0], upper = [1, 1], periodic = [true, true] }
+terms = { motion = false }
+time = { until = 1e6 }
+[[group]]
+name = "rock"
+kind = "fluid"
+density = 1000
+sound_speed = 100
+temperature = 300
+heat = { specific_heat = 1000, conductivity = 2 }
+[start]
+spacing = 0.05
+region = [{ group = "rock" }]
+"""
+
+    def test_still(self):
+        """Where nothing moves sound limits no step."""
+        scene = self.file("still.toml", self.STILL)
+        assert "time step: 450 s, nothing moves" in self.run.run(1, "peperite", "check", scene).out
+        given = ["--set", "time.dt=1e5", "--set", "terms.implicit_conduction=true"]
+        assert "time step: 100000 s, nothing moves" in self.run.run(1, "peperite", "check", scene, *given).out
+        self.run.refused(1, "peperite", "check", scene, "--set", "time.dt=1e5",
+                         says="time.dt: 100000 s is above the limit of explicit conduction")
+
     ROCK = """
 dimension = 2
 kernel = { h_over_dx = 1.2 }

@@ -85,7 +85,7 @@ void read_start(const StartReader& table, Scene& scene);
 /// [terms], once the groups are known.
 void read_terms(const TermsReader& table, Scene& scene);
 void check_implicit_viscosity(const TermsReader& terms, const Scene& scene);
-void check_implicit_conduction(const TermsReader& terms, const Scene& scene);
+void check_still_step(const TermsReader& terms, const Scene& scene);
 /// Refuses constants that pairs cannot multiply, once all is read.
 void check_ranges(const TopReader& top, const DomainReader& domain, const TermsReader& terms,
                   const Scene& scene);

@@ -115,10 +115,14 @@ void read_terms(const TermsReader& table, Scene& scene) {
   table.finish();
 }
 
-void check_implicit_conduction(const TermsReader& terms, const Scene& scene) {
+// Gas that flows does, as soon as it does: that is looked at in a run.
+void check_still_step(const TermsReader& terms, const Scene& scene) {
   const ExchangeTerms& exchange = scene.terms.exchange;
-  if (exchange.implicit_conduction && !exchange.motion && !scene.has_gas_flow() && !scene.time.dt)
+  if (exchange.motion || scene.has_gas_flow() || scene.time.dt) return;
+  if (exchange.implicit_conduction)
     terms.fail("implicit_conduction", "is on, and nothing else limits the time step", "give time.dt");
+  if (std::ranges::none_of(scene.groups, [](const Group& g) { return g.heat.material.conductivity > 0; }))
+    terms.fail("motion", "is false, no group conducts, and nothing limits the time step", "give time.dt");
 }
 
 // Rounding of the operator in single precision shows in the momentum: 1e-4 of it at 1e6, 1e-3 at 1e7. Fluid

@@ -39,6 +39,8 @@ class ConductionSolver final : public Solver {
   [[nodiscard]] double outside(const Rows&, std::size_t row, double temperature) const;
   [[nodiscard]] const HeatMaterial& material(const Rows&, std::size_t row) const;
   void look(const Rows&, const Step&);
+  /// The square of the imbalances that the heat of all particles bears.
+  [[nodiscard]] double enough_now() const;
   void linearise(const Rows&, const Step&);
   void correct(const Rows&, const Step&);
   void finish(const Rows&, const Step&) const;
@@ -50,8 +52,10 @@ class ConductionSolver final : public Solver {
   int linearisations_ = 0, iterations_ = 0;
   double enough_ = 0, target_ = 0;            ///< squares of residuals: of the step, of the correction
   std::vector<double> enthalpy_, imbalance_;  ///< tried [J/kg]; of the balance above [J]
-  std::array<decomp::ExactSum, 2> squares_;   ///< of imbalances and of temperatures, as correct() weighs them
-  ConjugateGradients changes_;                ///< of temperatures
+  /// Of imbalances and temperatures as the gradients weigh them; of imbalances, of what the step changes and of
+  /// temperatures as they are warmth: over and times a heat capacity.
+  std::array<decomp::ExactSum, 5> squares_;
+  ConjugateGradients changes_;  ///< of temperatures
 };
 
 ConductionSolver::ConductionSolver(const SphConstants& constants)
@@ -106,14 +110,27 @@ void ConductionSolver::look(const Rows& p, const Step& step) {
   squares_ = {};
   changes_.clear(p.owned(), 1);
   for_movers(step.ranges, [&](std::size_t i) {
-    const double diagonal = mass[i] * heat_capacity(material(p, i), enthalpy_[i]) +
-                            dt * (sums[2 * i + 1] + (walls != nullptr ? walls[2 * i + 1] : 0.0));
-    const double lack = dt * (sums[2 * i] + outside(p, i, trial[i])) - mass[i] * (enthalpy_[i] - h[i]);
+    const double capacity = mass[i] * heat_capacity(material(p, i), enthalpy_[i]),
+                 gain = mass[i] * (enthalpy_[i] - h[i]);
+    const double diagonal = capacity + dt * (sums[2 * i + 1] + (walls != nullptr ? walls[2 * i + 1] : 0.0));
+    const double lack = dt * (sums[2 * i] + outside(p, i, trial[i])) - gain;
     changes_.residual(i) = lack;
     changes_.diagonal(i) = diagonal;
     squares_[0].add(lack * lack / diagonal);
     squares_[1].add(diagonal * t[i] * t[i]);
+    squares_[2].add(lack * lack / capacity);
+    squares_[3].add(gain * gain / capacity);
+    squares_[4].add(diagonal * t[i] * (diagonal * t[i]) / capacity);
   });
+}
+
+// The first imbalance is what an explicit step would change: in long steps far more than this one does, and what the balance
+// lacks is the error of the heat that the final fluxes bring. That must be a share of what the step has turned out to
+// change.
+double ConductionSolver::enough_now() const {
+  const double error = squares_[2].value(), wanted = std::fmax(tolerance_ * tolerance_ * squares_[3].value(),
+                                                               rounding * rounding * squares_[4].value());
+  return error > wanted ? std::fmin(enough_, squares_[0].value() * (wanted / error)) : enough_;
 }
 
 bool ConductionSolver::improve(StepState& s) {
@@ -123,11 +140,12 @@ bool ConductionSolver::improve(StepState& s) {
     const double square = squares_[0].value();
     if (linearisations_ == 0)
       enough_ = std::fmax(tolerance_ * tolerance_ * square, rounding * rounding * squares_[1].value());
-    if (!(square > enough_)) {
+    const double enough = linearisations_ == 0 ? enough_ : enough_now();
+    if (!(square > enough)) {
       finish(p, s);
       return false;
     }
-    target_ = 0.25 * enough_;
+    target_ = 0.25 * enough;
     if (latent_) target_ = std::fmax(target_, 1e-4 * square);
     ++linearisations_;
     iterations_ = 0;

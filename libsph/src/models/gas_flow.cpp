@@ -128,17 +128,26 @@ struct Contents {
     const double from_outside = outside.rate(p, i, drive), more = dt * (gain[0] + from_outside) / liquid;
     change->see(std::fabs(more), m);
     if (gain[0] == 0 && from_outside == 0) return;
+    if (is_fault(p, i, m + more, step)) return;
     m += more;
     if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += dt * from_outside;
-    if (!(m >= 0 && m < 1))
-      find_fault(
-          *constants, p, i, step,
-          fmt::format("has a gas content of {:.3g}; reduce time.dt, time.cfl or group.permeability", m));
     const double now = liquid * (1 + m);
     if (p.get<Field::enthalpy>() != nullptr) carry_heat(p, i, dt, from_outside, now);
     rho *= now / mass;
     mass = now;
     for (std::size_t a = 0; a < d; ++a) p.get<Field::velocity>()[i * d + a] += dt * gain[1 + a] / now;
+  }
+
+  /// The law could not say what the pressure is.
+  bool is_fault(const FaultView& p, std::size_t i, double content, const Step& step) const {
+    const bool possible = content >= 0 && content < 1;
+    if (possible && can_hold(constants->scene->groups[p.get<Field::group>()[i]], content)) return false;
+    find_fault(*constants, p, i, step,
+               fmt::format("has a gas content of {:.3g}{}", content,
+                           possible ? ", of which the densest gas is denser than the liquid; check the "
+                                      "solubility, or lower the gas_pressure of walls"
+                                    : "; reduce time.dt, time.cfl or group.permeability"));
+    return true;
   }
 
   /// What comes and goes through walls and the surface is as warm as the particle.
@@ -278,6 +287,7 @@ double Degassing::longest_step(const Reduction& r) const {
   if (scene.time.dt) return *scene.time.dt;
   const double by_stability = limit({r[in_.conductance], r[in_.stiffness]});
   if (!scene.terms.exchange.implicit_gas_flow) return by_stability;
+  if (!(r[in_.dt] > 0) || !std::isfinite(by_stability)) return any_step;  // no step yet, or nothing flows
   const double dt = r[in_.dt], faster = r[in_.change] / (change_in_a_step * r[in_.content]);
   const double longer = faster > 1 / growth_of_steps ? dt / faster : growth_of_steps * dt;
   return std::fmin(longer, longest_explicit * by_stability);

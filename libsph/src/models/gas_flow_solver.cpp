@@ -56,10 +56,11 @@ class GasFlowSolver final : public Solver {
 double GasFlowSolver::capacity(const Rows& p, std::size_t i) const {
   if (!(p.get<Field::liquid_mass>()[i] > 0)) return 0;
   const Scene& scene = *constants_->scene;
+  const Group& g = scene.groups[p.get<Field::group>()[i]];
+  if (g.eos.law->kind != EosKind::bubbly) return 0;         // was, and keeps its gas
   const double* dissolved = p.get<Field::dissolved_gas>();  // what is in solution stays there in this step
   const double stiffness =
-      gas_stiffness(scene.groups[p.get<Field::group>()[i]], p.get<Field::gas_content>()[i],
-                    dissolved != nullptr ? dissolved + i : nullptr,
+      gas_stiffness(g, p.get<Field::gas_content>()[i], dissolved != nullptr ? dissolved + i : nullptr,
                     p.get<Field::gas_pressure>()[i] + scene.domain.surface_pressure);
   return stiffness > 0 ? p.get<Field::mass>()[i] / p.get<Field::density>()[i] / stiffness : 0.0;
 }

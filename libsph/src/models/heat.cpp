@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "models/conduction_solver.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
+#include "sph/laws/eos/law.hpp"
 #include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/conduction.hpp"
@@ -60,6 +62,15 @@ double mean_conductivity(const Group& a, const Group& b) {
   return sum > 0 ? 2 * a.heat.material.conductivity * (b.heat.material.conductivity / sum) : 0;
 }
 
+/// The largest k / c beside any matter [kg/m/s].
+double fastest_beside(const Scene& scene, const Group& g) {
+  double most = 0;
+  for (const Group& other : scene.groups)
+    if (is_matter(g) && is_matter(other) && g.heat.material.specific_heat > 0)
+      most = std::max(most, mean_conductivity(g, other) / g.heat.material.specific_heat);
+  return most;
+}
+
 }  // namespace
 
 double longest_heat_step(const Scene& scene) {
@@ -67,11 +78,17 @@ double longest_heat_step(const Scene& scene) {
   const double h = scene.kernel.smoothing_length;
   double fastest = 0;
   for (const Group& g : scene.groups)
-    for (const Group& other : scene.groups)
-      if (is_matter(g) && is_matter(other) && g.heat.material.specific_heat > 0)
-        fastest =
-            std::max(fastest, mean_conductivity(g, other) / (g.density * g.heat.material.specific_heat));
+    if (is_matter(g)) fastest = std::max(fastest, fastest_beside(scene, g) / g.density);
   return fastest > 0 ? share * h * h / fastest : 0;
+}
+
+Heat::Heat(std::size_t set, const SphConstants& constants) : Model(set), constants_(&constants) {
+  const Scene& scene = *constants.scene;
+  const bool limited = !scene.terms.exchange.implicit_conduction;
+  for (const Group& g : scene.groups)
+    of_bubbly_.push_back(
+        limited && is_matter(g) && g.eos.law->kind == EosKind::bubbly ? fastest_beside(scene, g) : 0.0);
+  bubbly_ = std::ranges::any_of(of_bubbly_, [](double most) { return most > 0; });
 }
 
 bool has_warm_walls(const Scene& scene) {
@@ -99,21 +116,64 @@ void Heat::add_to(Builder& b) const {
     b.add_update("temperatures", Temperatures{constants_});
 }
 
-double Heat::start(const decomp::Comm&, Particles& p, GlobalState&) {
+void Heat::reserve(Reduction& r) {
+  if (bubbly_) diffusivity_ = r.add_maximum();
+}
+
+double Heat::start(const decomp::Comm& comm, Particles& p, GlobalState&) {
   const Scene& scene = *constants_->scene;
   const auto* group = p.data<Field::group>();
   const double* t = p.data<Field::temperature>();
   double* h = p.data<Field::enthalpy>();
   for (std::size_t i = 0; i < p.owned(); ++i)
     h[i] = constants_->is_wall(group[i]) ? 0.0 : enthalpy(scene.groups[group[i]].heat.material, t[i]);
-  return longest_step(Reduction{});
+  std::array<double, 1> largest{fastest(p)};
+  comm.max(largest);
+  const double longest = limit(largest[0]);
+  if (scene.time.dt && *scene.time.dt > longest)
+    throw InputError(fmt::format(
+        "{}: time.dt: {:.6g} s is above the limit of explicit conduction, {:.6g} s where gas makes the fluid "
+        "light; set it to that or less, leave it out, or set terms.implicit_conduction",
+        scene.file, *scene.time.dt, longest));
+  return scene.time.dt.value_or(longest);
 }
 
-double Heat::longest_step(const Reduction&) const {
+/// Of bubbly fluids: where gas makes them light, they have less heat for the same conductivity [m^2/s].
+double Heat::fastest(const Particles& p) const {
+  double most = 0;
+  const auto* group = p.data<Field::group>();
+  const double* rho = p.data<Field::density>();
+  for (std::size_t i = 0; bubbly_ && i < p.owned(); ++i) most = larger(of_bubbly_[group[i]] / rho[i], most);
+  return most;
+}
+
+double Heat::limit(double diffusivity) const {
+  const double h = constants_->scene->kernel.smoothing_length,
+               of_scene = longest_heat_step(*constants_->scene);
+  const double longest = of_scene > 0 ? of_scene : any_step;
+  return diffusivity > 0 ? std::fmin(longest, share * h * h / diffusivity) : longest;
+}
+
+bool Heat::report(const StepState& s, Reduction& r) {
+  if (!bubbly_) return true;
+  r[diffusivity_] = fastest(s.particles);
+  return std::isfinite(r[diffusivity_]);
+}
+
+double Heat::longest_step(const Reduction& r) const {
   const Scene& scene = *constants_->scene;
   if (scene.time.dt) return *scene.time.dt;
-  const double limit = longest_heat_step(scene);
-  return limit > 0 ? limit : any_step;
+  return limit(bubbly_ ? r[diffusivity_] : 0.0);
+}
+
+void Heat::guard_step(const Reduction& r, const GlobalState& global) const {
+  const Scene& scene = *constants_->scene;
+  if (!bubbly_ || !scene.time.dt) return;
+  if (const double longest = limit(r[diffusivity_]); *scene.time.dt > longest)
+    throw GuardError(fmt::format(
+        "step {}: gas has made the fluid so light that heat spreads too fast for the time step: set time.dt "
+        "to {:.3g} s or less, leave it out, or set terms.implicit_conduction",
+        global.step, 0.9 * longest));
 }
 
 void Heat::add_energies(const Particles& p, EnergySums& sums) const {

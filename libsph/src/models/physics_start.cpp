@@ -34,6 +34,13 @@ double Physics::start(const decomp::Comm& comm, Particles& particles, GlobalStat
   return steps_.longest({largest[0], 0, 0, largest[1], largest[2], largest[3]});
 }
 
+void Physics::check_start(const decomp::Comm&, const StepState& state) const {
+  if (!std::isfinite(state.global.dt))
+    throw InputError(scene_->file +
+                     ": terms.motion: is false, no gas flows at the start, and nothing limits the time step; "
+                     "give time.dt");
+}
+
 StepMaxima Physics::maxima_at_start(Particles& p) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   const double* v = p.data<Field::velocity>();

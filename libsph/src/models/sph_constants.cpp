@@ -99,7 +99,6 @@ void add_wall_heat(const GroupHeat& of, GroupTable::Heat& heat) {
   heat.wall_flux.push_back(of.wall_flux.value_or(given));
   heat.wall_transfer.push_back(of.transfer.coefficient);
   heat.wall_glow.push_back(glow);
-  heat.wall_warmest.push_back(std::max(of.transfer.temperature, t));
 }
 
 GroupTable group_table(const Scene& of) {

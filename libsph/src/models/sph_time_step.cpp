@@ -66,7 +66,11 @@ double SphTimeStep::courant_number(double dt, const std::vector<double>& sounds)
 
 void SphTimeStep::guard(double sound, const GlobalState& global) const {
   const Scene& scene = *constants_->scene;
-  if (!scene.time.dt) return;
+  if (!std::isfinite(global.dt))
+    throw GuardError(fmt::format(
+        "step {}: nothing moves, no gas flows any more, and nothing limits the time step; give time.dt",
+        global.step));
+  if (!scene.time.dt || !scene.terms.exchange.motion) return;
   const double limit = courant_limit(scene), courant = sound * *scene.time.dt / scene.kernel.smoothing_length;
   if (!(courant > limit)) return;
   if (gas_)
@@ -85,6 +89,7 @@ void SphTimeStep::guard(double sound, const GlobalState& global) const {
 void SphTimeStep::guard_viscosity(double viscosity, double bulk, const GlobalState& global) const {
   const Scene& scene = *constants_->scene;
   const double h = scene.kernel.smoothing_length, surely = 0.04 * h * h;
+  if (!scene.terms.exchange.motion) return;
   if (!scene.time.dt || !follows_ || *scene.time.dt * (viscosity + bulk) <= surely) return;
   Scene now = scene;
   for (Group& g : now.groups) {

@@ -44,7 +44,6 @@ void check_time_step(const Scene& scene) {
     throw InputError(fmt::format(
         "{}: time.dt: {:.6g} s is above the limit of explicit conduction, {:.6g} s; set it to that or less",
         scene.file, *scene.time.dt, limit));
-  if (!scene.terms.exchange.motion) return;
   // What stiffens under pressure is looked at once it is there, by a start and by `check`.
   if (std::ranges::any_of(scene.groups, stiffens)) return;
   const SphConstants constants(scene, position_scale(scene));
@@ -52,6 +51,7 @@ void check_time_step(const Scene& scene) {
 }
 
 void check_time_step(const Scene& scene, const SphTimeStep& steps, const std::vector<double>& sounds) {
+  if (!scene.terms.exchange.motion) return;
   const double dt = steps.resting(sounds), courant = steps.courant_number(dt, sounds);
   const char* key = scene.time.dt ? "time.dt" : "time.cfl";
   if (courant > courant_limit(scene))

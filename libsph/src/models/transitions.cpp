@@ -1,11 +1,14 @@
 #include "sph/models/transitions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
+#include "sph/laws/eos/bubbly.hpp"
 #include "sph/laws/eos/law.hpp"
 
 namespace sph {
@@ -99,13 +102,21 @@ struct Transitions {
     const Group &old = scene.groups[group[i]], &now = scene.groups[to];
     const double mass = p.get<Field::mass>()[i];
     double& rho = p.get<Field::density>()[i];
+    const bool bubbly = now.eos.law->kind == EosKind::bubbly;
+    if (const double* gas = p.get<Field::gas_content>(); bubbly && gas != nullptr && !can_hold(now, gas[i])) {
+      find_fault(
+          *constants, p, i, step,
+          fmt::format("has a gas content of {:.3g}, too much for \"{}\" which it becomes: of it the densest "
+                      "gas is denser than the liquid; check the solubility",
+                      gas[i], now.name));
+      return;
+    }
     if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
     if (!same_state(old, now)) {
       const double* gas = p.get<Field::gas_content>();
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
     }
     group[i] = to;
-    const bool bubbly = now.eos.law->kind == EosKind::bubbly;
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
     materials->derive(p, i, i + 1);  // as after a restart
     if (double* liquid = p.get<Field::liquid_mass>(); liquid != nullptr && bubbly && !(liquid[i] > 0))

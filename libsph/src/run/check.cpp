@@ -207,6 +207,9 @@ std::string tension_text(const Scene& scene) {
 
 std::string courant_text(const Scene& scene, const SphTimeStep& steps, const std::vector<double>& sounds,
                          double dt) {
+  if (!scene.terms.exchange.motion)
+    return std::isfinite(dt) ? fmt::format("time step: {:.6g} s, nothing moves\n", dt)
+                             : "time step: from the gas that flows, and nothing moves\n";
   const double courant = steps.courant_number(dt, sounds);
   std::string out =
       fmt::format("time step: {:.6g} s at the start, c dt/h = {:.3g} (recommended {}, limit {})\n", dt,
@@ -272,7 +275,8 @@ std::string steps_text(const Scene& scene, double dt) {
     return fmt::format(
         "steps: flows {}melt.courant cells apart; contacts in steps that their stiffness bears\n",
         scene.time.dt ? fmt::format("at most {:.6g} s or ", *scene.time.dt) : "");
-  if (!std::isfinite(dt)) return "time step: from the flow, melt.courant cells; time.dt would bound it\n";
+  if (!std::isfinite(dt))
+    return scene.has_melt() ? "time step: from the flow, melt.courant cells; time.dt would bound it\n" : "";
   double steps = scene.time.until ? std::ceil(*scene.time.until / dt) : HUGE_VAL;
   if (scene.time.steps) steps = std::min(steps, static_cast<double>(*scene.time.steps));
   return fmt::format("steps: about {:.4g}\n", steps);

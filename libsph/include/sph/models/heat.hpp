@@ -3,8 +3,10 @@
 // counted for each particle, so that
 //   sum m H - sum (heat from walls and friction) = what it was at the start,
 // but for rounding, on any number of ranks. Heat that flowing gas brings is in gas_flow.hpp. Explicit: dt <= 0.25 h^2
-// rho c / k; implicit: src/models/conduction_solver.hpp.
+// rho c / k, with the density of now where gas makes it low; implicit: src/models/conduction_solver.hpp.
 #pragma once
+
+#include <vector>
 
 #include "sph/models/builder.hpp"
 #include "sph/models/model.hpp"
@@ -18,19 +20,27 @@ namespace sph {
 
 class Heat final : public Model {
  public:
-  Heat(std::size_t set, const SphConstants& constants) : Model(set), constants_(&constants) {}
+  Heat(std::size_t set, const SphConstants& constants);
 
   /// Its fields and stages; where walls are warm, after the wall slopes.
   void add_to(Builder& builder) const;
 
+  void reserve(Reduction& reduction) override;
   [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
-  [[nodiscard]] bool report(const StepState&, Reduction&) override { return true; }
-  [[nodiscard]] double longest_step(const Reduction&) const override;
+  [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
+  [[nodiscard]] double longest_step(const Reduction& reduction) const override;
+  void guard_step(const Reduction& reduction, const GlobalState& global) const override;
   [[nodiscard]] std::vector<Energy> energies() const override { return {Energy::internal}; }
   void add_energies(const Particles& particles, EnergySums& sums) const override;
 
  private:
+  [[nodiscard]] double fastest(const Particles& particles) const;
+  [[nodiscard]] double limit(double diffusivity) const;
+
   const SphConstants* constants_;
+  std::vector<double> of_bubbly_;  ///< by group: the largest k / c beside others, 0 unless bubbly [kg/m/s]
+  bool bubbly_;                    ///< there is such a group
+  Reduction::Maximum diffusivity_{};
 };
 
 }  // namespace sph

@@ -21,6 +21,7 @@ class Physics final : public Model {
   void reserve(Reduction& reduction) override;
   [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
   void derive(Particles& particles) const override;
+  void check_start(const decomp::Comm& comm, const StepState& state) const override;
   [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
   [[nodiscard]] double longest_step(const Reduction& reduction) const override;
   void guard_step(const Reduction& reduction, const GlobalState& global) const override;

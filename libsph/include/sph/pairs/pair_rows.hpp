@@ -261,7 +261,6 @@ struct HeatColumns {
     if constexpr (S.has(Value::wall_transfer)) {
       row.put(Value::wall_transfer, 0, groups.heat.wall_transfer[row.group]);
       row.put(Value::wall_glow, 0, groups.heat.wall_glow[row.group]);
-      row.put(Value::wall_warmest, 0, groups.heat.wall_warmest[row.group]);
     }
     if constexpr (S.has(Value::sensible_heat))
       row.put(Value::sensible_heat, 0, groups.heat.specific_heat[row.group] * temperature[row.i]);

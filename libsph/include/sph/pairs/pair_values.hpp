@@ -69,7 +69,6 @@ enum class Value : std::uint8_t {
   wall_heat_flux,      ///< of walls, into what is beside them, or would be were that at 0 K [W/m^2]
   wall_transfer,       ///< of walls: what of it a kelvin of the face takes [W/m^2/K] ...
   wall_glow,           ///< ... and its fourth power [W/m^2/K^4]
-  wall_warmest,        ///< of walls with one of these: no face is warmer beside cold matter [K]
   sensible_heat,       ///< c_p T [J/kg]
   grip,                ///< 0 of walls that slip, else 1
   trial,               ///< what an implicit exchange is solved for [K or Pa]
@@ -176,7 +175,7 @@ struct GroupTable {
   };
   struct Heat {
     std::vector<double> conductivity, specific_heat, wall_warmth, wall_flux, wall_transfer, wall_glow,
-        wall_warmest, grip;  ///< as the values have them
+        grip;  ///< as the values have them
   };
   GasFlow gas_flow;
   Heat heat;

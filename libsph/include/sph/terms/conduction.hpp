@@ -91,8 +91,7 @@ struct WallConduction {
 struct WallTransferConduction {
   static constexpr std::string_view name = "WallTransferConduction";
   static constexpr bool always_double = true, only_beside_walls = true;
-  static constexpr ValueSet reads =
-      WallConduction::reads | ValueSet{Value::wall_transfer, Value::wall_glow, Value::wall_warmest};
+  static constexpr ValueSet reads = WallConduction::reads | ValueSet{Value::wall_transfer, Value::wall_glow};
   static constexpr Field writes = Field::wall_heat;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -101,12 +100,13 @@ struct WallTransferConduction {
   }
 
  private:
-  // The balance of the face is concave and falls with T_f: from the warmest that can be, Newton's steps come down to the
-  // root, by a quarter each at least while that is far below, and then with the square.
+  // The balance of the face is concave and falls with T_f. What comes in, q_0 + k T_i / d, is more than what either the
+  // linear or the radiating part alone takes: from the lower of the two temperatures that this bounds T_f by, at most twice
+  // the root, Newton's steps come down to it, to rounding, however much these parts differ.
   template <class P, class V>
   static FaceFlux<V> flux(const P& p, const WallProfile<V>& profile) {
     using T = typename P::Scalar;
-    constexpr int steps = 10;
+    constexpr int steps = 5;
     const V near = sqrt(profile.steepness) +
                    where_equal(profile.steepness, V::zero(), V(T(1)) / max(p.r, V(static_cast<T>(1e-3))));
     const V conducts = p.template i<Value::conductivity>() * near, tiny(static_cast<T>(1e-30));
@@ -114,7 +114,8 @@ struct WallTransferConduction {
             linear = p.template j<Value::wall_transfer>(), glow = p.template j<Value::wall_glow>();
     const auto out = [&](V t) { return linear * t + glow * (t * t * (t * t)); };
     const auto slope = [&](V t) { return linear + V(T(4)) * glow * (t * t * t); };
-    V face = max(own, p.template j<Value::wall_warmest>());
+    const V in = given + conducts * own;
+    V face = min(in / max(linear + conducts, tiny), sqrt(sqrt(max(in, V::zero()) / max(glow, tiny))));
     for (int k = 0; k < steps; ++k)
       face += (given - out(face) - conducts * (face - own)) / max(conducts + slope(face), tiny);
     const V takes = slope(face);

@@ -47,6 +47,16 @@ class BubblyEos {
           g.bubbly.gas_rt, g.bubbly.solubility_pressure, g.bubbly.solubility_exponent};
 }
 
+/// Whether the law of a bubbly group has an inverse with this gas content.
+[[nodiscard]] inline bool can_hold(const Group& g, double gas_content) {
+  try {
+    (void)bubbly_eos(g, gas_content);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// BubblyEos::gas_stiffness(), of a group that exsolves slowly with what is dissolved.
 [[nodiscard]] inline double gas_stiffness(const Group& g, double gas_content, const double* dissolved,
                                           double pressure) {
