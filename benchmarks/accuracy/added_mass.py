@@ -27,6 +27,7 @@ FORMULATIONS = {
     "mixed": ("precision=mixed",),
     "by density": ("terms.pressure_weights=density",),
     "solid": ("group.body.kind=solid", "group.body.poisson_ratio=0.25"),
+    "solid, total": ("group.body.kind=solid", "group.body.lagrangian=total", "group.body.poisson_ratio=0.25"),
     "no diffusion": ("terms.density_diffusion=0",),
     "h = 2 dx": ("kernel.h_over_dx=2",),
 }

@@ -60,7 +60,8 @@ Scene scene_for(const Fusion& fusion) {
   s.groups[clamp].wall.slip = true;
   s.groups[solid].solid.shear_modulus = 0.4 * s.groups[solid].eos.bulk_modulus;
   s.groups[clamp].wall.clamps = solid;
-  if (needs(Value::reference)) s.groups[solid].solid.lagrangian = Lagrangian::total;
+  if (needs(Value::reference) || needs(Value::wet_pressure) || needs(Value::own_head))
+    s.groups[solid].solid.lagrangian = Lagrangian::total;
   if (needs(Value::width)) s.kernel.least_growth = 0.8, s.kernel.largest_growth = 1.3;
   s.terms.density_diffusion = 0.13;
   s.terms.artificial_viscosity = 0.6;
@@ -106,9 +107,9 @@ std::vector<Placed> jittered_lattice(int dim) {
 
 std::vector<Placed> isolated_pairs(int dim) {
   std::vector<Placed> all;
-  for (int k = 0; k < 125; ++k) {
+  for (int k = 0; k < 250; ++k) {
     const auto n = static_cast<std::uint64_t>(k);
-    Placed one{{12.0 * (k % 12), 12.0 * (k / 12), 0}, static_cast<std::uint32_t>(k % 5)};
+    Placed one{{8.0 * (k % 18), 8.0 * (k / 18), 0}, static_cast<std::uint32_t>(k % 5)};
     Placed other = one;
     other.group = static_cast<std::uint32_t>(k / 5 % 5);
     for (int a = 0; a < dim; ++a)
@@ -214,6 +215,9 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
           beside || fusion_.values.has(Value::capillary));
   numbers(Field::wall_pressures, 1000, 4000, still);
   numbers(Field::bond_stress, 0, 3000);
+  numbers(Field::wet_pressure, 1000, 4000);
+  numbers(Field::wet_velocity, 0, fastest);
+  numbers(Field::acceleration, 0, 20);
   numbers(Field::direction, 0, fastest);
   numbers(Field::wall_slope, 0, uniform(number, Field::wall_slope, 9) > 0 ? 1 : 0,
           row < particles_.owned() && !still);

@@ -111,6 +111,14 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       vector(Field::wall_sums, 2, part * j.v);
       return vector(Field::wall_sums, 2 + dim_, part * x / h_);
     }
+    case key("WettedExtrapolation"): {
+      if (j.shears) return;
+      const double part = bare(w_ij), rise = j.weight * gravity - j.density * i.frame.dot(x);
+      one(Field::wall_sums, 0, part);
+      one(Field::wall_sums, 1, part * (j.pressure - rise));
+      vector(Field::wall_sums, 2, part * j.v);
+      return vector(Field::wall_sums, 2 + dim_, part * x / h_);
+    }
     case key("WallShare"):
       if (j.mover) return;
       vector(Field::wall_share, 0, j.volume * grad);
@@ -300,6 +308,22 @@ void PairOracle::add_force(const Pair& pair, Term term, PairSums& sums) const {
       }
       case key("IdaStress"):
         return both * j.stress * grad;
+      case key("WettedPressure"):
+        return i.shears && j.shears ? Vec(Vec::Zero())
+                                    : Vec(-both * (i.wet_pressure + j.wet_pressure) * grad);
+      case key("WettedViscosity"):
+      case key("WettedSymmetricViscosity"): {
+        if (i.shears && j.shears) return Vec::Zero();
+        const double eta = i.shears   ? j.viscosity
+                           : j.shears ? i.viscosity
+                                      : harmonic(i.viscosity, j.viscosity);
+        const Vec seen = j.wet_v - i.wet_v;
+        if (term.name == "WettedViscosity") return 2 * eta * both / second_ * slope / r * -seen;
+        return -2 * (dim_ + 2) * eta * both / fourth_ * slope / r * seen.dot(x) * x;
+      }
+      case key("WettedArtificialViscosity"):
+        if (i.shears || j.shears) return Vec::Zero();
+        [[fallthrough]];
       case key("ArtificialViscosity"):
         return both * 0.5 * (i.density + j.density) * scene_.terms.artificial_viscosity * 0.5 *
                (i.sound + j.sound) * h_ * approach(x, dv) / (r * r + 0.01 * h_ * h_) * grad;

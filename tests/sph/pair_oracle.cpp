@@ -41,7 +41,8 @@ void PairOracle::load() {
   all_.resize(p.rows());
   for (std::size_t row = 0; row < p.rows(); ++row) {
     PairParticle& q = all_[row];
-    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient}) v->setZero();
+    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient, &q.wet_v, &q.frame})
+      v->setZero();
     for (Mat* m : {&q.stress, &q.bond_stress, &q.gradient}) m->setZero();
     const std::uint32_t group = p.data<Field::group>()[row];
     const Group& g = scene_.groups[group];
@@ -54,6 +55,8 @@ void PairOracle::load() {
       q.colour(e) = get(Field::colour_gradient, row, a);
       q.direction(e) = get(Field::direction, row, a);
       q.slope(e) = get(Field::wall_slope, row, a);
+      q.wet_v(e) = is_bonded(g) ? get(Field::wet_velocity, row, a) : q.v(e);
+      q.frame(e) = is_bonded(g) ? get(Field::acceleration, row, a) : 0.0;
       if (g.kind != GroupKind::wall)
         q.rest_gradient(e) =
             get(Field::liquid_density, row, 0) * (scene_.domain.gravity[a] + get(Field::grain_drag, row, a));
@@ -66,6 +69,7 @@ void PairOracle::load() {
         q.gradient(e, f) = g.kind == GroupKind::wall ? 0.0 : get(Field::velocity_gradient, row, a * d + b);
       }
     }
+    q.wet_pressure = is_bonded(g) ? get(Field::wet_pressure, row, 0) : q.pressure;
     q.mass = get(Field::mass, row, 0);
     q.density = get(Field::density, row, 0);
     q.weight = q.density * (1 - scene_.domain.background.density / g.density);
@@ -95,7 +99,9 @@ void PairOracle::load() {
     q.group = static_cast<int>(group);
     q.body = group == clamp ? static_cast<int>(solid) : q.group;
     const Group& material = scene_.groups[static_cast<std::size_t>(q.body)];
-    q.modulus = material.eos.bulk_modulus + 4.0 / 3.0 * material.solid.shear_modulus;
+    q.modulus = g.kind == GroupKind::fluid
+                    ? 0.0
+                    : material.eos.bulk_modulus + 4.0 / 3.0 * material.solid.shear_modulus;
     q.rest_volume = q.mass / g.density;
     q.mover = g.kind != GroupKind::wall;
     q.shears = g.kind != GroupKind::fluid;
@@ -173,6 +179,14 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("MixtureWallExtrapolationByDensity"):
     case key("WallViscosity"):
       return !p.mover;
+    case key("WettedExtrapolation"):
+      return p.shears;
+    case key("Deformation"):
+    case key("BondForce"):
+    case key("BondViscosity"):
+    case key("BodyContact"):
+    case key("BodyContactEnergy"):
+      return p.modulus > 0;
     case key("WeightedPressure"):
     case key("GasPressure"):
     case key("NumberDensity"):

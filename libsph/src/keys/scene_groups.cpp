@@ -84,18 +84,22 @@ int read_clamps(const GroupReader& table, const Group& group, const std::vector<
   return solid;
 }
 
-/// Total-Lagrangian solids have passes of their own, in which nothing else takes part yet.
+/// Total-Lagrangian solids have passes of their own, in which not all else takes part yet.
 void check_total_lagrangian(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
-  const bool any = std::any_of(groups.begin(), groups.end(),
-                               [](const Group& g) { return g.solid.lagrangian == Lagrangian::total; });
-  for (std::size_t k = 0; any && k < groups.size(); ++k) {
+  if (std::ranges::none_of(groups, is_bonded)) return;
+  const bool wet = std::ranges::any_of(groups, [](const Group& g) { return g.kind == GroupKind::fluid; });
+  for (std::size_t k = 0; k < groups.size(); ++k) {
     const Group& g = groups[k];
-    const std::string_view right = "a scene of those has no other matter but walls";
-    if (g.kind == GroupKind::fluid)
-      tables[k].fail("kind", "is \"fluid\" beside total-Lagrangian solids", right);
+    if (g.eos.law->kind == EosKind::ideal_gas)
+      tables[k].fail("eos", "is \"ideal_gas\" beside total-Lagrangian solids",
+                     "liquids alone press on them yet");
+    if (g.bubbly.permeability.coefficient > 0 || g.bubbly.exsolution_time > 0 || g.viscosity_law.varies())
+      tables[k].fail("kind", "is of a fluid with gas flow or a viscosity law beside total-Lagrangian solids",
+                     "a fluid beside them has one viscosity and keeps its gas yet");
     if (g.kind == GroupKind::solid && g.solid.lagrangian == Lagrangian::updated)
-      tables[k].fail("lagrangian", "is \"updated\" beside total-Lagrangian solids", right);
-    if (g.wall.slip)
+      tables[k].fail("lagrangian", "is \"updated\" beside total-Lagrangian solids",
+                     "solids of a scene are all \"total\" or all \"updated\"");
+    if (g.wall.slip && !wet)
       tables[k].fail("slip", "is on", "total-Lagrangian solids touch walls without friction anyway");
     if (g.kind == GroupKind::solid && g.viscosity_law.bulk > 0)
       tables[k].fail("bulk_viscosity", fmt::format("is {}", g.viscosity_law.bulk),

@@ -41,7 +41,7 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
 
 /// What holds by default, before the table says anything.
 void set_usual_terms(Scene& scene) {
-  const bool ida = scene.terms.formulation == Formulation::ida, total = scene.total_lagrangian();
+  const bool ida = scene.terms.formulation == Formulation::ida, total = scene.has_dry_bodies();
   const bool gas = has_eos(scene, EosKind::ideal_gas);
   Terms& terms = scene.terms;
   if (ida || total || gas) terms.density_diffusion = 0;
@@ -50,10 +50,12 @@ void set_usual_terms(Scene& scene) {
     terms.gas.quadratic_viscosity = 2;
     terms.gas.conduction = 0.3;
   }
-  const auto first =
-      std::ranges::find_if_not(scene.groups, [](const Group& g) { return g.kind == GroupKind::grain; });
-  const bool uniform = std::all_of(scene.groups.begin(), scene.groups.end(), [&](const Group& g) {
-    return g.kind == GroupKind::grain || (g.viscosity == first->viscosity && !g.viscosity_law.varies());
+  const auto counts = [&](const Group& g) {
+    return g.kind != GroupKind::grain && !(scene.has_wet_bodies() && g.kind != GroupKind::fluid);
+  };
+  const auto first = std::ranges::find_if(scene.groups, counts);
+  const bool uniform = std::ranges::all_of(scene.groups, [&](const Group& g) {
+    return !counts(g) || (g.viscosity == first->viscosity && !g.viscosity_law.varies());
   });
   if (!(uniform || ida || total || gas)) terms.viscous.form = ViscosityForm::symmetric;
 }
@@ -70,7 +72,7 @@ void check_terms(const TermsReader& table, const Scene& scene) {
                "formulation = \"ida\" has none: remove it");
   if (ida && terms.shifting) table.fail("shifting", "is on", "formulation = \"ida\" has none: remove it");
   const auto refuse = [&](bool given, TermsReader::Name<> key) {
-    if (scene.total_lagrangian() && given)
+    if (scene.has_dry_bodies() && given)
       table.fail(key, "is of fluids and updated solids", "total-Lagrangian solids have none: remove it");
   };
   refuse(terms.density_diffusion != 0, "density_diffusion");

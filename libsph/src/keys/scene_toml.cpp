@@ -168,15 +168,15 @@ void read_grains(const Tables& tables, Scene& scene) {
   scene.grains.stages = read_stages(tables.top, scene);
 }
 
-/// Bodies start free of stress, in equations of their own.
+/// Bodies start free of stress, but for the pressure of a fluid that they are in.
 void check_total_lagrangian(const Tables& tables, const Scene& scene) {
   if (!scene.total_lagrangian()) return;
   if (scene.terms.formulation == Formulation::ida)
     tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
-  if (scene.domain.surface_pressure > 0)
+  if (scene.has_dry_bodies() && scene.domain.surface_pressure > 0)
     tables.domain.fail("surface_pressure", fmt::format("is {}", scene.domain.surface_pressure),
                        "solids with lagrangian = \"total\" start free of stress: remove it");
-  if (scene.start.pressure != InitialPressure::zero)
+  if (scene.has_dry_bodies() && scene.start.pressure != InitialPressure::zero)
     tables.start.fail("pressure", "is of fluids", "solids with lagrangian = \"total\" start free of stress");
 }
 

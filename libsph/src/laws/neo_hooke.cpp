@@ -29,7 +29,7 @@ double volume_change_beyond_trace(const Tensor<3>& h, const Tensor<3>& cofactor)
 }  // namespace
 
 template <int D>
-ElasticState<D> neo_hooke(const Tensor<D>& h, double bulk_modulus, double shear_modulus) {
+ElasticState<D> neo_hooke(const Tensor<D>& h, double bulk_modulus, double shear_modulus, double pressure) {
   double trace = 0, square = 0;
   for (int i = 0; i < D; ++i) {
     trace += h(i, i);
@@ -45,14 +45,14 @@ ElasticState<D> neo_hooke(const Tensor<D>& h, double bulk_modulus, double shear_
       // F - cof F, then cof F = dJ/dF
       const double distortion = h(i, j) + h(j, i) - second(i, j) - (i == j ? trace : 0.0);
       const double cofactor = second(i, j) - h(j, i) + (i == j ? 1 + trace : 0.0);
-      out.first_piola(i, j) = shear_modulus * distortion + lambda * change * cofactor;
+      out.first_piola(i, j) = shear_modulus * distortion + (lambda * change - pressure) * cofactor;
     }
   out.volume_change = change;
-  out.energy = shear_modulus * (0.5 * square - beyond) + 0.5 * lambda * change * change;
+  out.energy = shear_modulus * (0.5 * square - beyond) + 0.5 * lambda * change * change - pressure * change;
   return out;
 }
 
-template ElasticState<2> neo_hooke<2>(const Tensor<2>&, double, double);
-template ElasticState<3> neo_hooke<3>(const Tensor<3>&, double, double);
+template ElasticState<2> neo_hooke<2>(const Tensor<2>&, double, double, double);
+template ElasticState<3> neo_hooke<3>(const Tensor<3>&, double, double, double);
 
 }  // namespace sph

@@ -3,6 +3,7 @@
 // is integrated in time but position and velocity.
 #include "sph/terms/bonds.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "sph/laws/neo_hooke.hpp"
@@ -57,7 +58,8 @@ struct BondSums {
 };
 
 struct Stresses {
-  static constexpr FieldSet reads = RangeView::reads | FieldSet{Field::contact_energy, Field::deformation};
+  static constexpr FieldSet reads =
+      RangeView::reads | FieldSet{Field::contact_energy, Field::deformation, Field::prestress};
   static constexpr FieldSet writes{Field::bond_stress, Field::stress,  Field::strain_energy,
                                    Field::bonds,       Field::density, Field::pressure};
   const SphConstants* constants;
@@ -73,13 +75,15 @@ struct Stresses {
     const auto* group = p.get<Field::group>();
     const double* mass = p.get<Field::mass>();
     const double* contact = p.get<Field::contact_energy>();
+    const double* prestress = p.get<Field::prestress>();
     for (std::size_t i = first; i < last; ++i) {
       Eigen::Map<Tensor<D>> bond_stress(p.get<Field::bond_stress>() + i * D * D);
       double* stress = p.get<Field::stress>() + i * n;
       double& energy = p.get<Field::strain_energy>()[i];
-      energy = contact != nullptr ? contact[i] : 0.0;
       const Group& own = constants->scene->groups[group[i]];
-      if (own.kind == GroupKind::wall && own.wall.clamps < 0) {  // rigid
+      const bool fluid = own.kind == GroupKind::fluid;
+      energy = contact != nullptr && !fluid ? contact[i] : 0.0;
+      if (fluid || (own.kind == GroupKind::wall && own.wall.clamps < 0)) {  // or rigid
         bond_stress.setZero();
         continue;
       }
@@ -87,7 +91,9 @@ struct Stresses {
       const BondSums<D> bonds(p.get<Field::deformation>() + i * sums,
                               constants->gradient_factor * constants->scene->kernel.smoothing_length);
       check(p, i, bonds.count, bonds.shape, step);
-      const ElasticState<D> state = neo_hooke<D>(bonds.gradient, g.eos.bulk_modulus, g.solid.shear_modulus);
+      const double before = prestress != nullptr ? prestress[i] : 0.0;
+      const ElasticState<D> state =
+          neo_hooke<D>(bonds.gradient, g.eos.bulk_modulus, g.solid.shear_modulus, before);
       const double hourglass = constants->terms.bonds.hourglass * constants->groups.modulus[group[i]];
       bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
       const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
@@ -98,7 +104,7 @@ struct Stresses {
       // For output: Cauchy stress P F^T / J; out of the plane mu (1/J - 1) + lambda' (J - 1).
       const Tensor<D> cauchy = (state.first_piola + state.first_piola * bonds.gradient.transpose()) / ratio;
       const double out_of_plane = (g.eos.bulk_modulus + g.solid.shear_modulus / 3) * state.volume_change -
-                                  g.solid.shear_modulus * (state.volume_change / ratio);
+                                  g.solid.shear_modulus * (state.volume_change / ratio) - before;
       const double pressure = -(cauchy.trace() + (D == 2 ? out_of_plane : 0.0)) / 3;
       p.get<Field::pressure>()[i] = pressure;
       p.get<Field::density>()[i] = own.density / ratio;
@@ -131,6 +137,22 @@ struct Stresses {
   }
 };
 
+/// Sums of forces of the fluid stand where those of bonds stood before.
+struct KeepBondForces {
+  static constexpr FieldSet reads{Field::force};
+  static constexpr FieldSet writes{Field::bond_force};
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double* force = p.get<Field::force>();
+    double* kept = p.get<Field::bond_force>();
+    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+      const RowRange& r = range_of(step.ranges, c);
+      std::copy(force + r.first * d, force + r.last * d, kept + r.first * d);
+    }
+  }
+};
+
 }  // namespace
 
 void add_bonds(Builder& b) {
@@ -138,8 +160,11 @@ void add_bonds(Builder& b) {
   const SphConstants& k = b.constants();
   std::vector<Term> deformation{term<Deformation>}, forces{term<BondForce>};
   bool contact = false, viscous = false;
+  double first = -1;
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
-    contact = contact || k.groups.body[g] != k.groups.body[0];
+    if (s.groups[g].kind == GroupKind::fluid) continue;
+    contact = contact || (first >= 0 && k.groups.body[g] != first);
+    first = k.groups.body[g];
     viscous = viscous || (s.groups[g].kind == GroupKind::solid && k.groups.viscosity[g] > 0);
   }
   if (contact) {
@@ -151,7 +176,10 @@ void add_bonds(Builder& b) {
   b.add_sums("deformation", deformation, Builder::Rows::all);
   b.add_update("stress", Stresses{&k});
   b.begin_with_these();  // what bonds there are is known only from the start, and output wants the stress
-  b.add_sums("forces", forces);
+  b.add_sums(s.has_wet_bodies() ? "bond forces" : "forces", forces);
+  if (!s.has_wet_bodies()) return;
+  b.add_fields({Field::bond_force});
+  b.add_update("bonds' part of the forces", KeepBondForces{});
 }
 
 }  // namespace sph

@@ -165,7 +165,8 @@ std::vector<Rates> rates_of(const Scene& scene, const std::vector<double>& sound
   const bool ida = scene.terms.formulation == Formulation::ida;
   for (std::size_t k = 0; k < scene.groups.size(); ++k) {
     const Group& g = scene.groups[k];
-    if (g.kind == GroupKind::wall && !ida) continue;  // it has the sums of the matter beside it
+    if ((g.kind == GroupKind::wall && !ida) || is_bonded(g))
+      continue;  // it has sums of its own, or of others
     const bool solid = g.kind == GroupKind::solid;
     const double eta = g.viscosity_law.varies() ? viscosity_at_start(g) : g.viscosity;
     const double nu = scene.terms.viscous.implicit ? 0 : eta / g.density;
@@ -209,7 +210,7 @@ double largest(double most, Holds&& holds) {
 
 DampingLimit damping_limit(const Scene& scene, const std::vector<double>& sounds, double step) {
   DampingLimit limit{std::numeric_limits<double>::infinity(), "", 0, 0};
-  if (scene.of_grains() || scene.total_lagrangian()) return limit;
+  if (scene.of_grains() || scene.has_dry_bodies()) return limit;
   const Modes modes(scene);
   const double enough = 4 * step;  // what is beyond need not be known
   const auto longest = [&](const Scene& s) {

@@ -19,6 +19,7 @@
 #include "sph/terms/surface_tension.hpp"
 #include "sph/terms/tension_jump.hpp"
 #include "sph/terms/viscosity.hpp"
+#include "sph/terms/wetted.hpp"
 
 namespace sph {
 namespace {
@@ -59,6 +60,7 @@ struct Densities {
     const std::size_t d = static_cast<std::size_t>(p.dim()), components_of_stress = d * (d + 1) / 2;
     for (std::size_t i = first; i < last; ++i) {
       const Group& g = scene->groups[group[i]];
+      if (is_bonded(g)) continue;
       double div = 0;
       if (divergence != nullptr) {
         div = divergence[i];
@@ -99,7 +101,9 @@ struct ExcessPressures {
   }
 };
 
-bool slips(const Scene& s) { return s.has_kind(GroupKind::solid) && s.has_kind(GroupKind::fluid); }
+/// Solids whose stress follows the rate of strain.
+bool has_updated(const Scene& s) { return s.has_kind(GroupKind::solid) && !s.total_lagrangian(); }
+bool slips(const Scene& s) { return has_updated(s) && s.has_kind(GroupKind::fluid); }
 bool weighted(const Scene& s) { return s.terms.pressure_weights == PressureWeights::density; }
 bool tension(const Scene& s) { return s.terms.surface_tension.coefficient > 0; }
 
@@ -112,7 +116,7 @@ bool bulk_viscous(const Scene& s) {
 void add_kinematics(Builder& b) {
   const Scene& s = b.scene();
   const auto movers = std::ranges::count_if(s.groups, is_matter);
-  const bool solid = s.has_kind(GroupKind::solid);
+  const bool solid = has_updated(s);
   const bool single = movers == 1 && !b.has_walls() && !b.fields().has(Field::sound_speed);
   std::vector<Term> terms{slips(s)      ? term<SlippingGradient>
                           : solid       ? term<VelocityGradient>
@@ -131,9 +135,23 @@ void add_kinematics(Builder& b) {
 
 void add_excess_pressures(Builder& b) { b.add_update("excess pressures", ExcessPressures{&b.scene()}); }
 
+namespace {
+
+void add_wet_forces(Builder& b) {
+  const Scene& s = b.scene();
+  std::vector<Term> terms{term<WettedPressure>, s.terms.viscous.form == ViscosityForm::symmetric
+                                                    ? term<WettedSymmetricViscosity>
+                                                    : term<WettedViscosity>};
+  if (s.terms.artificial_viscosity > 0) terms.push_back(term<WettedArtificialViscosity>);
+  b.add_sums("forces", terms);
+}
+
+}  // namespace
+
 void add_forces(Builder& b) {
   const Scene& s = b.scene();
-  const bool solid = s.has_kind(GroupKind::solid);
+  if (s.has_wet_bodies()) return add_wet_forces(b);
+  const bool solid = has_updated(s);
   const bool uniform_viscosity =
       std::ranges::all_of(s.groups, [first = std::ranges::find_if(s.groups, is_matter)](const Group& g) {
         return g.kind == GroupKind::grain || (g.viscosity == first->viscosity && !g.viscosity_law.varies());

@@ -42,7 +42,8 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
       std::fill(sound + begin, sound + end, constants_->groups.sound_speed[group[begin]]);
       rows.sound_speed = nullptr;
     }
-    if (wall) {  // until it is extrapolated from the fluid; a checkpoint does not have it
+    if (is_bonded(g)) continue;  // of its stress
+    if (wall) {                  // until it is extrapolated from the fluid; a checkpoint does not have it
       std::fill(rows.pressure + begin, rows.pressure + end, 0.0);
       if (rows.void_fraction != nullptr) std::fill(rows.void_fraction + begin, rows.void_fraction + end, 0.0);
     } else {

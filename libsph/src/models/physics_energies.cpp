@@ -9,9 +9,10 @@ namespace {
 
 /// Of compression, and of the deviator of stress in solids.
 double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
-  if (const double* strain = p.data<Field::strain_energy>()) return strain[row];
   const auto d = static_cast<std::size_t>(p.dim());
   const Group& g = scene.groups[p.data<Field::group>()[row]];
+  if (const double* strain = p.data<Field::strain_energy>(); strain != nullptr && g.kind != GroupKind::fluid)
+    return strain[row];
   const double m = p.data<Field::mass>()[row], rho = p.data<Field::density>()[row];
   const double* liquid = p.data<Field::liquid_density>();
   double energy =

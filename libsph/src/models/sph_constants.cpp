@@ -118,8 +118,11 @@ GroupTable group_table(const Scene& of) {
     groups.weight.borne.push_back(bubbly ? borne : 0.0);
     const std::size_t body = g.wall.clamps < 0 ? groups.body.size() : static_cast<std::size_t>(g.wall.clamps);
     groups.body.push_back(static_cast<double>(body));
-    groups.modulus.push_back(of.groups[body].eos.bulk_modulus +
-                             4.0 / 3.0 * of.groups[body].solid.shear_modulus);
+    groups.modulus.push_back(g.kind == GroupKind::fluid
+                                 ? 0.0
+                                 : of.groups[body].eos.bulk_modulus +
+                                       4.0 / 3.0 * of.groups[body].solid.shear_modulus);
+    groups.bonded.push_back(is_bonded(g) ? 1.0 : 0.0);
     groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
     groups.heat.specific_heat.push_back(g.heat.material.specific_heat);
     groups.heat.wall_warmth.push_back(g.kind == GroupKind::wall && g.heat.temperature ? 1.0 : 0.0);

@@ -7,57 +7,11 @@
 #include "pairs/for_rows.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/wall_distance.hpp"
-#include "sph/models/wall_mirror.hpp"
+#include "sph/models/wall_pressures.hpp"
 #include "sph/terms/wall.hpp"
 
 namespace sph {
 namespace {
-
-struct WallPressures {
-  static constexpr FieldSet reads{Field::wall_sums, Field::wall_sums_by_density, Field::group};
-  static constexpr FieldSet writes{Field::pressure, Field::velocity, Field::wall_pressures,
-                                   Field::wall_mirror};
-  const Scene* scene;
-  std::shared_ptr<const WallMirror> of_wall;  ///< where walls do not slip
-
-  void operator()(const View<reads, writes>& p, const Step& step) const {
-    const std::size_t d = static_cast<std::size_t>(p.dim());
-    const double* sums = p.get<Field::wall_sums>();
-    const double* by_density = p.get<Field::wall_sums_by_density>();
-    double* pressures = p.get<Field::wall_pressures>();
-    double* pressure = p.get<Field::pressure>();
-    double* mirror = p.get<Field::wall_mirror>();
-    double* v = p.get<Field::velocity>();
-    const auto* group = p.get<Field::group>();
-    for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
-      const RowRange& r = range_of(step.ranges, c);
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        const double* s = sums + i * (2 + 2 * d);
-        const Group& g = scene->groups[group[i]];
-        const bool wet = s[0] > 0;
-        pressure[i] = wet ? s[1] / s[0] : 0.0;
-        if (pressures != nullptr)
-          for (std::size_t k = 0; k < 2; ++k) {
-            const double* of = by_density + 4 * i + 2 * k;
-            pressures[2 * i + k] = of[0] > 0 ? of[1] / of[0] : 0.0;
-          }
-        if (mirror != nullptr && step.global.step == 0) {
-          double square = 0;
-          for (std::size_t a = 0; a < d; ++a) square += s[2 + d + a] * s[2 + d + a];
-          mirror[i] = wet ? (*of_wall)(std::sqrt(square) / s[0], s[0]) : 1.0;
-        }
-        // Between a fluid and a wall that slips the viscous force is then that of its own mean: no shear. The
-        // velocity across the wall is taken along, though its mirror image would be the exact one: it is
-        // small, because the continuity sum sees the wall at rest, and changes the normal viscous stress
-        // alone, which the pressure balances.
-        for (std::size_t a = 0; a < d; ++a) {
-          const double mean = wet ? s[2 + a] / s[0] : g.wall.velocity[a];
-          v[i * d + a] = g.wall.slip ? mean : g.wall.velocity[a] - mirror[i] * (mean - g.wall.velocity[a]);
-        }
-      }
-    }
-  }
-};
 
 // Fluid that is torn keeps its density while its neighbours part, so that no pressure stops it before a wall,
 // and one below 0 draws it in. Here walls stop it, without spring or rebound: where the way is y to 0.4
@@ -146,7 +100,45 @@ struct WallSlopes {
 
 }  // namespace
 
-void add_walls(Builder& b, bool weighted) {
+void WallPressures::operator()(const View<reads, writes>& p, const Step& step) const {
+  const std::size_t d = static_cast<std::size_t>(p.dim());
+  const double* sums = p.get<Field::wall_sums>();
+  const double* by_density = p.get<Field::wall_sums_by_density>();
+  double* pressures = p.get<Field::wall_pressures>();
+  double* pressure = p.get<Field::pressure>();
+  double* mirror = p.get<Field::wall_mirror>();
+  double* v = p.get<Field::velocity>();
+  const auto* group = p.get<Field::group>();
+  for (RowClass c : {RowClass::interior_walls, RowClass::boundary_walls}) {
+    const RowRange& r = range_of(step.ranges, c);
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const double* s = sums + i * (2 + 2 * d);
+      const Group& g = scene->groups[group[i]];
+      const bool wet = s[0] > 0;
+      pressure[i] = wet ? s[1] / s[0] : 0.0;
+      if (pressures != nullptr)
+        for (std::size_t k = 0; k < 2; ++k) {
+          const double* of = by_density + 4 * i + 2 * k;
+          pressures[2 * i + k] = of[0] > 0 ? of[1] / of[0] : 0.0;
+        }
+      if (mirror != nullptr && step.global.step == 0) {
+        double square = 0;
+        for (std::size_t a = 0; a < d; ++a) square += s[2 + d + a] * s[2 + d + a];
+        mirror[i] = wet ? (*of_wall)(std::sqrt(square) / s[0], s[0]) : 1.0;
+      }
+      // Between a fluid and a wall that slips the viscous force is then that of its own mean: no shear. The
+      // velocity across the wall is taken along, though its mirror image would be the exact one: it is
+      // small, because the continuity sum sees the wall at rest, and changes the normal viscous stress
+      // alone, which the pressure balances.
+      for (std::size_t a = 0; a < d; ++a) {
+        const double mean = wet ? s[2 + a] / s[0] : g.wall.velocity[a];
+        v[i * d + a] = g.wall.slip ? mean : g.wall.velocity[a] - mirror[i] * (mean - g.wall.velocity[a]);
+      }
+    }
+  }
+}
+
+WallPressures wall_pressures(Builder& b) {
   const Scene& s = b.scene();
   WallPressures update{&s, nullptr};
   if (std::ranges::any_of(s.groups,
@@ -154,12 +146,17 @@ void add_walls(Builder& b, bool weighted) {
     update.of_wall = std::make_shared<const WallMirror>(s);
     b.add_fields({Field::wall_mirror});
   }
+  return update;
+}
+
+void add_walls(Builder& b, bool weighted) {
+  const Scene& s = b.scene();
   const bool mixture = has_drag(s);
   std::vector<Term> terms{mixture ? term<MixtureWallExtrapolation> : term<WallExtrapolation>};
   if (weighted)
     terms.push_back(mixture ? term<MixtureWallExtrapolationByDensity> : term<WallExtrapolationByDensity>);
   b.add_sums("walls", terms, Builder::Rows::walls);
-  b.add_update("wall pressures", std::move(update));
+  b.add_update("wall pressures", wall_pressures(b));
   b.derive_last_two_for_output();
 }
 

@@ -49,6 +49,9 @@ bool Scene::total_lagrangian() const {
   return false;
 }
 
+bool Scene::has_wet_bodies() const { return total_lagrangian() && has_kind(GroupKind::fluid); }
+bool Scene::has_dry_bodies() const { return total_lagrangian() && !has_kind(GroupKind::fluid); }
+
 bool Scene::has_kind(GroupKind k) const {
   for (const Group& g : groups)
     if (g.kind == k) return true;

@@ -78,7 +78,9 @@ void InitialFields::set(NewParticle& p) const {
     p.density = g.density;
     p.velocity = g.wall.velocity;
   } else {
-    const EosStart start = g.eos.law->start(g, pressure(x), outer_pressure(scene, g, x));
+    // A body is as dense as its group in its reference state, whatever presses on it there.
+    if (is_bonded(g)) p.prestress = pressure(x);
+    const EosStart start = g.eos.law->start(g, is_bonded(g) ? 0.0 : pressure(x), outer_pressure(scene, g, x));
     p.density = start.density;
     p.energy = start.specific_energy;
     if (g.kind == GroupKind::wall) {
@@ -133,6 +135,9 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
     for (std::size_t a = 0; a < d; ++a) spin[i * d + a] = p.spin[a];
   if (auto* pressure = particles.data<Field::pressure>()) pressure[i] = 0;
   if (auto* bonds = particles.data<Field::bonds>()) bonds[i] = 0;  // not counted yet
+  if (auto* prestress = particles.data<Field::prestress>()) prestress[i] = p.prestress;
+  if (auto* mean = particles.data<Field::acceleration>())
+    for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = 0;
   if (auto* u = particles.data<Field::displacement>())
     for (std::size_t a = 0; a < d; ++a) u[i * d + a] = 0;
   if (auto* mirror = particles.data<Field::wall_mirror>())

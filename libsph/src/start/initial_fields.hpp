@@ -18,9 +18,10 @@ struct NewParticle {
   std::uint32_t group;
   double density;  ///< 0 of grains
   double mass;
-  double energy = 0;  ///< u of an ideal gas [J/kg]
-  double radius = 0;  ///< of grains [m]
-  Double3 spin{};     ///< of grains [rad/s]
+  double energy = 0;     ///< u of an ideal gas [J/kg]
+  double prestress = 0;  ///< of total-Lagrangian solids in a fluid [Pa]
+  double radius = 0;     ///< of grains [m]
+  Double3 spin{};        ///< of grains [rad/s]
 };
 
 /// Uniform in +-amplitude [m] on every axis, from a counter-based generator on (start.seed, id, axis).

@@ -112,6 +112,17 @@ decomp::Int3 quanta_of(const StartRows& rows, std::size_t k, const PositionScale
   return out;
 }
 
+namespace {
+
+/// By the equation of state.
+double pressure_at(const Group& g, double density) {
+  double pressure = 0;
+  g.eos.law->derive(g, {&density, nullptr, nullptr, nullptr, &pressure, nullptr, nullptr, 0}, 0, 1);
+  return pressure;
+}
+
+}  // namespace
+
 void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decomp::Int3& quanta,
              const InitialFields& fields, const Scene& scene, const PositionScale& scale,
              Particles& particles) {
@@ -131,6 +142,7 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
     p.energy *= p.density / rows.matter.rho[k];  // at the same pressure
     p.density = rows.matter.rho[k];
     p.mass = p.density * volume;  // as on a lattice, to the bit
+    if (is_bonded(scene.groups[p.group])) p.prestress = pressure_at(scene.groups[p.group], p.density);
   }
   if (!rows.matter.energy.empty() && p.energy > 0) p.energy = rows.matter.energy[k];
   if (!rows.matter.mass.empty()) p.mass = rows.matter.mass[k];

@@ -19,6 +19,7 @@
 #include "sph/terms/viscosity.hpp"
 #include "sph/terms/viscous_operator.hpp"
 #include "sph/terms/wall.hpp"
+#include "sph/terms/wetted.hpp"
 
 namespace sph {
 
@@ -95,13 +96,15 @@ struct FusionList {
              fuse<Quintic, IdaStress, ArtificialViscosity>(),
              fuse<Quintic, Deformation>(),
              fuse<Quintic, Deformation, BodyContactEnergy>(),
+             fuse<Quintic, WettedExtrapolation>(),
              fuse<Quintic, BondForce>(),
              fuse<Quintic, BondForce, BondViscosity>(),
              fuse<Quintic, BondForce, BodyContact>(),
              fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
          })
       list.push_back(std::move(f));
-    for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>()})
+    for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>(), wetted<WettedViscosity>(),
+                       wetted<WettedSymmetricViscosity>()})
       list.insert(list.end(), more.begin(), more.end());
     return list;
   }
@@ -118,6 +121,15 @@ struct FusionList {
           fuse<Quintic, WeightedDivergence, MixtureDensityDiffusion, Concentration, ColourGradient>(),
       };
     return {};
+  }
+
+  /// Total-Lagrangian solids in a fluid.
+  template <class Viscous>
+  static std::vector<Fusion> wetted() {
+    return {
+        fuse<Quintic, WettedPressure, Viscous>(),
+        fuse<Quintic, WettedPressure, Viscous, WettedArtificialViscosity>(),
+    };
   }
 
   /// Fluids of different viscosity or density, and solids.

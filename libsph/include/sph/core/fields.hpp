@@ -96,6 +96,11 @@ enum class Field : std::uint8_t {
   exchange_sums,
   gas_slope,
   connected,
+  prestress,
+  acceleration,
+  bond_force,
+  wet_pressure,
+  wet_velocity,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -311,6 +316,16 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      SumScale::gradient},
     {Field::connected, "connected", "1", Type::u32, Shape::scalar, true, true,
      "1: bubbles have been enough to be connected, and still are"},
+    {Field::prestress, "prestress", "Pa", Type::f64, Shape::scalar, true, false,
+     "of total-Lagrangian solids in a fluid: pressure in their reference state"},
+    {Field::acceleration, "acceleration", "m/s^2", Type::f64, Shape::vector, true, false,
+     "of total-Lagrangian solids in a fluid: mean over h / c of the fluid"},
+    {Field::bond_force, "bond_force", "N", Type::f64, Shape::vector, false, false,
+     "of total-Lagrangian solids in a fluid: their own part of the force"},
+    {Field::wet_pressure, "wet_pressure", "Pa", Type::f64, Shape::scalar, false, true,
+     "of total-Lagrangian solids: the pressure of the fluid beside them, 0 where there is none"},
+    {Field::wet_velocity, "wet_velocity", "m/s", Type::f64, Shape::vector, false, false,
+     "... and the velocity with which they seem to continue its flow"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

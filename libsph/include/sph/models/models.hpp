@@ -24,6 +24,8 @@ void add_excess_pressures(Builder& builder);
 void add_forces(Builder& builder);
 /// Walls take their pressure and velocity from what is beside them; `weighted`: by density.
 void add_walls(Builder& builder, bool weighted);
+/// Walls and total-Lagrangian solids take theirs from the fluid beside them.
+void add_wet_sides(Builder& builder);
 /// Where torn fluid flies, walls stop it.
 void add_walls_that_hold(Builder& builder);
 /// How near walls are.
@@ -38,6 +40,8 @@ void add_implicit_viscosity(Builder& builder);
 void add_ida(Builder& builder);
 /// Total-Lagrangian solids.
 void add_bonds(Builder& builder);
+/// ... in a fluid, whose forces are known.
+void add_bond_forces(Builder& builder);
 /// v += (F/m + g) dt for particles that move; walls get their own velocity back.
 void add_kick(Builder& builder);
 /// Pressures of the state alone, where forces had others.

@@ -172,7 +172,7 @@ struct PairPass {
       V own[Layout::stride], other[Layout::stride];
       load_rows<Layout::stride>(rows, own_rows, own);
       if constexpr (can_be_idle)
-        if (all_zero((own[Layout::offset(Terms::nothing_without)], ...))) {
+        if ((all_zero(own[Layout::offset(Terms::nothing_without)]) && ...)) {
           store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
           continue;
         }

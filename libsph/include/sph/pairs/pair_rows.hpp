@@ -190,6 +190,33 @@ struct BondColumns {
   }
 };
 
+/// Of total-Lagrangian solids in a fluid.
+struct WetColumns {
+  explicit WetColumns(const Particles& p)
+      : pressure(p.data<Field::pressure>()),
+        velocity(p.data<Field::velocity>()),
+        wet_pressure(p.data<Field::wet_pressure>()),
+        wet_velocity(p.data<Field::wet_velocity>()),
+        acceleration(p.data<Field::acceleration>()) {}
+  const double *pressure, *velocity, *wet_pressure, *wet_velocity, *acceleration;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    constexpr int D = Row::dim;
+    const std::size_t i = row.i;
+    [[maybe_unused]] const auto bonded = [&] { return row.groups.bonded[row.group] != 0; };
+    if constexpr (S.has(Value::wet_pressure))
+      row.put(Value::wet_pressure, 0, bonded() ? wet_pressure[i] : pressure[i]);
+    if constexpr (S.has(Value::wet_velocity))
+      for (int k = 0; k < D; ++k)
+        row.put(Value::wet_velocity, k, bonded() ? wet_velocity[i * D + k] : velocity[i * D + k]);
+    if constexpr (S.has(Value::own_head))
+      for (int k = 0; k < D; ++k)
+        row.put(Value::own_head, k, bonded() ? -acceleration[i * D + k] / row.scale.inverse_h : 0.0);
+  }
+};
+
 /// Of what is solved for.
 struct ImplicitColumns {
   explicit ImplicitColumns(const Particles& p)
@@ -296,6 +323,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const StateColumns state(p);
   const InterfaceColumns interface(p);
   const BondColumns bonds(p);
+  const WetColumns wet(p);
   const ImplicitColumns implicit(p);
   const CorrectionColumns corrections(p);
   const HeatColumns heat(p);
@@ -306,6 +334,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     state.pack(row);
     interface.pack(row);
     bonds.pack(row);
+    wet.pack(row);
     implicit.pack(row);
     corrections.pack(row);
     heat.pack(row);

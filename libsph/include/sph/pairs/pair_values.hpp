@@ -49,7 +49,7 @@ enum class Value : std::uint8_t {
   reference_volume,    ///< mass / rho_0 [spacing^D]
   body,                ///< particles of one body have one number
   bond_stress,         ///< [Pa]
-  modulus,             ///< K + 4/3 mu of the group [Pa]
+  modulus,             ///< K + 4/3 mu of the group, 0 of fluids [Pa]
   direction,           ///< what the viscous operator is applied to [m/s]
   wall_slope,          ///< gradient of a flow that is 0 at the wall and 1 here, times h
   specific_energy,     ///< of ideal gases, 0 of all else [J/kg]
@@ -73,6 +73,9 @@ enum class Value : std::uint8_t {
   grip,                ///< 0 of walls that slip, else 1
   trial,               ///< what an implicit exchange is solved for [K or Pa]
   weight,              ///< density, less what a background bears of its weight [kg/m^3]
+  wet_pressure,        ///< of a body what the fluid beside it presses with, else the pressure [Pa]
+  wet_velocity,        ///< of a body the mirror image of the flow beside it, else the velocity [m/s]
+  own_head,  ///< -a h of a body, a its acceleration: rho times it is grad p h beside it, less the weight's part
   count_
 };
 
@@ -95,7 +98,7 @@ class ValueSet {
 [[nodiscard]] constexpr int components(Value v, int dim) {
   const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
                       v == Value::direction || v == Value::wall_slope || v == Value::interface_normal ||
-                      v == Value::rest_gradient;
+                      v == Value::rest_gradient || v == Value::wet_velocity || v == Value::own_head;
   const bool tensor = v == Value::stress || v == Value::capillary;
   return vector                                                     ? dim
          : v == Value::pressures                                    ? 2
@@ -134,6 +137,9 @@ class ValueSet {
   if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
   if (values.has(Value::width)) f |= FieldSet{Field::smoothing_length};
   if (values.has(Value::kernel_correction)) f |= FieldSet{Field::kernel_correction};
+  if (values.has(Value::wet_pressure)) f |= FieldSet{Field::group, Field::pressure, Field::wet_pressure};
+  if (values.has(Value::wet_velocity)) f |= FieldSet{Field::group, Field::velocity, Field::wet_velocity};
+  if (values.has(Value::own_head)) f |= FieldSet{Field::group, Field::acceleration};
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   if (values.has(Value::shears)) f |= FieldSet{Field::group};
   if (values.has(Value::temperature)) f |= FieldSet{Field::temperature};
@@ -160,7 +166,8 @@ struct GroupTable {
   std::vector<double> shears;       ///< 1 or 0
   double surface_tension = 0;       ///< [N/m]
   std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
-  std::vector<double> modulus;      ///< K + 4/3 mu [Pa]
+  std::vector<double> modulus;      ///< K + 4/3 mu, 0 of fluids [Pa]
+  std::vector<double> bonded;       ///< 1 for total-Lagrangian solids, else 0
   /// Gravity acts on rho share - borne: rho (1 - rho_b / rho_0), of bubbly groups rho - rho_b.
   struct Weight {
     std::vector<double> density;       ///< rho_0 [kg/m^3]

@@ -62,6 +62,11 @@ struct Group {
 /// `to` is the group `from`, an index or -1, or what that turns into by and by.
 [[nodiscard]] bool can_become(const std::vector<Group>& groups, int from, int to);
 
+/// A total-Lagrangian solid.
+[[nodiscard]] inline bool is_bonded(const Group& g) {
+  return g.kind == GroupKind::solid && g.solid.lagrangian == Lagrangian::total;
+}
+
 /// Moves as a fluid or a solid, not as grains.
 [[nodiscard]] inline bool is_matter(const Group& g) {
   return g.kind == GroupKind::fluid || g.kind == GroupKind::solid;

@@ -54,6 +54,8 @@ struct Scene {
   [[nodiscard]] bool has_gas_flow() const;                             ///< through bubbly magma
   [[nodiscard]] bool has_heat() const;                                 ///< its fluids and solids have
   [[nodiscard]] bool total_lagrangian() const;                         ///< its solids are
+  [[nodiscard]] bool has_wet_bodies() const;  ///< total-Lagrangian solids and fluids
+  [[nodiscard]] bool has_dry_bodies() const;  ///< total-Lagrangian solids alone
   [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none
   friend bool operator==(const Scene&, const Scene&) = default;
 };

@@ -17,8 +17,9 @@ namespace sph {
 struct Deformation {
   static constexpr std::string_view name = "Deformation";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
-                                  Value::body};
+                                  Value::body, Value::modulus};
   static constexpr Field writes = Field::deformation;
+  static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;
@@ -43,6 +44,7 @@ struct BondForce {
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
                                   Value::body,      Value::bond_stress,    Value::modulus};
   static constexpr Field writes = Field::force;
+  static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
@@ -66,8 +68,10 @@ struct BondForce {
 struct BondViscosity {
   static constexpr std::string_view name = "BondViscosity";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
-                                  Value::body,      Value::velocity,       Value::viscosity};
+                                  Value::body,      Value::velocity,       Value::viscosity,
+                                  Value::modulus};
   static constexpr Field writes = Field::force;
+  static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;

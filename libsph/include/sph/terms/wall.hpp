@@ -8,11 +8,11 @@
 
 namespace sph {
 
-/// `rise`: p_f - p_w at rest.
+/// `counts`: 1 of the fluid, else 0. `rise`: p_f - p_w at rest.
 template <class Kernel, class P, class S>
-void extrapolate(const P& p, typename P::V rise, S& sums) {
+void extrapolate(const P& p, typename P::V counts, typename P::V rise, S& sums) {
   using V = typename P::V;
-  const V w = Kernel::template value<P::dim>(p.r) * p.template j<Value::mover>();
+  const V w = Kernel::template value<P::dim>(p.r) * counts;
   sums.template add<Field::wall_sums>(0, w);
   sums.template add<Field::wall_sums>(1, w * (p.template j<Value::pressure>() - rise));
   for (int k = 0; k < P::dim; ++k)
@@ -40,7 +40,7 @@ struct WallExtrapolation {
   static constexpr Field writes = Field::wall_sums;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    extrapolate<Kernel>(p, p.template j<Value::weight>() * head(p, c), sums);
+    extrapolate<Kernel>(p, p.template j<Value::mover>(), p.template j<Value::weight>() * head(p, c), sums);
   }
 };
 
@@ -63,7 +63,7 @@ struct MixtureWallExtrapolation {
   static constexpr Field writes = Field::wall_sums;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
-    extrapolate<Kernel>(p, rise_from_wall(p), sums);
+    extrapolate<Kernel>(p, p.template j<Value::mover>(), rise_from_wall(p), sums);
   }
 };
 struct MixtureWallExtrapolationByDensity {

@@ -1,0 +1,104 @@
+// Fluids beside total-Lagrangian solids. To a fluid a body is a wall that moves (Adami et al. 2012): its particles
+// have the pressure and the mirrored velocity of the fluid beside them, extrapolated in the body's own frame, where
+// grad p = rho (g - a) with a the body's acceleration (eq. 27; models/wetted.cpp). What the fluid feels the body feels in
+// the opposite sense, pair by pair. Pairs without a fluid have no such force: bodies have bonds and contacts
+// (terms/bonds.hpp, body_contact.hpp).
+#pragma once
+
+#include "sph/terms/artificial_viscosity.hpp"
+#include "sph/terms/head.hpp"
+#include "sph/terms/viscosity.hpp"
+#include "sph/terms/wall.hpp"
+
+namespace sph {
+
+/// 1 where i or j is a fluid, else 0.
+template <class P>
+[[nodiscard]] typename P::V is_wet(const P& p) {
+  return typename P::V(1) - p.template i<Value::shears>() * p.template j<Value::shears>();
+}
+
+/// As WallExtrapolation, for bodies and walls.
+struct WettedExtrapolation {
+  static constexpr std::string_view name = "WettedExtrapolation";
+  static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::weight,
+                                  Value::density,  Value::shears,   Value::own_head};
+  static constexpr Field writes = Field::wall_sums;
+  static constexpr Value nothing_without = Value::shears;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    V push = V::zero();
+    for (int k = 0; k < P::dim; ++k) push += p.template i<Value::own_head>(k) * p.e[k];
+    const V rise = p.template j<Value::weight>() * head(p, c) + p.template j<Value::density>() * push;
+    extrapolate<Kernel>(p, V(1) - p.template j<Value::shears>(), rise, sums);
+  }
+};
+
+struct WettedPressure {
+  static constexpr std::string_view name = "WettedPressure";
+  static constexpr ValueSet reads{Value::volume, Value::wet_pressure, Value::shears};
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    const auto s = is_wet(p) * p.template i<Value::volume>() * p.template j<Value::volume>() *
+                   (p.template i<Value::wet_pressure>() + p.template j<Value::wet_pressure>()) * p.f;
+    for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, s * p.e[a]);
+  }
+};
+
+/// Bodies and walls are as viscous as the fluid: where one is fluid, its viscosity; of two fluids the harmonic mean.
+template <class P>
+[[nodiscard]] typename P::V wet_viscosity(const P& p) {
+  using V = typename P::V;
+  const V i = p.template i<Value::viscosity>(), j = p.template j<Value::viscosity>();
+  const V a = i + p.template i<Value::shears>() * (j - i), b = j + p.template j<Value::shears>() * (i - j);
+  return is_wet(p) * (V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-30))));
+}
+
+struct WettedViscosity {
+  static constexpr std::string_view name = "WettedViscosity";
+  static constexpr ValueSet reads{Value::volume, Value::wet_velocity, Value::viscosity, Value::shears};
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * wet_viscosity(p) *
+                (V(c.viscous.laplacian) * p.f);
+    for (int k = 0; k < P::dim; ++k)
+      sums.template add<Field::force>(
+          k, s * (p.template i<Value::wet_velocity>(k) - p.template j<Value::wet_velocity>(k)));
+  }
+};
+
+struct WettedSymmetricViscosity {
+  static constexpr std::string_view name = "WettedSymmetricViscosity";
+  static constexpr ValueSet reads = WettedViscosity::reads;
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    V stretch = V::zero();
+    for (int k = 0; k < P::dim; ++k)
+      stretch += (p.template i<Value::wet_velocity>(k) - p.template j<Value::wet_velocity>(k)) * p.e[k];
+    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * wet_viscosity(p) *
+                (V(c.viscous.symmetric) * p.f * stretch);
+    for (int k = 0; k < P::dim; ++k) sums.template add<Field::force>(k, s * p.e[k]);
+  }
+};
+
+/// Between fluids alone: a body that sheds no sound needs none.
+struct WettedArtificialViscosity {
+  static constexpr std::string_view name = "WettedArtificialViscosity";
+  static constexpr ValueSet reads = ArtificialViscosity::reads | ValueSet{Value::shears};
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V both = (V(1) - p.template i<Value::shears>()) * (V(1) - p.template j<Value::shears>());
+    const V s = both * artificial_push(p, c);
+    for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, -(s * p.e[a]));
+  }
+};
+
+}  // namespace sph

@@ -1,0 +1,84 @@
+// Total-Lagrangian solids in a fluid (terms/wetted.hpp): what they have of the fluid beside them, and the sum of its
+// forces and those of their bonds. A body's acceleration, in whose frame pressures are extrapolated, is that of
+// the step before, a mean over h / c of the fluid: what changes faster is sound, and a body much lighter than the fluid
+// in a kernel's reach would answer to its own answer.
+#include "sph/terms/wetted.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "pairs/for_rows.hpp"
+#include "sph/models/models.hpp"
+#include "sph/models/wall_pressures.hpp"
+
+namespace sph {
+namespace {
+
+struct WetSides {
+  static constexpr FieldSet reads = WallPressures::reads;
+  static constexpr FieldSet writes =
+      WallPressures::writes | FieldSet{Field::wet_pressure, Field::wet_velocity};
+  const Scene* scene;
+  WallPressures walls;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    walls(p, step);
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double *sums = p.get<Field::wall_sums>(), *v = p.get<Field::velocity>();
+    double *pressure = p.get<Field::wet_pressure>(), *velocity = p.get<Field::wet_velocity>();
+    const auto* group = p.get<Field::group>();
+    for_walls(step.ranges, [&](std::size_t i) { pressure[i] = 0; });
+    for_movers(step.ranges, [&](std::size_t i) {
+      const double* s = sums + i * (2 + 2 * d);
+      const bool wet = s[0] > 0 && is_bonded(scene->groups[group[i]]);
+      pressure[i] = wet ? s[1] / s[0] : 0.0;
+      for (std::size_t a = 0; a < d; ++a)
+        velocity[i * d + a] = wet ? 2 * v[i * d + a] - s[2 + a] / s[0] : v[i * d + a];
+    });
+  }
+};
+
+struct BondForces {
+  static constexpr FieldSet reads =
+      BodyForces::reads | FieldSet{Field::bond_force, Field::mass, Field::group};
+  static constexpr FieldSet writes{Field::force, Field::acceleration};
+  const Scene* scene;
+  const BodyForces* body_forces;
+  double rate;  ///< c / h of the fluid [1/s]
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double *bonds = p.get<Field::bond_force>(), *mass = p.get<Field::mass>();
+    double *force = p.get<Field::force>(), *mean = p.get<Field::acceleration>();
+    const auto* group = p.get<Field::group>();
+    const double share = std::fmin(rate * step.global.dt, 1.0);
+    for_movers(step.ranges, [&](std::size_t i) {
+      if (!is_bonded(scene->groups[group[i]])) return;
+      const Double3 body = (*body_forces)(p, i);
+      for (std::size_t a = 0; a < d; ++a) {
+        double& f = force[i * d + a];
+        f += bonds[i * d + a];
+        mean[i * d + a] += share * (f / mass[i] + body[a] - mean[i * d + a]);
+      }
+    });
+  }
+};
+
+}  // namespace
+
+void add_wet_sides(Builder& b) {
+  b.add_fields({Field::wet_pressure, Field::wet_velocity});
+  b.add_sums("sides", {term<WettedExtrapolation>}, Builder::Rows::all);
+  b.add_update("pressures of sides", WetSides{&b.scene(), wall_pressures(b)});
+  b.derive_last_two_for_output();
+}
+
+void add_bond_forces(Builder& b) {
+  const Scene& s = b.scene();
+  double sound = 0;
+  for (std::size_t g = 0; g < s.groups.size(); ++g)
+    if (s.groups[g].kind == GroupKind::fluid) sound = std::fmax(sound, b.constants().groups.sound_speed[g]);
+  b.add_update("forces of bodies", BondForces{&s, &b.body_forces(), sound / s.kernel.smoothing_length});
+}
+
+}  // namespace sph
