@@ -147,6 +147,16 @@ const std::vector<Source>& sources() {
       // total-Lagrangian: clamped, in contact, through a periodic face
       {"bodies2d", "tests/scenes/bodies2d.toml", {}},
       {"bodies3d", "tests/scenes/bodies3d.toml", {}},
+      // ... in a fluid
+      {"wet2d", "tests/scenes/wet2d.toml", {}},
+      {"wet3d",
+       "tests/scenes/bodies3d.toml",
+       {"group.light.kind=fluid",
+        "group.light.lagrangian=", "group.light.poisson_ratio=", "group.light.viscosity=500",
+        "start.region.1={group=\"light\", shape=\"box\", lower=[0, 3, 2], upper=[76, 11, 9]}",
+        "start.region.2={group=\"bar\", shape=\"box\", lower=[0, 5, 2], upper=[76, 9, 5]}",
+        "start.region.3={group=\"clamp\", shape=\"box\", lower=[38, 5, 2], upper=[40, 9, 5]}",
+        "start.region.5={group=\"clamp\", shape=\"box\", lower=[0, 5, 2], upper=[2, 9, 5]}"}},
       // two sets of particles that act on each other, with contacts that remember
       {"mixture", "tests/scenes/grains_in_melt.toml", {}},
       {"linear", "tests/scenes/grains_pour.toml", {}},

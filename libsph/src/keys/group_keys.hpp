@@ -210,8 +210,10 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"lagrangian", Words{lagrangian_words},
      "Of a solid. \"updated\": stress follows the rate of strain (Jaumann), and bodies may meet fluids. "
      "\"total\": stress is a function of the deformation since the start (neo-Hooke), for bodies that do "
-     "not break; conserves energy; beside walls and other bodies of the kind alone, which it touches "
-     "elastically; kernel \"quintic\"; starts free of stress. The particles of a group are one body.",
+     "not break; touches walls and other bodies of the kind elastically; to a fluid it is a wall that moves "
+     "and yields; kernel \"quintic\"; starts free of stress but for the pressure of the fluid. The particles "
+     "of a "
+     "group are one body.",
      at<&Group::solid, &SolidMaterial::lagrangian>, of_sph, solid},
     {"gas_content",
      Number{dimension::none,

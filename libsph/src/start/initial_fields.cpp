@@ -43,7 +43,7 @@ bool is_occupied(const Scene& scene, const GrainFill& fill, std::uint64_t id) {
   return 0.5 * (u + 1) < fill.occupied;
 }
 
-InitialFields::InitialFields(const Scene& scene) : scene_(scene) {
+InitialFields::InitialFields(const Scene& scene) : scene_(scene), scale_(position_scale(scene)) {
   if (scene.start.pressure == InitialPressure::hydrostatic) hydrostatic_.emplace(scene);
 }
 
@@ -53,6 +53,13 @@ double InitialFields::pressure(const Double3& x) const {
   const double k = 4 * std::numbers::pi / scene_.start.velocity.flow_length,
                u = scene_.start.velocity.flow_speed;
   return -0.25 * first_fluid(scene_).density * u * u * (exact_cos(k * x[0]) + exact_cos(k * x[1]));
+}
+
+double InitialFields::pressure_in_place(const Double3& x) const {
+  Double3 rounded{};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene_.dim); ++a)
+    rounded[a] = scale_.metres(scale_.quanta(x[a]));
+  return pressure(rounded);
 }
 
 void InitialFields::set(NewParticle& p) const {
@@ -77,9 +84,10 @@ void InitialFields::set(NewParticle& p) const {
   if (g.kind == GroupKind::wall && scene.terms.formulation == Formulation::conservative) {
     p.density = g.density;
     p.velocity = g.wall.velocity;
+    if (g.wall.clamps >= 0) p.prestress = pressure_in_place(x);
   } else {
     // A body is as dense as its group in its reference state, whatever presses on it there.
-    if (is_bonded(g)) p.prestress = pressure(x);
+    if (is_bonded(g)) p.prestress = pressure_in_place(x);
     const EosStart start = g.eos.law->start(g, is_bonded(g) ? 0.0 : pressure(x), outer_pressure(scene, g, x));
     p.density = start.density;
     p.energy = start.specific_energy;

@@ -6,6 +6,7 @@
 
 #include "decomp/types.hpp"
 #include "sph/core/particles.hpp"
+#include "sph/scene/positions.hpp"
 #include "sph/scene/scene.hpp"
 #include "start/hydrostatic.hpp"
 
@@ -43,8 +44,11 @@ class InitialFields {
 
  private:
   [[nodiscard]] double pressure(const Double3& x) const;  ///< above the surface pressure
+  /// ... where a file that is read back would have the point.
+  [[nodiscard]] double pressure_in_place(const Double3& x) const;
 
   const Scene& scene_;
+  PositionScale scale_;
   std::optional<HydrostaticColumn> hydrostatic_;
 };
 

@@ -142,7 +142,7 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
     p.energy *= p.density / rows.matter.rho[k];  // at the same pressure
     p.density = rows.matter.rho[k];
     p.mass = p.density * volume;  // as on a lattice, to the bit
-    if (is_bonded(scene.groups[p.group])) p.prestress = pressure_at(scene.groups[p.group], p.density);
+    if (is_bonded(scene.groups[p.group])) p.prestress += pressure_at(scene.groups[p.group], p.density);
   }
   if (!rows.matter.energy.empty() && p.energy > 0) p.energy = rows.matter.energy[k];
   if (!rows.matter.mass.empty()) p.mass = rows.matter.mass[k];
