@@ -255,8 +255,7 @@ void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {
     return;
   }
   if (term.name == "BondForce")
-    force = both * weight *
-            ((i.bond_stress + j.bond_stress) * X + 2 * scene_.terms.bonds.hourglass * i.modulus * u);
+    force = both * weight * ((i.bond_stress + j.bond_stress) * X + 2 * i.hourglass * u);
   else
     force =
         2 * (dim_ + 2) * 0.5 * (i.viscosity + j.viscosity) * both * weight * (j.v - i.v).dot(x) * x / (r * r);

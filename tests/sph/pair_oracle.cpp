@@ -102,6 +102,7 @@ void PairOracle::load() {
     q.modulus = g.kind == GroupKind::fluid
                     ? 0.0
                     : material.eos.bulk_modulus + 4.0 / 3.0 * material.solid.shear_modulus;
+    q.hourglass = 1.75 * material.solid.shear_modulus;  // as libsph/src/models/sph_constants.cpp has it
     q.rest_volume = q.mass / g.density;
     q.mover = g.kind != GroupKind::wall;
     q.shears = g.kind != GroupKind::fluid;

@@ -34,7 +34,7 @@ struct PairParticle {
   Mat stress, bond_stress, gradient;  ///< stress: the total one
   double mass, density, weight, pressure, wet_pressure, volume, sound, energy, width, correction, curvature,
       viscosity;
-  double rest_volume, modulus;
+  double rest_volume, modulus, hourglass;
   double temperature, trial, conductivity, sensible_heat;
   double permeability, gas_mobility, gas_pressure, gas_density;
   std::array<double, 2> wall_pressures;

@@ -85,7 +85,7 @@ inline constexpr auto terms_keys = std::to_array<Key>({
     {"hourglass", Number{dimension::none, up_to(1, "it is a share of the modulus,")},
      "Total-Lagrangian solids: stiffness against motion that the stress does not see, over K + 4/3 mu; "
      "with the default plates bend as they should.",
-     at<&Terms::bonds, &BondTerms::hourglass>, of_total},
+     at<&Terms::bonds, &BondTerms::hourglass>, of_total, Default{"1.75 mu over that, at most 1"}},
     {"largest_stretch", Number{dimension::none, {.least = 1, .most = 2, .is = "it is a ratio of lengths,"}},
      "Total-Lagrangian solids: how far bonds may reach, in kernel radii. Lists reach so much further; a "
      "bond that is longer ends the run.",

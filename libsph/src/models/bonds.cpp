@@ -94,7 +94,7 @@ struct Stresses {
       const double before = prestress != nullptr ? prestress[i] : 0.0;
       const ElasticState<D> state =
           neo_hooke<D>(bonds.gradient, g.eos.bulk_modulus, g.solid.shear_modulus, before);
-      const double hourglass = constants->terms.bonds.hourglass * constants->groups.modulus[group[i]];
+      const double hourglass = constants->groups.hourglass[group[i]];
       bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
       const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
       if (!(ratio > 0))

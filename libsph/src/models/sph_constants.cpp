@@ -101,6 +101,16 @@ void add_wall_heat(const GroupHeat& of, GroupTable::Heat& heat) {
   heat.wall_glow.push_back(glow);
 }
 
+// Of mu. Plates of 6 to 20 particles across bend as they should, which without it are too soft, as (h / thickness)^2: what
+// one-sided sums at their faces miss of the bending is what hourglass control adds. Sums over lattices ask for 1.5 to 1.9
+// at Poisson numbers of 0 to 0.4, h / dx of 0.83 to 1.2, in the plane and in space.
+constexpr double bending = 1.75;
+
+double hourglass_stiffness(const Scene& of, double modulus, double shear_modulus) {
+  if (of.terms.bonds.hourglass) return *of.terms.bonds.hourglass * modulus;
+  return std::min(bending * shear_modulus, modulus);
+}
+
 GroupTable group_table(const Scene& of) {
   const double divide = density_divide(of);
   GroupTable groups;
@@ -122,6 +132,8 @@ GroupTable group_table(const Scene& of) {
                                  ? 0.0
                                  : of.groups[body].eos.bulk_modulus +
                                        4.0 / 3.0 * of.groups[body].solid.shear_modulus);
+    groups.hourglass.push_back(
+        hourglass_stiffness(of, groups.modulus.back(), of.groups[body].solid.shear_modulus));
     groups.bonded.push_back(is_bonded(g) ? 1.0 : 0.0);
     groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
     groups.heat.specific_heat.push_back(g.heat.material.specific_heat);
@@ -191,7 +203,6 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   terms.shock.conduction = of.terms.gas.conduction;
   terms.inverse_w_spacing = 1 / kernel.w_spacing;
   terms.bonds.range = of.list_range() / h;
-  terms.bonds.hourglass = of.terms.bonds.hourglass;
   terms.contact.range = of.start.spacing / h;
   // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor later.
   const double contact = contact_stiffness * power(of.start.spacing, of.dim) / (h * h);

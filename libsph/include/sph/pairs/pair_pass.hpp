@@ -274,7 +274,7 @@ struct PairPass {
                  static_cast<T>(d.viscous.symmetric)};
     c.shock = {static_cast<T>(d.shock.quadratic_viscosity), static_cast<T>(d.shock.conduction)};
     c.jump = {static_cast<T>(d.jump.damping), static_cast<T>(d.jump.background_pressure)};
-    c.bonds = {static_cast<T>(d.bonds.range), static_cast<T>(d.bonds.hourglass)};
+    c.bonds = {static_cast<T>(d.bonds.range)};
     c.contact = {static_cast<T>(d.contact.range), static_cast<T>(d.contact.force),
                  static_cast<T>(d.contact.energy)};
     return c;

@@ -187,6 +187,7 @@ struct BondColumns {
     if constexpr (S.has(Value::bond_stress))
       for (int k = 0; k < D * D; ++k) row.put(Value::bond_stress, k, stress[i * D * D + k]);
     if constexpr (S.has(Value::modulus)) row.put(Value::modulus, 0, groups.modulus[row.group]);
+    if constexpr (S.has(Value::hourglass)) row.put(Value::hourglass, 0, groups.hourglass[row.group]);
   }
 };
 

@@ -50,6 +50,7 @@ enum class Value : std::uint8_t {
   body,                ///< particles of one body have one number
   bond_stress,         ///< [Pa]
   modulus,             ///< K + 4/3 mu of the group, 0 of fluids [Pa]
+  hourglass,           ///< stiffness of the group against hourglass modes [Pa]
   direction,           ///< what the viscous operator is applied to [m/s]
   wall_slope,          ///< gradient of a flow that is 0 at the wall and 1 here, times h
   specific_energy,     ///< of ideal gases, 0 of all else [J/kg]
@@ -131,7 +132,8 @@ class ValueSet {
     f |= FieldSet{Field::group, Field::curvature};
   if (values.has(Value::reference) || values.has(Value::reference_cell)) f |= FieldSet{Field::displacement};
   if (values.has(Value::reference_volume)) f |= FieldSet{Field::mass, Field::group};
-  if (values.has(Value::body) || values.has(Value::modulus)) f |= FieldSet{Field::group};
+  if (values.has(Value::body) || values.has(Value::modulus) || values.has(Value::hourglass))
+    f |= FieldSet{Field::group};
   if (values.has(Value::bond_stress)) f |= FieldSet{Field::bond_stress};
   if (values.has(Value::direction)) f |= FieldSet{Field::direction};
   if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
@@ -167,6 +169,7 @@ struct GroupTable {
   double surface_tension = 0;       ///< [N/m]
   std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
   std::vector<double> modulus;      ///< K + 4/3 mu, 0 of fluids [Pa]
+  std::vector<double> hourglass;    ///< [Pa]
   std::vector<double> bonded;       ///< 1 for total-Lagrangian solids, else 0
   /// Gravity acts on rho share - borne: rho (1 - rho_b / rho_0), of bubbly groups rho - rho_b.
   struct Weight {

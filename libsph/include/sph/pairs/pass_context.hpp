@@ -31,8 +31,7 @@ struct JumpConstants {
 /// Of terms/bonds.hpp.
 template <class T>
 struct BondConstants {
-  T range;      ///< largest distance of two bonded particles / h
-  T hourglass;  ///< stiffness against hourglass modes over the modulus
+  T range;  ///< largest distance of two bonded particles / h
 };
 /// Of terms/body_contact.hpp.
 template <class T>

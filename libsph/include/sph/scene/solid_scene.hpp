@@ -1,6 +1,8 @@
 // What a scene of solids says beyond what every scene says.
 #pragma once
 
+#include <optional>
+
 namespace sph {
 
 /// updated: stress follows the rate of strain; total: it is a function of the deformation since the start.
@@ -15,8 +17,8 @@ struct SolidMaterial {
 
 /// Between the particles of a total-Lagrangian solid.
 struct BondTerms {
-  double hourglass = 0.3;        ///< stiffness against hourglass modes / modulus
-  double largest_stretch = 1.2;  ///< of a bond, as far as the lists reach
+  std::optional<double> hourglass;  ///< stiffness against hourglass modes / modulus; without, that of plates
+  double largest_stretch = 1.2;     ///< of a bond, as far as the lists reach
   friend bool operator==(const BondTerms&, const BondTerms&) = default;
 };
 

@@ -42,15 +42,16 @@ struct Deformation {
 struct BondForce {
   static constexpr std::string_view name = "BondForce";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
-                                  Value::body,      Value::bond_stress,    Value::modulus};
+                                  Value::body,      Value::bond_stress,    Value::modulus,
+                                  Value::hourglass};
   static constexpr Field writes = Field::force;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
-  static void add(const P& p, const C& c, S& sums) {
+  static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;
     const V s =
         p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.bond.weight;
-    const V stiffness = V(2 * c.bonds.hourglass) * p.template i<Value::modulus>();  // one body, one modulus
+    const V stiffness = V(2) * p.template i<Value::hourglass>();  // one body, one stiffness
     for (int a = 0; a < P::dim; ++a) {
       V t = stiffness * p.bond.displacement[a];
       for (int b = 0; b < P::dim; ++b) {
