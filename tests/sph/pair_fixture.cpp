@@ -215,6 +215,8 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
           beside || fusion_.values.has(Value::capillary));
   numbers(Field::wall_pressures, 1000, 4000, still);
   numbers(Field::bond_stress, 0, 3000);
+  numbers(Field::clamp_shift, 0, at.group == clamp ? 0.03 * dx : 0);
+  numbers(Field::clamp_reaction, 0, 20, still);
   numbers(Field::wet_pressure, 1000, 4000);
   numbers(Field::wet_velocity, 0, fastest);
   numbers(Field::acceleration, 0, 20);

@@ -199,6 +199,8 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("Deformation"):
     case key("BondForce"):
     case key("BondViscosity"):
+    case key("ClampSums"):
+    case key("ClampReaction"):
       return add_bond(pair, term, sums);
     default:
       return add_force(pair, term, sums);
@@ -241,6 +243,21 @@ void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {
     sums.of[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)].add(value);
   };
   Vec force = Vec::Zero();
+  if (term.name == "ClampSums" || term.name == "ClampReaction") {
+    if (j.mover != (term.name == "ClampSums")) return;
+    const double part = R < scene_.support() && r < scene_.list_range() ? bare(w(R, h_)) : 0.0;
+    if (term.name == "ClampSums") one(Field::clamp_sums, 0, part);
+    for (int a = 0; a < dim_; ++a) {
+      if (term.name == "ClampReaction") {
+        one(Field::clamp_push, a, part * j.reaction(a));
+        continue;
+      }
+      one(Field::clamp_sums, 1 + a, part * u(a) / h_);
+      one(Field::clamp_sums, 1 + dim_ + a, part * X(a) / h_);
+    }
+    return;
+  }
+  u += j.shift - i.shift;
   if (term.name == "Deformation") {
     const double bare_weight = bare(weight) * h_ * h_ * j.rest_volume / power(scene_.start.spacing, dim_);
     one(Field::deformation, 0, R < scene_.support() && r < scene_.list_range() ? 1 : 0);
@@ -255,7 +272,7 @@ void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {
     return;
   }
   if (term.name == "BondForce")
-    force = both * weight * ((i.bond_stress + j.bond_stress) * X + 2 * i.hourglass * u);
+    force = both * weight * ((i.bond_stress + j.bond_stress) * X + (i.hourglass + j.hourglass) * u);
   else
     force =
         2 * (dim_ + 2) * 0.5 * (i.viscosity + j.viscosity) * both * weight * (j.v - i.v).dot(x) * x / (r * r);

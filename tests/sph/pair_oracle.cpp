@@ -41,7 +41,8 @@ void PairOracle::load() {
   all_.resize(p.rows());
   for (std::size_t row = 0; row < p.rows(); ++row) {
     PairParticle& q = all_[row];
-    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient, &q.wet_v, &q.frame})
+    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient, &q.wet_v, &q.frame, &q.shift,
+                   &q.reaction})
       v->setZero();
     for (Mat* m : {&q.stress, &q.bond_stress, &q.gradient}) m->setZero();
     const std::uint32_t group = p.data<Field::group>()[row];
@@ -56,6 +57,8 @@ void PairOracle::load() {
       q.direction(e) = get(Field::direction, row, a);
       q.slope(e) = get(Field::wall_slope, row, a);
       q.wet_v(e) = is_bonded(g) ? get(Field::wet_velocity, row, a) : q.v(e);
+      q.shift(e) = get(Field::clamp_shift, row, a);
+      q.reaction(e) = g.kind == GroupKind::wall ? get(Field::clamp_reaction, row, a) : 0.0;
       q.frame(e) = is_bonded(g) ? get(Field::acceleration, row, a) : 0.0;
       if (g.kind != GroupKind::wall)
         q.rest_gradient(e) =
@@ -102,7 +105,8 @@ void PairOracle::load() {
     q.modulus = g.kind == GroupKind::fluid
                     ? 0.0
                     : material.eos.bulk_modulus + 4.0 / 3.0 * material.solid.shear_modulus;
-    q.hourglass = 1.75 * material.solid.shear_modulus;  // as libsph/src/models/sph_constants.cpp has it
+    q.hourglass =
+        is_bonded(g) ? 1.75 * g.solid.shear_modulus : 0.0;  // as libsph/src/models/sph_constants.cpp has it
     q.rest_volume = q.mass / g.density;
     q.mover = g.kind != GroupKind::wall;
     q.shears = g.kind != GroupKind::fluid;
@@ -179,6 +183,7 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("MixtureWallExtrapolation"):
     case key("MixtureWallExtrapolationByDensity"):
     case key("WallViscosity"):
+    case key("ClampSums"):
       return !p.mover;
     case key("WettedExtrapolation"):
       return p.shears;
@@ -207,6 +212,7 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("WallGas"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):
+    case key("ClampReaction"):
       return p.mover;
     case key("Curvature"):  // elsewhere it is 0 or not, as the other rows of a block have it
     case key("CurvatureMean"):

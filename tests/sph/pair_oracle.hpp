@@ -29,7 +29,7 @@ using Mat = Eigen::Matrix3d;
 /// One particle, as its fields and its group have it. What the fusion does not read is 0.
 struct PairParticle {
   std::array<std::int64_t, 3> x{}, reference{};  ///< [quanta]
-  Vec v, colour, direction, slope, rest_gradient, wet_v;
+  Vec v, colour, direction, slope, rest_gradient, wet_v, shift, reaction;
   Vec frame;                          ///< acceleration of a body
   Mat stress, bond_stress, gradient;  ///< stress: the total one
   double mass, density, weight, pressure, wet_pressure, volume, sound, energy, width, correction, curvature,

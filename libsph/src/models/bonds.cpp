@@ -81,19 +81,17 @@ struct Stresses {
       double* stress = p.get<Field::stress>() + i * n;
       double& energy = p.get<Field::strain_energy>()[i];
       const Group& own = constants->scene->groups[group[i]];
-      const bool fluid = own.kind == GroupKind::fluid;
-      energy = contact != nullptr && !fluid ? contact[i] : 0.0;
-      if (fluid || (own.kind == GroupKind::wall && own.wall.clamps < 0)) {  // or rigid
+      energy = contact != nullptr && own.kind != GroupKind::fluid ? contact[i] : 0.0;
+      if (!is_bonded(own)) {
         bond_stress.setZero();
         continue;
       }
-      const Group& g = constants->scene->groups[static_cast<std::size_t>(constants->groups.body[group[i]])];
       const BondSums<D> bonds(p.get<Field::deformation>() + i * sums,
                               constants->gradient_factor * constants->scene->kernel.smoothing_length);
       check(p, i, bonds.count, bonds.shape, step);
       const double before = prestress != nullptr ? prestress[i] : 0.0;
       const ElasticState<D> state =
-          neo_hooke<D>(bonds.gradient, g.eos.bulk_modulus, g.solid.shear_modulus, before);
+          neo_hooke<D>(bonds.gradient, own.eos.bulk_modulus, own.solid.shear_modulus, before);
       const double hourglass = constants->groups.hourglass[group[i]];
       bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
       const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
@@ -103,8 +101,8 @@ struct Stresses {
 
       // For output: Cauchy stress P F^T / J; out of the plane mu (1/J - 1) + lambda' (J - 1).
       const Tensor<D> cauchy = (state.first_piola + state.first_piola * bonds.gradient.transpose()) / ratio;
-      const double out_of_plane = (g.eos.bulk_modulus + g.solid.shear_modulus / 3) * state.volume_change -
-                                  g.solid.shear_modulus * (state.volume_change / ratio) - before;
+      const double out_of_plane = (own.eos.bulk_modulus + own.solid.shear_modulus / 3) * state.volume_change -
+                                  own.solid.shear_modulus * (state.volume_change / ratio) - before;
       const double pressure = -(cauchy.trace() + (D == 2 ? out_of_plane : 0.0)) / 3;
       p.get<Field::pressure>()[i] = pressure;
       p.get<Field::density>()[i] = own.density / ratio;
@@ -172,11 +170,15 @@ void add_bonds(Builder& b) {
     forces.push_back(term<BodyContact>);
   }
   if (viscous) forces.push_back(term<BondViscosity>);
+  const bool clamped = std::ranges::any_of(s.groups, [](const Group& g) { return g.wall.clamps >= 0; });
   b.add_fields({Field::displacement, Field::bonds, Field::bond_stress, Field::strain_energy});
+  if (clamped) add_clamps(b);
   b.add_sums("deformation", deformation, Builder::Rows::all);
   b.add_update("stress", Stresses{&k});
   b.begin_with_these();  // what bonds there are is known only from the start, and output wants the stress
-  b.add_sums(s.has_wet_bodies() ? "bond forces" : "forces", forces);
+  b.add_sums(s.has_wet_bodies() ? "bond forces" : "forces", forces,
+             clamped ? Builder::Rows::all : Builder::Rows::movers);
+  if (clamped) add_clamp_reactions(b);
   if (!s.has_wet_bodies()) return;
   b.add_fields({Field::bond_force});
   b.add_update("bonds' part of the forces", KeepBondForces{});

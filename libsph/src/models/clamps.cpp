@@ -1,12 +1,11 @@
 // Where bonds see the particles of clamps, and what these give back of the forces on them (terms/clamp.hpp).
-#include "sph/terms/clamp.hpp"
-
 #include <cmath>
 #include <memory>
 
 #include "pairs/for_rows.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/wall_mirror.hpp"
+#include "sph/terms/clamp.hpp"
 
 namespace sph {
 namespace {

@@ -133,7 +133,7 @@ GroupTable group_table(const Scene& of) {
                                  : of.groups[body].eos.bulk_modulus +
                                        4.0 / 3.0 * of.groups[body].solid.shear_modulus);
     groups.hourglass.push_back(
-        hourglass_stiffness(of, groups.modulus.back(), of.groups[body].solid.shear_modulus));
+        is_bonded(g) ? hourglass_stiffness(of, groups.modulus.back(), g.solid.shear_modulus) : 0.0);
     groups.bonded.push_back(is_bonded(g) ? 1.0 : 0.0);
     groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
     groups.heat.specific_heat.push_back(g.heat.material.specific_heat);

@@ -5,6 +5,7 @@
 #include "sph/terms/artificial_viscosity.hpp"
 #include "sph/terms/body_contact.hpp"
 #include "sph/terms/bonds.hpp"
+#include "sph/terms/clamp.hpp"
 #include "sph/terms/density_diffusion.hpp"
 #include "sph/terms/divergence.hpp"
 #include "sph/terms/gas.hpp"
@@ -97,6 +98,8 @@ struct FusionList {
              fuse<Quintic, Deformation>(),
              fuse<Quintic, Deformation, BodyContactEnergy>(),
              fuse<Quintic, WettedExtrapolation>(),
+             fuse<Quintic, ClampSums>(),
+             fuse<Quintic, ClampReaction>(),
              fuse<Quintic, BondForce>(),
              fuse<Quintic, BondForce, BondViscosity>(),
              fuse<Quintic, BondForce, BodyContact>(),

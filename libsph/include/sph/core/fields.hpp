@@ -101,6 +101,10 @@ enum class Field : std::uint8_t {
   bond_force,
   wet_pressure,
   wet_velocity,
+  clamp_sums,
+  clamp_shift,
+  clamp_reaction,
+  clamp_push,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);
@@ -116,6 +120,7 @@ enum class Shape : std::uint8_t {
   spread,
   shifting,
   wall,
+  clamp,
   deformation
 };
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
@@ -326,6 +331,16 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of total-Lagrangian solids: the pressure of the fluid beside them, 0 where there is none"},
     {Field::wet_velocity, "wet_velocity", "m/s", Type::f64, Shape::vector, false, false,
      "... and the velocity with which they seem to continue its flow"},
+    {Field::clamp_sums, "clamp_sums", "1", Type::f64, Shape::clamp, false, false,
+     "kernel sums over what is bonded to a clamp's particle: weight, displacement / h, reference distance / "
+     "h",
+     SumScale::one},
+    {Field::clamp_shift, "clamp_shift", "m", Type::f64, Shape::vector, false, false,
+     "of a clamp's particle: where bonds see it, less where it is"},
+    {Field::clamp_reaction, "clamp_reaction", "N", Type::f64, Shape::vector, false, false,
+     "of a clamp's particle: what it gives back of the force on it, a kernel of weight 1"},
+    {Field::clamp_push, "clamp_push", "N", Type::f64, Shape::vector, false, false,
+     "of a particle that is bonded to clamps: what they give back", SumScale::one},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }
@@ -349,6 +364,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
       return 2 + dim;
     case Shape::wall:
       return 2 + 2 * dim;
+    case Shape::clamp:
+      return 1 + 2 * dim;
     case Shape::deformation:
       return 2 + dim * (dim + 1) / 2 + dim * dim;
   }
@@ -392,7 +409,9 @@ class FieldSet {
   friend constexpr bool operator==(FieldSet, FieldSet) = default;
 
   static constexpr std::size_t words = (static_cast<std::size_t>(field_count) + 63) / 64;
-  std::array<std::uint64_t, words> bits_{};  ///< public only so that a set can be a template argument
+  /// Public only so that a set can be a template argument. Zeros are written out: g++ 12 takes {0, x} for {x} else.
+  std::array<std::uint64_t, words> bits_{0, 0};
+  static_assert(words == 2, "write out as many zeros as there are words");
 
  private:
   static constexpr std::size_t word(Field f) { return static_cast<std::size_t>(f) / 64; }

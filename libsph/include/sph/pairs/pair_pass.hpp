@@ -231,6 +231,10 @@ struct PairPass {
       pair.bond.reference[a] = coordinate_difference(xi, xj) * unit;
       pair.bond.displacement[a] =
           coordinate_difference(stored_difference(xi, own[a]), stored_difference(xj, other[a])) * unit;
+      if constexpr (values.has(Value::clamp_shift)) {
+        constexpr int shift = Layout::offset(Value::clamp_shift);
+        pair.bond.displacement[a] += other[shift + a] - own[shift + a];
+      }
       square += pair.bond.reference[a] * pair.bond.reference[a];
     }
     // Differences in rows of single precision are modulo 2^32 units, four to eight times 2^29: particles from

@@ -162,9 +162,11 @@ struct BondColumns {
       : x(p.data<Field::position>()),
         displacement(p.data<Field::displacement>()),
         mass(p.data<Field::mass>()),
-        stress(p.data<Field::bond_stress>()) {}
+        stress(p.data<Field::bond_stress>()),
+        shift(p.data<Field::clamp_shift>()),
+        reaction(p.data<Field::clamp_reaction>()) {}
   const std::int64_t *x, *displacement;
-  const double *mass, *stress;
+  const double *mass, *stress, *shift, *reaction;
 
   template <class Row>
   [[gnu::always_inline]] void pack(const Row& row) const {
@@ -186,6 +188,12 @@ struct BondColumns {
     if constexpr (S.has(Value::body)) row.put(Value::body, 0, groups.body[row.group]);
     if constexpr (S.has(Value::bond_stress))
       for (int k = 0; k < D * D; ++k) row.put(Value::bond_stress, k, stress[i * D * D + k]);
+    if constexpr (S.has(Value::clamp_shift))
+      for (int k = 0; k < D; ++k)
+        row.put(Value::clamp_shift, k, shift != nullptr ? shift[i * D + k] * row.scale.inverse_h : 0.0);
+    if constexpr (S.has(Value::clamp_reaction))
+      for (int k = 0; k < D; ++k)
+        row.put(Value::clamp_reaction, k, row.is_wall() ? reaction[i * D + k] : 0.0);
     if constexpr (S.has(Value::modulus)) row.put(Value::modulus, 0, groups.modulus[row.group]);
     if constexpr (S.has(Value::hourglass)) row.put(Value::hourglass, 0, groups.hourglass[row.group]);
   }

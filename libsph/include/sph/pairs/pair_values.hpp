@@ -50,7 +50,9 @@ enum class Value : std::uint8_t {
   body,                ///< particles of one body have one number
   bond_stress,         ///< [Pa]
   modulus,             ///< K + 4/3 mu of the group, 0 of fluids [Pa]
-  hourglass,           ///< stiffness of the group against hourglass modes [Pa]
+  hourglass,           ///< stiffness of the group against hourglass modes, 0 of walls [Pa]
+  clamp_shift,         ///< of clamps where bonds see them, less where they are, over h
+  clamp_reaction,      ///< of clamps what they give back of the force on them [N]
   direction,           ///< what the viscous operator is applied to [m/s]
   wall_slope,          ///< gradient of a flow that is 0 at the wall and 1 here, times h
   specific_energy,     ///< of ideal gases, 0 of all else [J/kg]
@@ -99,7 +101,8 @@ class ValueSet {
 [[nodiscard]] constexpr int components(Value v, int dim) {
   const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
                       v == Value::direction || v == Value::wall_slope || v == Value::interface_normal ||
-                      v == Value::rest_gradient || v == Value::wet_velocity || v == Value::own_head;
+                      v == Value::rest_gradient || v == Value::wet_velocity || v == Value::clamp_shift ||
+                      v == Value::clamp_reaction || v == Value::own_head;
   const bool tensor = v == Value::stress || v == Value::capillary;
   return vector                                                     ? dim
          : v == Value::pressures                                    ? 2
@@ -139,6 +142,8 @@ class ValueSet {
   if (values.has(Value::specific_energy)) f |= FieldSet{Field::specific_energy};
   if (values.has(Value::width)) f |= FieldSet{Field::smoothing_length};
   if (values.has(Value::kernel_correction)) f |= FieldSet{Field::kernel_correction};
+  if (values.has(Value::clamp_shift)) f |= FieldSet{Field::clamp_shift};
+  if (values.has(Value::clamp_reaction)) f |= FieldSet{Field::clamp_reaction};
   if (values.has(Value::wet_pressure)) f |= FieldSet{Field::group, Field::pressure, Field::wet_pressure};
   if (values.has(Value::wet_velocity)) f |= FieldSet{Field::group, Field::velocity, Field::wet_velocity};
   if (values.has(Value::own_head)) f |= FieldSet{Field::group, Field::acceleration};

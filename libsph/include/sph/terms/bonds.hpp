@@ -5,8 +5,9 @@
 // is the least-squares fit of the displacements u, so that sum w (u - H X) X = 0. The energy
 //   sum_i V_i [ psi(F_i) + c/2 sum_j w_ij |u_ij - H_i X_ij|^2 ]
 // has its hourglass part from Silling (2017, eq. 43), and its exact derivative is the pair force
-//   f_ij = V_i V_j (-W'/|X|) [ (M_i + M_j) X_ij + 2 c u_ij ],   M = P A^-1 - c H
-// So linear and angular momentum and energy are conserved, and affine motion feels no hourglass force.
+//   f_ij = V_i V_j (-W'/|X|) [ (M_i + M_j) X_ij + (c_i + c_j) u_ij ],   M = P A^-1 - c H
+// So linear and angular momentum and energy are conserved, and affine motion feels no hourglass force. Particles of
+// clamps have no energy, M = c = 0, and are seen where terms/clamp.hpp has them.
 #pragma once
 
 #include "sph/pairs/pair_values.hpp"
@@ -17,7 +18,7 @@ namespace sph {
 struct Deformation {
   static constexpr std::string_view name = "Deformation";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
-                                  Value::body, Value::modulus};
+                                  Value::body,      Value::modulus,        Value::clamp_shift};
   static constexpr Field writes = Field::deformation;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
@@ -43,7 +44,7 @@ struct BondForce {
   static constexpr std::string_view name = "BondForce";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
                                   Value::body,      Value::bond_stress,    Value::modulus,
-                                  Value::hourglass};
+                                  Value::hourglass, Value::clamp_shift};
   static constexpr Field writes = Field::force;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
@@ -51,7 +52,7 @@ struct BondForce {
     using V = typename P::V;
     const V s =
         p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.bond.weight;
-    const V stiffness = V(2) * p.template i<Value::hourglass>();  // one body, one stiffness
+    const V stiffness = p.template i<Value::hourglass>() + p.template j<Value::hourglass>();
     for (int a = 0; a < P::dim; ++a) {
       V t = stiffness * p.bond.displacement[a];
       for (int b = 0; b < P::dim; ++b) {
