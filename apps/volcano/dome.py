@@ -78,13 +78,14 @@ def draw(folders, out):
     for row, (name, folder) in enumerate(folders.items()):
         files = sorted(folder.glob("snapshot_*.h5"))
         states = [state_of(file) for file in files]
-        shown = [states[0], states[7 * len(states) // 10], states[-1]]
+        last = len(states) - 1
+        shown = [states[k * last // 10] for k in (4, 8, 10)]
         for k, state in enumerate(shown):
             drawn = draw_state(axes[0, 3 * row + k], state, name)
         label = f"{name}, {PERMEABILITIES[name]:.0e} m²"
         draw_series(axes[1, :3], folder, RUNS[row], label)
         draw_profiles(axes[1, 3:], shown[1], RUNS[row], f"{label}, {shown[1]['time']:.0f} s")
-    draw_profiles(axes[1, 3:], shown[0], "#999999", "start")
+    draw_profiles(axes[1, 3:], states[0], "#999999", "start")
     figure.colorbar(drawn, ax=axes[0, -1], label="log10 of viscosity (Pa s)")
     titles = (("gas gone (%)", "time (s)"), ("rise of the plug (m)", "time (s)"), ("spray (%)", "time (s)"),
               ("y (m)", "log10 of viscosity (Pa s)"), ("y (m)", "dissolved water (%)"), ("y (m)", "gas's share of the volume (%)"))
