@@ -5,7 +5,7 @@ boundary: where gas takes as long to get out sideways as the magma takes to expa
     map.py RUNS [--out DIR] [--programs build/bin]
 
 Runs that are not in RUNS yet are made, on one rank each and two at a time, at twice the spacing of the scene, 40 m deep and
-with a bulk viscosity like the viscosity, which decides how fast foam can expand: four minutes in all.
+with a bulk viscosity like the viscosity, which decides how fast foam can expand: five minutes in all.
 """
 
 import argparse
@@ -96,7 +96,7 @@ def edges(values):
 
 
 def draw(values, out):
-    figure, all_axes = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
+    figure, all_axes = plt.subplots(1, 2, figsize=(11, 4.8), layout="constrained")
     viscosities, magma = np.array(list(UNTIL)), Magma()
     for axes, k, title in zip(all_axes, (0, 1), ("share of the magma that is spray", "share of the gas that got away")):
         shares = np.array([[values[eta, p][k] for p in PERMEABILITIES] for eta in UNTIL])
@@ -118,7 +118,7 @@ def draw_boundaries(axes, viscosities, magma, measured):
     for name, per_viscosity, style in (("escape = expansion", expansion, "k--"), ("escape = flow through", flow, "k:")):
         axes.plot(magma.permeability_at(per_viscosity * viscosities), viscosities, style, label=name)
     axes.plot(measured, viscosities, "o-", color="#1b6ca8", label="half as much spray")
-    axes.legend(loc="upper left", frameon=True)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=3, fontsize=9)
     there = np.isfinite(measured)
     print(f"escape of 6.3e-11 m2: {magma.escape(6.3e-11):.3g} s; expansion of 1e6 Pa s {expansion * 1e6:.3g} s, flow "
           f"{flow * 1e6:.3g} s")
