@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Draws whether a slot stays open, against what the rock beside it takes: runs of dyke.toml.
+"""Draws whether a slot stays open, against what the rock beside it takes: runs of dyke.toml. And how its margin freezes
+where nothing moves and the rock is cold, against Neumann's solution of a melt that freezes over a range of temperatures.
 
     dyke.py RUNS [--out DIR] [--programs build/bin]
 
-Runs that are not in RUNS yet are made, on one rank each, two at a time: some minutes in all.
+Runs that are not in RUNS yet are made, on one rank each, two at a time: four minutes in all.
 """
 
 import argparse
+import math
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -20,15 +22,64 @@ sys.path.append(str(here.parent / "plotting"))
 from figures import plt, save  # noqa: E402
 from run_folder import BadInput, refusing  # noqa: E402
 
-COEFFICIENTS = (100, 300, 1000, 3000)  # W/m2/K
-SOLIDUS, LIQUIDUS = 1273, 1423
+COEFFICIENTS = (100, 1000, 3000)  # W/m2/K
+SOLIDUS, LIQUIDUS, HOT, COLD = 1273, 1423, 1473, 400
+CAPACITY, LATENT, CONDUCTIVITY, DENSITY = 1200, 3.2e5, 20, 2475  # of dyke.toml; the density as its pressure makes it
+WIDTH, SPACING = 0.05, 2.5e-3
+STILL = ("terms.motion=false", "time.cfl=", "time.dt=0.02", "time.until=40", "reset=", "group.rock.heat_transfer=",
+         f"group.rock.temperature={COLD}", "output.snapshot_interval=1")
 
 
-def make(programs, folder, coefficient):
-    done = subprocess.run([str(Path(programs) / "peperite"), "run", str(here / "dyke.toml"), "--out", str(folder), "--set",
-                           f"group.rock.heat_transfer.coefficient={coefficient}"], capture_output=True, text=True)
+def settings_of(name):
+    return STILL if name == "still" else (f"group.rock.heat_transfer.coefficient={name}",)
+
+
+def make(programs, folder, name):
+    settings = [word for setting in settings_of(name) for word in ("--set", setting)]
+    done = subprocess.run([str(Path(programs) / "peperite"), "run", str(here / "dyke.toml"), "--out", str(folder), *settings],
+                          capture_output=True, text=True)
     if done.returncode:
         raise BadInput(done.stderr.strip().split("\n")[0])
+
+
+def neumann():
+    """Where solidus and liquidus are, x = 2 lambda sqrt(kappa t), and kappa. In xi = x / (2 sqrt(kappa t)) each
+    layer is a + b erf(xi / s): the solid, the mush, whose capacity is c + L / (T_l - T_s), and the melt. Slopes are those of
+    the layer before; that at the wall is found by bisection, so that the melt far away is as hot as it was."""
+    root_pi, mush = math.sqrt(math.pi), math.sqrt(CAPACITY / (CAPACITY + LATENT / (LIQUIDUS - SOLIDUS)))
+
+    def beyond(slope):
+        """Where the solidus is, and how hot it is far away; a layer that never ends is the last."""
+        at, hot, fronts = 0.0, COLD, []
+        for s, top in ((1, SOLIDUS), (mush, LIQUIDUS), (1, math.inf)):
+            b = slope * s * root_pi / 2 * math.exp((at / s) ** 2)
+            if hot + b * math.erfc(at / s) <= top:
+                return fronts, hot + b * math.erfc(at / s)
+            low, high = at, at + 6 * s
+            for _ in range(60):
+                middle = (low + high) / 2
+                low, high = (middle, high) if hot + b * (math.erf(middle / s) - math.erf(at / s)) < top else (low, middle)
+            at, hot = low, top
+            slope = b * 2 / root_pi / s * math.exp(-((at / s) ** 2))
+            fronts.append(at)
+
+    low, high = 1.0, 1e5
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (middle, high) if beyond(middle)[1] < HOT else (low, middle)
+    return *beyond(high)[0], CONDUCTIVITY / (DENSITY * CAPACITY)
+
+
+def margin(file):
+    """Time and depth of the solidus, of means over a spacing."""
+    with h5py.File(file) as f:
+        p = f["particles"]
+        melt = p["group"][:] == 0
+        x, hot, time = p["position"][melt][:, 0], p["temperature"][melt], f.attrs["time"]
+    depth = np.minimum(x, WIDTH - x)
+    layer = np.floor(depth / SPACING).astype(int)
+    means = np.array([(hot[layer == k].mean(), depth[layer == k].mean()) for k in range(round(WIDTH / SPACING / 2))])
+    return time, np.interp(SOLIDUS, *means.T, left=0, right=WIDTH / 2)
 
 
 def draw_temperatures(axes, folder, title):
@@ -36,22 +87,50 @@ def draw_temperatures(axes, folder, title):
         p = f["particles"]
         melt = p["group"][:] == 0
         x, t, time = p["position"][melt], p["temperature"][melt], f.attrs["time"]
-    drawn = axes.scatter(100 * x[:, 0], 100 * x[:, 1], c=t, s=9, cmap="inferno", vmin=900, vmax=1473)
-    axes.tricontour(100 * x[:, 0], 100 * x[:, 1], t, levels=[SOLIDUS], colors="white", linewidths=1)
+    drawn = axes.scatter(100 * x[:, 0], 100 * x[:, 1], c=t, s=9, cmap="inferno", vmin=600, vmax=1473)
+    if t.min() < SOLIDUS:
+        axes.tricontour(100 * x[:, 0], 100 * x[:, 1], t, levels=[SOLIDUS], colors="white", linewidths=1)
     axes.set(title=f"{title}, {time:.0f} s", xlabel="x (cm)", ylabel="y (cm)", aspect="equal")
     return drawn
 
 
+def pressures(folder):
+    """The least and the largest of the melt in any snapshot."""
+    found = []
+    for file in sorted(folder.glob("snapshot_*.h5")):
+        with h5py.File(file) as f:
+            found.append(f["particles/pressure"][:][f["particles/group"][:] == 0])
+    return np.min(found), np.max(found)
+
+
+def draw_margin(axes, folder):
+    solid, liquid, kappa = neumann()
+    times, depths = np.array([margin(file) for file in sorted(folder.glob("snapshot_*.h5"))[1:]]).T
+    wanted = 2 * solid * np.sqrt(kappa * times)
+    meets = (WIDTH / 4 / liquid) ** 2 / kappa  # from then on nothing is as hot as it was, and the rest freezes faster
+    off = 100 * (depths / wanted - 1)[(wanted > 2 * SPACING) & (times < meets)]
+    print(f"margin of the still slot: {off.min():+.1f} to {off.max():+.1f} % of Neumann's, lambda {solid:.4f}, from two spacings "
+          f"until crystals meet in the middle at {meets:.1f} s; all frozen at {times[depths >= WIDTH / 2].min():.0f} s, "
+          f"of half spaces after {(WIDTH / 4 / solid) ** 2 / kappa:.1f} s")
+    axes.plot(np.sqrt(times), 100 * depths, "o", ms=3, label="still slot, cold walls")
+    axes.plot(np.sqrt(times), 100 * wanted, "k-", lw=1, label="Neumann")
+    axes.set(xlabel="root of time (s$^{1/2}$)", ylabel="frozen from each side (cm)", title="how a still one freezes")
+    axes.legend()
+
+
 def draw(folders, out):
-    figure, axes = plt.subplots(1, 3, figsize=(11, 5), layout="constrained", width_ratios=(1, 1, 2))
+    figure, axes = plt.subplots(1, 4, figsize=(13, 5), layout="constrained", width_ratios=(1, 1, 2, 2))
     for panel, coefficient in zip(axes, (COEFFICIENTS[0], COEFFICIENTS[-1])):
         drawn = draw_temperatures(panel, folders[coefficient], f"{coefficient} W/m²/K")
     figure.colorbar(drawn, ax=axes[1], label="temperature (K); white: solidus")
     for coefficient in COEFFICIENTS:
         series = np.genfromtxt(folders[coefficient] / "series.csv", delimiter=",", names=True)
         axes[2].semilogy(series["t"][1:], 100 * series["melt_vy"][1:], label=f"{coefficient} W/m²/K")
+        print(f"{coefficient} W/m2/K: {100 * series['melt_vy'][-1]:.3g} cm/s at {series['t'][-1]:.0f} s, pressures from "
+              "{:.0f} to {:.0f} Pa".format(*pressures(folders[coefficient])))
     axes[2].set(xlabel="time (s)", ylabel="mean rise of the melt (cm/s)", ylim=(1e-3, None), title="what the rock takes")
     axes[2].legend()
+    draw_margin(axes[3], folders["still"])
     save(figure, Path(out) / "dyke.png")
 
 
@@ -61,7 +140,7 @@ def main():
     parser.add_argument("--out", help="default: RUNS")
     parser.add_argument("--programs", default="build/bin")
     given = parser.parse_args()
-    folders = {c: Path(given.runs) / f"h_{c}" for c in COEFFICIENTS}
+    folders = {name: Path(given.runs) / f"h_{name}" for name in (*COEFFICIENTS, "still")}
     wanted = [c for c, folder in folders.items() if not (folder / "perf.json").is_file()]
     with ThreadPoolExecutor(2) as two:
         list(two.map(lambda c: make(given.programs, folders[c], c), wanted))

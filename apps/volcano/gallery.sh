@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs the conduit, and its map over viscosity and permeability, and draws the pictures in gallery/: a minute on two cores.
-# Runs that have already come to their end in RUNS are only drawn.
+# Runs the conduit and its map over viscosity and permeability, the freezing dyke and the dome, and draws the pictures in
+# gallery/: a quarter of an hour on two cores. Runs that have already come to their end in RUNS are only drawn.
 #
 #     sh apps/volcano/gallery.sh [PROGRAMS] [RUNS] [RANKS]     default: build/bin out/gallery 2
 set -eu
@@ -20,6 +20,12 @@ mkdir -p "$here/gallery"
 mv "$runs/conduit/particles.png" "$here/gallery/conduit.png"
 /usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/conduit.png" \
   --runs "$runs/conduit" --scenes "$here/conduit.toml"
-/usr/bin/python3 -B "$here/map.py" "$runs/map" --programs "$programs" --out "$here/gallery"
-/usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/map.png" \
-  --runs "$runs"/map/eta_* --scenes "$here/conduit.toml"
+
+# picture SCENE NAME: NAME.png, which NAME.py makes of runs of the scene, and its entry.
+picture() {
+  /usr/bin/python3 -B "$here/$2.py" "$runs/$2" --programs "$programs" --out "$here/gallery"
+  /usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/$2.png" --runs "$runs/$2"/* --scenes "$here/$1"
+}
+picture conduit.toml map
+picture dyke.toml dyke
+picture dome.toml dome

@@ -323,6 +323,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             out["pressure"] = "taylor_green"
             if self.family == "gas":
                 out["flow_speed"] = min(out["flow_speed"], 0.2 * self.c)
+        elif self.family in ("fluid", "solid", "ida") and d.chance("confined", 0.25):
+            out |= {"pressure": "uniform", "uniform_pressure": self.rho * self.c**2 * d.one("confines", [0.0, 1e-3, 0.03])}
         elif d.chance("say zero", 0.1):
             out["pressure"] = "zero"
 

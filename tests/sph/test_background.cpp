@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "sph/laws/eos/bubbly.hpp"
@@ -77,6 +79,38 @@ TEST(Background, BearsWhatIsAsHeavyExactly) {
                                          "tank", {}));
   for (int k = 0; k < 500; ++k) s.step();
   EXPECT_EQ(largest(s, speed), 0);
+}
+
+// Gravity along a period, where no hydrostatic pressure is possible: what the rock around it balances stays at rest
+// at the pressure it starts with, from walls to walls; a lattice to the last bits of the arithmetic, a disordered start
+// until its particles lie as the pressure likes.
+TEST(Background, KeepsAUniformPressureAlongAPeriod) {
+  const auto slot = [](const std::string& jitter) {
+    const std::vector<std::string> along{"domain.periodic=[false, true]", "domain.lower=[-3, 0]",
+                                         "domain.upper=[13, 20]",         "group.melt.sound_speed=10",
+                                         "group.melt.viscosity=1000",     "start.pressure=uniform",
+                                         "start.uniform_pressure=5 kPa",  jitter};
+    return sph::parse_scene(tank("background_density = 2500\n", melt("2500"), ""), "slot", along);
+  };
+  const double stiffness = 2500 * 100, pressure = 5000;
+  for (const auto& [jitter, fastest, off] :
+       {std::tuple("start.jitter=0", 1e-9, 1e-9), std::tuple("start.jitter=0.05", 3e-3, 1e-3)}) {
+    Simulation s(alone(), slot(jitter));
+    const sph::Particles& p = s.particles();
+    const auto mean = [&] {
+      std::array<double, 2> sums{};
+      for (std::size_t i = 0; i < p.owned(); ++i)
+        if (s.scene().groups[p.data<Field::group>()[i]].kind != sph::GroupKind::wall) {
+          sums[0] += 1;
+          sums[1] += stiffness * (p.data<Field::density>()[i] / 2500 - 1);
+        }
+      return sums[1] / sums[0];
+    };
+    EXPECT_NEAR(mean(), pressure, 1e-9 * pressure) << jitter;
+    while (s.global().time < 100) s.step();
+    EXPECT_LT(largest(s, speed), fastest) << jitter;
+    EXPECT_NEAR(mean(), pressure, off * pressure) << jitter;
+  }
 }
 
 // The excess of two layers: as still as layers without a background are, at a sixth of their speed of sound.

@@ -44,8 +44,10 @@ void check_ideal_gas(const TopReader& top, const DomainReader& domain, const Sta
     }
   if (scene.terms.formulation == Formulation::ida)
     top.fail("formulation", "is \"ida\"", "it has no energy equation, which an ideal gas needs");
-  if (scene.start.pressure == InitialPressure::hydrostatic)
-    start.fail("pressure", "is \"hydrostatic\"",
+  if (scene.start.pressure == InitialPressure::hydrostatic ||
+      scene.start.pressure == InitialPressure::uniform)
+    start.fail("pressure",
+               scene.start.pressure == InitialPressure::uniform ? "is \"uniform\"" : "is \"hydrostatic\"",
                "an ideal gas starts from start_pressure, or from the column u of start.file");
   const double speed = scene.start.velocity.flow_speed;
   for (std::size_t k = 0; k < groups.size(); ++k)

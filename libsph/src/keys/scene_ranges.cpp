@@ -83,8 +83,8 @@ void check_group(const Ranges& ranges, const GroupReader& table, const Scene& sc
 
 }  // namespace
 
-void check_ranges(const TopReader& top, const DomainReader& domain, const TermsReader& terms,
-                  const Scene& scene) {
+void check_ranges(const TopReader& top, const DomainReader& domain, const StartReader& start,
+                  const TermsReader& terms, const Scene& scene) {
   const Ranges ranges(scene);
   const double h = scene.kernel.smoothing_length;
   const std::vector<GroupReader> groups = top.tables<keys::group>();
@@ -99,6 +99,7 @@ void check_ranges(const TopReader& top, const DomainReader& domain, const TermsR
   }
   ranges.check(domain, "central_pull", potential, 0.5 * scene.domain.central_pull * square);
   ranges.check(domain, "surface_pressure", outer_pressure, scene.domain.surface_pressure);
+  ranges.check(start, "uniform_pressure", outer_pressure, scene.start.uniform_pressure);
   if (terms.has("surface_tension"))
     ranges.check(terms.table<keys::surface_tension>(), "coefficient", tension,
                  scene.terms.surface_tension.coefficient / h);

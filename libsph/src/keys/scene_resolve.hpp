@@ -87,8 +87,8 @@ void read_terms(const TermsReader& table, Scene& scene);
 void check_implicit_viscosity(const TermsReader& terms, const Scene& scene);
 void check_still_step(const TermsReader& terms, const Scene& scene);
 /// Refuses constants that pairs cannot multiply, once all is read.
-void check_ranges(const TopReader& top, const DomainReader& domain, const TermsReader& terms,
-                  const Scene& scene);
+void check_ranges(const TopReader& top, const DomainReader& domain, const StartReader& start,
+                  const TermsReader& terms, const Scene& scene);
 
 /// [decomposition], once dimension and gravity are known.
 [[nodiscard]] Decomposition read_decomposition(const Reader<keys::decomposition>& table, const Scene& scene);

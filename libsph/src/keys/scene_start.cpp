@@ -192,7 +192,7 @@ void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
     if (scene.domain.periodic[a] && scene.domain.gravity[a] != 0)
       table.fail("pressure",
                  fmt::format("is \"hydrostatic\", but gravity points along the periodic {}", axis_names[a]),
-                 "start from \"zero\" where a body force drives the flow");
+                 "start from \"zero\" or \"uniform\" where a body force drives the flow");
   }
   if (weight == 0)
     table.fail("pressure", "is \"hydrostatic\" without gravity", "set domain.gravity or start from \"zero\"");

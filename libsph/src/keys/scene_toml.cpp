@@ -208,7 +208,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
   check_implicit_viscosity(tables.terms, scene);
   check_still_step(tables.terms, scene);
-  if (scene.has_matter()) check_ranges(tables.top, tables.domain, tables.terms, scene);
+  if (scene.has_matter()) check_ranges(tables.top, tables.domain, tables.start, tables.terms, scene);
   scene.start.has_surface = scene.has_matter() && has_free_surface(scene);
   check_background(tables.domain, scene);
   if (check_files) {

@@ -100,8 +100,15 @@ inline constexpr auto start_keys = std::to_array<Key>({
      at<&Start::velocity, &StartVelocity::flow_speed>, of_fluids},
     {"flow_length", Number{dimension::length, positive}, "Of \"taylor_green\": its period L.",
      at<&Start::velocity, &StartVelocity::flow_length>, of_fluids},
-    {"pressure", Words{initial_pressure_words}, "\"taylor_green\" goes with that velocity.",
+    {"pressure", Words{initial_pressure_words},
+     "\"uniform\": all matter begins compressed, and a closed box keeps it so; \"taylor_green\" goes with "
+     "that velocity.",
      at<&Start::pressure>, of_fluids},
+    {"uniform_pressure", Number{dimension::pressure, not_negative},
+     "Of \"uniform\", above domain.surface_pressure or the background's. Confines what moves along a period, "
+     "where no hydrostatic pressure can, if it is above what gravity pulls apart there: the weight less the "
+     "background's, over a period.",
+     at<&Start::uniform_pressure>, of_fluids, where("pressure", "uniform"), required},
     {"surface_height", Number{dimension::length},
      "Hydrostatic: height of zero pressure, against gravity, under the first fluid.", of_fluids,
      Default{"required there, or layers"}},

@@ -84,6 +84,7 @@ inline constexpr auto lattice_kind_words = std::to_array<Word>(
     {{"square", LatticeKind::square}, {"hexagonal", LatticeKind::hexagonal}, {"fcc", LatticeKind::fcc}});
 inline constexpr auto initial_pressure_words =
     std::to_array<Word>({{"zero", InitialPressure::zero},
+                         {"uniform", InitialPressure::uniform},
                          {"hydrostatic", InitialPressure::hydrostatic},
                          {"taylor_green", InitialPressure::taylor_green}});
 inline constexpr auto cut_rule_words = std::to_array<Word>({{"fixed", CutRule::fixed},

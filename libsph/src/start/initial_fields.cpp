@@ -50,6 +50,7 @@ InitialFields::InitialFields(const Scene& scene) : scene_(scene), scale_(positio
 double InitialFields::pressure(const Double3& x) const {
   if (hydrostatic_) return (*hydrostatic_)(x);
   if (scene_.start.pressure == InitialPressure::zero) return 0;
+  if (scene_.start.pressure == InitialPressure::uniform) return scene_.start.uniform_pressure;
   const double k = 4 * std::numbers::pi / scene_.start.velocity.flow_length,
                u = scene_.start.velocity.flow_speed;
   return -0.25 * first_fluid(scene_).density * u * u * (exact_cos(k * x[0]) + exact_cos(k * x[1]));

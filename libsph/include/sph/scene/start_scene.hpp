@@ -37,7 +37,7 @@ struct LatticeFill {
 };
 
 enum class InitialVelocity { rest, uniform, taylor_green };
-enum class InitialPressure { zero, hydrostatic, taylor_green };
+enum class InitialPressure { zero, uniform, hydrostatic, taylor_green };
 
 /// Of all movers.
 struct StartVelocity {
@@ -69,8 +69,9 @@ struct Start {
 
   StartVelocity velocity;
   InitialPressure pressure = InitialPressure::zero;
-  std::vector<Layer> layers;  ///< hydrostatic: from the surface downwards
-  bool has_surface = false;   ///< resolved: fluids and solids have a free surface, as far as the start shows
+  double uniform_pressure = 0;  ///< uniform: above that of the surface, or of the background [Pa]
+  std::vector<Layer> layers;    ///< hydrostatic: from the surface downwards
+  bool has_surface = false;  ///< resolved: fluids and solids have a free surface, as far as the start shows
   friend bool operator==(const Start&, const Start&) = default;
 };
 
