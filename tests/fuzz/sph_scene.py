@@ -163,6 +163,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
         self.viscosities(d, group)
         if d.chance("lags", 0.3):
             group["exsolution_time"] = d.log("tau", 1e-3, 100) * self.h / self.c
+            if not self.mixed and self.family != "ida" and d.chance("spreads", 0.5):  # up to a limit like that of sound
+                group["water_diffusivity"] = d.log("D", 1e-5, 0.1) * self.h * self.c
         if not d.chance("fragments", 0.5):
             return [group]
         spray = dict(group, name=group["name"] + "_spray")
