@@ -21,6 +21,8 @@ SHOWN = {
     "hydrostatic": ("largest kinetic energy / MgH",), "cylinder": ("rise at 1 s [m]",),
     "rising_bubble": ("least circularity", "centre of mass at 3 s", "change of area"),
     "rising_bubble_2": ("first", "second", "centre of mass at 3 s"), "cavity": ("rms error / U",),
+    "heat_decay": ("rate off", "steps"), "heat_layers": ("rate off", "steps"), "water_decay": ("rate off", "steps"),
+    "barenblatt": ("front ahead / dx", "steps"),
     "fragmentation": ("first breaks [s]", "broken at 13.6 s"),
 }
 
