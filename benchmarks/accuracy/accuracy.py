@@ -110,7 +110,7 @@ class Table:
     def draw(self, axes):
         for name in self.formulations:
             axes.loglog(self.seconds(name), self.errors(name), "o-", lw=1.2, ms=4, label=name)
-        axes.set(xlabel="CPU seconds", ylabel=self.case.ERROR, title=self.case.__doc__.strip().split(":")[0])
+        axes.set(xlabel="CPU seconds", ylabel=self.case.ERROR, title=page.title_of(self.case))
         axes.grid(True, which="both", color="#dddddd", lw=0.5)
         axes.legend()
 

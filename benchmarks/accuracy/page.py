@@ -60,11 +60,15 @@ def order(sizes, entries, key):
     return f"{np.log(entries[-2][key] / entries[-1][key]) / np.log(int(sizes[-1]) / int(sizes[-2])):.1f}"
 
 
+def title_of(module):
+    return re.split(r"(?<! ): |\.?$", module.__doc__.strip().splitlines()[0])[0]
+
+
 def lines():
     rows = []
     for case, formulations in read().items():
         module = importlib.import_module(case)
-        title = re.split(r"(?<! ): |\.?$", module.__doc__.strip().splitlines()[0])[0]
+        title = title_of(module)
         for k, (name, by_size) in enumerate(formulations.items()):
             sizes = sorted(by_size, key=int)
             entries = [by_size[n] for n in sizes]
