@@ -20,13 +20,19 @@ def permeable(coefficient):
     return tuple(f"group.{name}.permeability={{coefficient={coefficient}}}" for name in ("magma", "fresh"))
 
 
+# Beside a step in which water lags: pressures then are another law's.
+LAGS = tuple(f"group.{name}.exsolution_time=1" for name in ("magma", "fresh"))
+SPREADS = tuple(f"group.{name}.water_diffusivity=1e-3" for name in ("magma", "fresh"))
+
 # What is added, its settings, passes over pairs that it adds to a step.
 CASES = {
     "conduction": (warm(2), 1),
     "gas flow": (permeable(1e-12), 1),
     "both, and heat that gas brings": (warm(2) + permeable(1e-12), 2),
     "friction, too": (warm(2) + permeable(1e-12) + ("terms.viscous_heat=true",), 3),
+    "diffusion of water that lags": (SPREADS, 1),
 }
+BESIDE = {"diffusion of water that lags": LAGS}
 SOLVED = {
     "implicit conduction": (*warm(2e11), "terms.implicit_conduction=true"),
     "implicit gas flow": (*permeable(1e-8), "terms.implicit_gas_flow=true"),
@@ -48,11 +54,12 @@ def main():
     for _ in range(options.repeats):
         # So that dt, and with it the number of rebuilds, is the same in all.
         fixed = ("time.dt=1e-4", "time.cfl=")
-        alone = ours(options.build, "exchange.toml", 1, STEPS, fixed)
-        step = loop_seconds(alone)
-        plain.append(1e3 * step / STEPS)
+        beside = {more: ours(options.build, "exchange.toml", 1, STEPS, fixed + more) for more in ((), LAGS)}
+        plain.append(1e3 * loop_seconds(beside[()]) / STEPS)
         for name, more in [(n, m) for n, (m, _) in CASES.items()] + list(SOLVED.items()):
-            perf = ours(options.build, "exchange.toml", 1, STEPS, fixed + more)
+            base = BESIDE.get(name, ())
+            alone, perf = beside[base], ours(options.build, "exchange.toml", 1, STEPS, fixed + base + more)
+            step = loop_seconds(alone)
             pairs = perf["seconds"]["pairs"]["mean"] - alone["seconds"]["pairs"]["mean"]
             if name in SOLVED:
                 counts[name] = perf["solver_iterations"] / STEPS + SOLVED_BESIDES[name]
