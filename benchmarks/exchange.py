@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What exchanges of heat and gas cost beside a step of a fluid without them, alternating, medians of ratios, one rank. Run
-on a quiet machine.
+"""What exchanges of heat and gas cost beside a step of a fluid without them, alternating, medians of ratios of
+CPU seconds, one rank.
 
 exchange.py BUILD [--page]      --page writes the table of README.md
 """
@@ -10,6 +10,7 @@ from pathlib import Path
 
 import tables
 from speed import here, loop_seconds, ours
+
 
 def warm(conductivity):
     return tuple(f"group.{name}.{what}" for name, t in (("magma", 1200), ("fresh", 1400)) for what in
@@ -43,6 +44,11 @@ SOLVED_BESIDES = {"implicit conduction": 2, "implicit gas flow": 3}
 STEPS = 100
 
 
+def of_pairs(perf):
+    """CPU seconds of passes over pairs."""
+    return perf["cost_seconds"] * perf["seconds"]["pairs"]["mean"] / loop_seconds(perf)
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("build", type=Path)
@@ -55,15 +61,15 @@ def main():
         # So that dt, and with it the number of rebuilds, is the same in all.
         fixed = ("time.dt=1e-4", "time.cfl=")
         beside = {more: ours(options.build, "exchange.toml", 1, STEPS, fixed + more) for more in ((), LAGS)}
-        plain.append(1e3 * loop_seconds(beside[()]) / STEPS)
+        plain.append(1e3 * beside[()]["cost_seconds"] / STEPS)
         for name, more in [(n, m) for n, (m, _) in CASES.items()] + list(SOLVED.items()):
             base = BESIDE.get(name, ())
             alone, perf = beside[base], ours(options.build, "exchange.toml", 1, STEPS, fixed + base + more)
-            step = loop_seconds(alone)
-            pairs = perf["seconds"]["pairs"]["mean"] - alone["seconds"]["pairs"]["mean"]
+            step = alone["cost_seconds"]
+            pairs = of_pairs(perf) - of_pairs(alone)
             if name in SOLVED:
                 counts[name] = perf["solver_iterations"] / STEPS + SOLVED_BESIDES[name]
-            seen[name].append((loop_seconds(perf) / step - 1, pairs / step / counts[name]))
+            seen[name].append((perf["cost_seconds"] / step - 1, pairs / step / counts[name]))
     rows = [("a step without", f"{statistics.median(plain):.1f} ms", "", "")]
     for name, found in seen.items():
         rows.append((name, f"+{statistics.median(x for x, _ in found):.2f} of it", f"{counts[name]:.0f}",

@@ -58,7 +58,7 @@ V invert(Lanes& of) {
     const Int64x8 near = open & ((change < 0 ? -change : change) <= (bubbly_tolerance * p).v);
     const Native inside = next < low.v ? low.v : high.v < next ? high.v : next;
     const Native middle = (0.5 * (low + high)).v;
-    p.v = near ? inside : open ? ((next > low.v) & (next < high.v) ? next : middle) : p.v;
+    p.v = near ? inside : open ? (((next > low.v) & (next < high.v)) ? next : middle) : p.v;
     open &= ~near & (p.v > 0);
   }
   of.usual &= ~open & (p.v > 0) & (p.v < of.p_sat.v);

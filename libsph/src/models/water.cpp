@@ -23,17 +23,22 @@ struct WaterContents {
   const Materials* materials;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
+    for (RowClass c : {RowClass::interior_movers, RowClass::boundary_movers}) {
+      const RowRange& r = range_of(step.ranges, c);
+      for (std::size_t i = r.first; i < r.last; ++i) exchange(p, i, step);
+      materials->derive(p, r.first, r.last);
+    }
+  }
+
+  void exchange(const View<reads, writes>& p, std::size_t i, const Step& step) const {
     const auto stride = static_cast<std::size_t>(p.dim()) + 1;
-    const double dt = step.global.dt, *gain = p.get<Field::gas_gain>(), *liquid = p.get<Field::liquid_mass>();
-    for_movers(step.ranges, [&](std::size_t i) {
-      if (gain[i * stride] == 0) return;
-      const double more = dt * gain[i * stride] / liquid[i];
-      double &m = p.get<Field::gas_content>()[i], &w = p.get<Field::dissolved_gas>()[i];
-      if (GasContents::is_fault(*constants, p, i, m + more, step)) return;
-      w = std::fmin(w, m) + more;
-      GasContents::take_in(p, i, dt, more, 0);
-      materials->derive(p, i, i + 1);  // as after a restart
-    });
+    const double dt = step.global.dt, gain = p.get<Field::gas_gain>()[i * stride];
+    if (gain == 0) return;
+    const double more = dt * gain / p.get<Field::liquid_mass>()[i], m = p.get<Field::gas_content>()[i];
+    if (GasContents::is_fault(*constants, p, i, m + more, step)) return;
+    double& w = p.get<Field::dissolved_gas>()[i];
+    w = std::fmin(w, m) + more;
+    GasContents::take_in(p, i, dt, more, 0);
   }
 };
 
