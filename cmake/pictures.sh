@@ -27,6 +27,8 @@ sh apps/volcano/gallery.sh build/bin "$runs"
 /usr/bin/python3 -B benchmarks/accuracy/accuracy.py build --cases rising_bubble rising_bubble_2 --formulations default \
   --work "$runs/accuracy" --out "$runs/accuracy"
 /usr/bin/python3 -B benchmarks/accuracy/bubbles.py "$runs/accuracy"
+/usr/bin/python3 -B benchmarks/accuracy/accuracy.py build --cases heat_decay heat_layers barenblatt water_decay \
+  --work "$runs/accuracy" --out "$runs/accuracy" --chart benchmarks/accuracy/exchanges.png
 if [ "$which" = all ]; then
   /usr/bin/python3 -B benchmarks/bulk/bulk.py build --work "$runs/bulk"
   /usr/bin/python3 -B benchmarks/partitions.py build --work "$runs/partitions"

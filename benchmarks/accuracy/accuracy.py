@@ -2,6 +2,7 @@
 """Speed against error: each case at several resolutions and with several formulations.
 
     accuracy.py [BUILD] [--cases taylor_green ...] [--sizes 25 50] [--formulations default ida] [--work DIR] [--out DIR]
+    ... --chart PICTURE     all cases in one picture, entered in the pictures.json beside it
     ... --page [--busy]     enters the results into results.json and the table of README.md, CPU seconds too unless busy
 
 Prints a table for each case; writes report.md and a chart of CPU seconds against error for each case to OUT. One rank;
@@ -20,14 +21,18 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import page  # noqa: E402
-from runs import Runner, source, write_start  # noqa: E402
+from runs import Runner, here, source, write_start  # noqa: E402
+
+sys.path.append(str(source / "apps/plotting"))
+import manifest  # noqa: E402
 
 CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "poiseuille", "couette", "cavity", "cavity_1000",
          "hydrostatic", "hydrostatic_3d", "two_layers", "rayleigh_taylor", "rising_bubble", "rising_bubble_2",
          "drop_at_rest", "drop_mode", "elliptic_drop", "oscillating_drop", "rotating_patch", "dam_break", "dam_break_3d",
          "sloshing", "kelvin_helmholtz", "kelvin_helmholtz_2", "added_mass", "rayleigh_wave", "standing_wave", "standing_wave_2500", "acoustic", "shock_tube", "shock_tube_10", "sod", "sod_equal", "sedov", "sedov_3d",
          "gaussian_blast", "noh", "cantilever", "rings", "spinning_plate",
-         "bar_wave", "gravity_patch", "cylinder", "fragmentation", "held_grain", "sinking_layer")
+         "bar_wave", "gravity_patch", "cylinder", "fragmentation", "held_grain", "sinking_layer",
+         "heat_decay", "heat_layers", "barenblatt", "water_decay")
 
 
 def order(sizes, errors):
@@ -62,7 +67,8 @@ class Table:
         self.sizes = [n for n in case.SIZES if not sizes or n in sizes]
         chosen = {name: sets for name, sets in case.FORMULATIONS.items() if not formulations or name in formulations}
         futures = {(name, n): runner.start(f"{self.name}_{name.replace(' ', '_')}_{n}", case.SCENE,
-                                           (*case.settings(n), *sets, *self.start_file(runner.work, n)))
+                                           (*case.settings(n), *(sets(n) if callable(sets) else sets),
+                                            *self.start_file(runner.work, n)))
                    for name, sets in chosen.items() for n in self.sizes}
         self.formulations = list(chosen)
         self.runs = {key: future.result() for key, future in futures.items()}
@@ -93,7 +99,7 @@ class Table:
                 continue
             cells = [number(self.values[name, n].get(column)) for column in columns]
             yield (f"| {name} | {n} | " + " | ".join(cells) +
-                   f" | {run.cpu:.2f} | {run.particle_steps_per_second / 1e6:.2f} |")
+                   f" | {number(run.cpu)} | {run.particle_steps_per_second / 1e6:.2f} |")
         yield f"\n| formulation | order | CPU s to 5 % | to 1 % |\n|---|---|---|---|"
         for name in self.formulations:
             errors, seconds = self.errors(name), self.seconds(name)
@@ -101,15 +107,22 @@ class Table:
                    f"{number(seconds_to(0.01, errors, seconds))} |")
         yield ""
 
-    def draw(self, path):
-        figure, axes = plt.subplots(figsize=(5, 3.6), layout="constrained")
+    def draw(self, axes):
         for name in self.formulations:
             axes.loglog(self.seconds(name), self.errors(name), "o-", lw=1.2, ms=4, label=name)
-        axes.set(xlabel="CPU seconds", ylabel=self.case.ERROR, title=self.case.__doc__.strip().split(":")[0])
+        axes.set(xlabel="CPU seconds", ylabel=self.case.ERROR, title=page.title_of(self.case))
         axes.grid(True, which="both", color="#dddddd", lw=0.5)
         axes.legend()
-        figure.savefig(path)
-        plt.close(figure)
+
+
+def draw(tables, path):
+    """Their charts side by side."""
+    figure, axes = plt.subplots(1, len(tables), figsize=(5 if len(tables) == 1 else 2.7 * len(tables), 3.6 if len(tables) == 1 else 2.7),
+                                layout="constrained", squeeze=False)
+    for table, panel in zip(tables, axes[0]):
+        table.draw(panel)
+    figure.savefig(path)
+    plt.close(figure)
 
 
 def main():
@@ -121,6 +134,7 @@ def main():
     arguments.add_argument("--work", type=Path, default=source / "build/accuracy")
     arguments.add_argument("--out", type=Path, default=source / "build/accuracy")
     arguments.add_argument("--jobs", type=int, default=2)
+    arguments.add_argument("--chart", type=Path)
     arguments.add_argument("--page", action="store_true")
     arguments.add_argument("--busy", action="store_true", help="others use the machine: CPU seconds of before stay")
     given = arguments.parse_args()
@@ -128,16 +142,21 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
     runner = Runner(given.build.resolve(), given.work.resolve(), given.jobs)
     plt.rcParams.update({"font.size": 8, "legend.frameon": False, "legend.fontsize": 7, "figure.dpi": 110})
-    report = ["# Speed against error\n"]
+    report, all_cases = ["# Speed against error\n"], []
     for name in given.cases:
         table = Table(importlib.import_module(name), runner, given.sizes, given.formulations)
         lines = list(table.lines())
         print("\n".join(lines), flush=True)
-        table.draw(given.out / f"{name}.png")
+        draw([table], given.out / f"{name}.png")
+        all_cases.append(table)
         report += [*lines, f"![{name}]({name}.png)\n"]
         if given.page:
             page.keep(name, table.runs, table.values, given.busy)
             page.write()
+    if given.chart:
+        draw(all_cases, given.chart)
+        manifest.record([given.chart], [run.folder for table in all_cases for run in table.runs.values()],
+                        [here / table.case.SCENE for table in all_cases])
     (given.out / "report.md").write_text("\n".join(report))
 
 

@@ -21,6 +21,8 @@ SHOWN = {
     "hydrostatic": ("largest kinetic energy / MgH",), "cylinder": ("rise at 1 s [m]",),
     "rising_bubble": ("least circularity", "centre of mass at 3 s", "change of area"),
     "rising_bubble_2": ("first", "second", "centre of mass at 3 s"), "cavity": ("rms error / U",),
+    "heat_decay": ("rate off", "steps"), "heat_layers": ("rate off", "steps"), "water_decay": ("rate off", "steps"),
+    "barenblatt": ("front ahead / dx", "steps"),
     "fragmentation": ("first breaks [s]", "broken at 13.6 s"),
 }
 
@@ -58,11 +60,15 @@ def order(sizes, entries, key):
     return f"{np.log(entries[-2][key] / entries[-1][key]) / np.log(int(sizes[-1]) / int(sizes[-2])):.1f}"
 
 
+def title_of(module):
+    return re.split(r"(?<! ): |\.?$", module.__doc__.strip().splitlines()[0])[0]
+
+
 def lines():
     rows = []
     for case, formulations in read().items():
         module = importlib.import_module(case)
-        title = re.split(r"(?<! ): |\.?$", module.__doc__.strip().splitlines()[0])[0]
+        title = title_of(module)
         for k, (name, by_size) in enumerate(formulations.items()):
             sizes = sorted(by_size, key=int)
             entries = [by_size[n] for n in sizes]

@@ -26,25 +26,27 @@ class Snapshot:
             names = ("position", "velocity", "density", "pressure", "mass", "group")
             position, velocity, density, pressure, mass, group = (particles[name][()] for name in names)
             kinds = [g["kind"] for g in tomllib.loads(file.attrs["scene"])["group"]]
-            stress, force = (particles[name][()] if name in particles else None for name in ("stress", "fluid_force"))
+            others = ("stress", "fluid_force", "temperature", "dissolved_gas")
+            others = [particles[name][()] if name in particles else None for name in others]
         moves = np.array([kind != "wall" for kind in kinds])[group]
         self.position, self.velocity, self.density = position[moves], velocity[moves], density[moves]
         self.pressure, self.mass, self.group = pressure[moves], mass[moves], group[moves]
-        self.stress, self.fluid_force = (None if values is None else values[moves] for values in (stress, force))
+        self.stress, self.fluid_force, self.temperature, self.dissolved = (
+            None if values is None else values[moves] for values in others)
 
     @property
     def kinetic(self):
         return 0.5 * float(np.sum(self.mass * np.sum(self.velocity**2, axis=1)))
 
 
-def write_start(path, x, v, group=0, rho=None, mass=None, stress=None, u=None):
-    """A start file; ids in the order of the rows. What is None follows from the scene."""
+def write_start(path, x, v, group=0, **matter):
+    """A start file; ids in the order of the rows. `matter`: rho, mass, stress, u, T, m; what is not given follows from the scene."""
     n = len(x)
     with h5py.File(path, "w") as file:
         file["id"] = np.arange(1, n + 1, dtype=np.uint64)
         file["x"], file["v"] = x, np.broadcast_to(v, np.shape(x))
         file["group"] = np.broadcast_to(np.asarray(group, dtype=np.uint32), n)
-        for name, values in (("rho", rho), ("mass", mass), ("stress", stress), ("u", u)):
+        for name, values in matter.items():
             if values is not None:
                 file[name] = np.broadcast_to(values, n) if np.ndim(values) < 2 else values
 

@@ -26,8 +26,9 @@ class Exchanges:
             terms["viscosity"] = "laplacian"
         if warm and d.chance("friction", 0.3):
             terms["viscous_heat"] = True
-        limited = fixed or flows or not terms.get("implicit_conduction")
-        if (warm or flows) and limited and d.chance("still", 0.2):
+        spreads = any("water_diffusivity" in g for g in matter)
+        limited = fixed or spreads or flows or not terms.get("implicit_conduction")
+        if (warm or flows or spreads) and limited and d.chance("still", 0.2):
             terms["motion"] = False
             terms.pop("viscous_heat", None)
         elif d.chance("say motion", 0.1):
@@ -38,7 +39,7 @@ class Exchanges:
             del scene["terms"]
         self.means(d, matter)
         renewed = self.resets(d, scene, matter, warm)
-        if (warm or flows or renewed) and d.chance("budget", 0.3):
+        if (warm or flows or spreads or renewed) and d.chance("budget", 0.3):
             scene["monitor"] = [{"kind": "budget"}]
         self.background(d, scene)
 

@@ -123,7 +123,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             out.append(self.wall(out))
         self.clamp = None
         if self.family == "total" and d.chance("clamp", 0.5):
-            self.clamp = {"name": "clamp", "kind": "wall", "clamps": d.one("clamped", self.movers)}
+            bodies = [m for m in self.movers if m != "melt"]
+            self.clamp = {"name": "clamp", "kind": "wall", "clamps": d.one("clamped", bodies)}
             out.append(self.clamp)
         return out
 
@@ -163,6 +164,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
         self.viscosities(d, group)
         if d.chance("lags", 0.3):
             group["exsolution_time"] = d.log("tau", 1e-3, 100) * self.h / self.c
+            if not self.mixed and self.family != "ida" and d.chance("spreads", 0.5):  # up to a limit like that of sound
+                group["water_diffusivity"] = d.log("D", 1e-5, 0.1) * self.h * self.c
         if not d.chance("fragments", 0.5):
             return [group]
         spray = dict(group, name=group["name"] + "_spray")
@@ -209,7 +212,21 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             if nu := self.viscosity(d.part("body", k)):
                 group["viscosity"] = min(nu, 0.1 * self.c * self.h * self.rho)
             out.append(group)
+        if d.chance("in a fluid", 0.5):
+            out.append(self.around(d.part("around")))
         return out
+
+    def around(self, d):
+        """A fluid in which bodies are: one that keeps its gas and has one viscosity."""
+        group = {"name": "melt", "kind": "fluid", "density": self.rho * d.one("density", [1.0, 0.5, 1.7])}
+        group |= self.stiffness(d, group["density"])
+        self.viscosities(d, group)
+        return group
+
+    @property
+    def wet(self):
+        """Bodies in a fluid."""
+        return self.family == "total" and "melt" in self.movers
 
     def gases(self):
         d, out = self.d, []
@@ -306,14 +323,14 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
         d = self.d
         down = [a for a in range(self.dim) if self.gravity[a]]
         periodic = any(self.box.ends[a] == "periodic" for a in down)
-        fluids = self.family in ("fluid", "solid", "ida")
+        fluids = self.family in ("fluid", "solid", "ida") or self.wet
         if fluids and down and not periodic and d.chance("hydrostatic", 0.7):
             out["pressure"] = "hydrostatic"
             g = math.sqrt(sum(x * x for x in self.gravity))
             top = max(-sum(self.gravity[a] * x[a] for a in range(self.dim)) / g
                       for x in (out["lower"], out["upper"]))
             if d.chance("layers", 0.4):
-                movers = self.movers[: d.whole("number of layers", 1, 3)]
+                movers = ["melt"] if self.wet else self.movers[: d.whole("number of layers", 1, 3)]
                 out["layer"] = [{"group": m, "top": top - k * 2 * self.dx} for k, m in enumerate(movers)]
                 if d.chance("plug", 0.2):
                     out["layer"][0]["pressure"] = self.rho * self.c**2 * d.log("plug held", 1e-4, 0.02)
@@ -323,7 +340,7 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             out["pressure"] = "taylor_green"
             if self.family == "gas":
                 out["flow_speed"] = min(out["flow_speed"], 0.2 * self.c)
-        elif self.family in ("fluid", "solid", "ida") and d.chance("confined", 0.25):
+        elif fluids and d.chance("confined", 0.25):
             out |= {"pressure": "uniform", "uniform_pressure": self.rho * self.c**2 * d.one("confines", [0.0, 1e-3, 0.03])}
         elif d.chance("say zero", 0.1):
             out["pressure"] = "zero"

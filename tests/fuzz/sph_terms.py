@@ -9,6 +9,8 @@ class Terms:
                 out["largest_stretch"] = self.stretch
             if d.chance("hourglass", 0.4):
                 out["hourglass"] = d.real("hourglass value", 0, 1)
+            if self.wet:
+                self.wet_terms(out)
             return out
         if self.family == "gas":
             for key in ("artificial_viscosity", "quadratic_viscosity", "artificial_conduction"):
@@ -31,6 +33,17 @@ class Terms:
         if self.family == "fluid":
             self.fluid_terms(scene, out)
         return out
+
+    def wet_terms(self, out):
+        d = self.d
+        if d.chance("artificial", 0.25):
+            out["artificial_viscosity"] = d.log("alpha", 0.01, 0.5)
+        if d.chance("diffusion", 0.3):
+            out["density_diffusion"] = d.one("delta", [0.0, 0.05, 0.1, 0.3])
+        if d.chance("form", 0.4):
+            out["viscosity"] = d.one("viscosity form", ["laplacian", "symmetric"])
+        if d.chance("shifting", 0.3):
+            out["shifting"] = True
 
     def fluid_terms(self, scene, out):
         d = self.d

@@ -30,7 +30,7 @@ FaceFlux face_flux(const GroupHeat& wall, double t, double conducts) {
 
 }  // namespace
 
-// Cleary & Monaghan (1999), eq. 29; Darcy's law; beside walls what is straight between the particle and the face.
+// Cleary & Monaghan (1999), eq. 29; Darcy's law, Fick's law; beside walls what is straight between the particle and the face.
 void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const {
   const PairParticle &i = pair.i, &j = pair.j;
   const auto one = [&](Field f, int k, double value) {
@@ -81,6 +81,11 @@ void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const
     const double flow = rate * drive;
     if (term.name.ends_with("GasHeat"))
       return one(Field::gas_heat, 0, flow * (drive > 0 ? j : i).sensible_heat);
+    one(Field::gas_gain, 0, flow);
+    for (int a = 0; a < dim_; ++a) one(Field::gas_gain, 1 + a, 0.5 * flow * (j.v(a) - i.v(a)));
+  } else if (term.name == "WaterDiffusion" || term.name == "WaterHeat") {
+    const double flow = weight * harmonic(i.water_mobility, j.water_mobility) * (j.dissolved - i.dissolved);
+    if (term.name == "WaterHeat") return one(Field::gas_heat, 0, flow * (flow > 0 ? j : i).sensible_heat);
     one(Field::gas_gain, 0, flow);
     for (int a = 0; a < dim_; ++a) one(Field::gas_gain, 1 + a, 0.5 * flow * (j.v(a) - i.v(a)));
   } else if (term.name == "ViscousHeat" || term.name == "SymmetricViscousHeat") {

@@ -46,6 +46,7 @@ Scene scene_for(const Fusion& fusion) {
     s.groups[g].heat.material.conductivity = 2 + 3 * static_cast<double>(g);
     s.groups[g].bubbly.permeability.coefficient =
         1.3 - 0.5 * static_cast<double>(g);  // solids and walls: none
+    s.groups[g].bubbly.water_diffusivity = g < solid ? 1e-3 * (1 + 6 * static_cast<double>(g)) : 0.0;
     s.groups[g].bubbly.gas_rt = 3000 + 500 * static_cast<double>(g);
   }
   s.groups[solid].bubbly.permeability.coefficient = 0;
@@ -229,6 +230,8 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   numbers(Field::gas_mobility, 0.5, 0.4);
   numbers(Field::gas_pressure, 6000, 4000);
   numbers(Field::trial, 6000, 4000);
+  numbers(Field::gas_content, 0.05, 0.03);
+  numbers(Field::dissolved_gas, 0.04, 0.03);
 }
 
 // Pairs are taken where they were half a step ago, at most `back` farther apart.

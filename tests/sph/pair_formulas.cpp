@@ -158,6 +158,8 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("GasOperator"):
     case key("GasSlope"):
     case key("WallGas"):
+    case key("WaterDiffusion"):
+    case key("WaterHeat"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):
       return add_exchange(pair, term, sums);

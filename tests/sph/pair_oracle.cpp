@@ -97,6 +97,8 @@ void PairOracle::load() {
     q.gas_mobility = get(Field::gas_mobility, row, 0);
     q.gas_pressure = get(Field::gas_pressure, row, 0);
     q.gas_density = g.kind == GroupKind::wall ? 0.0 : q.gas_pressure / g.bubbly.gas_rt;
+    q.dissolved = std::min(get(Field::dissolved_gas, row, 0), get(Field::gas_content, row, 0));
+    q.water_mobility = q.density / (1 + get(Field::gas_content, row, 0)) * g.bubbly.water_diffusivity;
     q.open = g.wall.gas_pressure.has_value();
     q.slips = g.wall.slip;
     q.group = static_cast<int>(group);
@@ -210,6 +212,8 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("GasOperator"):
     case key("GasSlope"):
     case key("WallGas"):
+    case key("WaterDiffusion"):
+    case key("WaterHeat"):
     case key("ViscousHeat"):
     case key("SymmetricViscousHeat"):
     case key("ClampReaction"):

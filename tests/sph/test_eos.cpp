@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sph/laws/eos/bubbly.hpp"
 #include "sph/laws/eos/ideal_gas.hpp"
@@ -276,6 +277,50 @@ TEST(IdealGas, CompressionIsAdiabaticToSecondOrderAndReversible) {
     EXPECT_LT(std::abs(error[1]), 2e-4) << gamma;
   }
   EXPECT_LT((sph::IdealGas{1.4}.compressed(1, 0.1)), 0);  // no step may be as long: a guard ends the run
+}
+
+// Eight particles at a time have the bits of each alone, and of all that follows: contents from none to more than the law can
+// hold but for a little, densities from nothing to above saturation, the ends of a row of particles.
+TEST(BubblyEos, OfManyParticlesIsThatOfEach) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform;
+  for (const double gamma : {1.0, 0.5, 0.7}) {
+    sph::Group g;
+    g.density = 2400;
+    g.eos.bulk_modulus = 1e9;
+    g.bubbly.gas_content = 0.02;
+    g.bubbly.gas_rt = 5e5;
+    g.bubbly.solubility_pressure = gamma == 1 ? 1e9 : 5.92e10;
+    g.bubbly.solubility_exponent = gamma;
+    constexpr std::size_t n = 4003;
+    std::vector<double> rho(n), m(n), found(3 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      m[i] = i % 50 == 0 ? 0 : i % 3 == 0 ? 0.02 : std::pow(10, -12 + 11 * uniform(random));
+      rho[i] = i % 70 == 0
+                   ? -1
+                   : 2400 * (i % 2 == 0 ? std::pow(10, -7 * uniform(random)) : 0.9 + 0.2 * uniform(random));
+      if (i % 31 == 0 && m[i] > 0)
+        rho[i] = bubbly_eos(g, m[i]).density(bubbly_eos(g, m[i]).saturation_pressure() *
+                                             (1 - 1e-15 * static_cast<double>(i % 7)));
+    }
+    const sph::EosRows rows{rho.data(),           m.data(), nullptr, nullptr, found.data(), found.data() + n,
+                            found.data() + 2 * n, 1e5};
+    for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, n}, {3, 4}, {5, 16}, {17, 30}}) {
+      std::fill(found.begin(), found.end(), -7.0);
+      sph::BubblyMagma::derive(g, rows, first, last);
+      for (std::size_t i = 0; i < n; ++i) {
+        const BubblyEos eos = bubbly_eos(g, m[i]);
+        const bool in = i >= first && i < last;
+        const double p = eos.pressure(rho[i]);
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(found[i]), std::bit_cast<std::uint64_t>(in ? p - 1e5 : -7))
+            << rho[i] << ' ' << m[i];
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(found[n + i]),
+                  std::bit_cast<std::uint64_t>(in ? eos.sound_speed(p) : -7));
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(found[2 * n + i]),
+                  std::bit_cast<std::uint64_t>(in ? eos.void_fraction(p) : -7));
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -232,11 +232,13 @@ std::vector<std::array<double, 2>> count_bonds(PairCase& c, const std::vector<Bo
   return out;
 }
 
-void place(const std::vector<Bond>& bonds, std::vector<test::Placed>& placed) {
+/// `other`: what the second is of, the solid or its clamp.
+void place(const std::vector<Bond>& bonds, std::vector<test::Placed>& placed,
+           std::uint32_t other = test::solid) {
   for (const Bond& bond : bonds) {
     const double y = 12 * static_cast<double>(placed.size());
     placed.push_back({{20, y, 0}, test::solid});
-    placed.push_back({{20 + bond.r, y, 0}, test::solid});
+    placed.push_back({{20 + bond.r, y, 0}, other});
   }
 }
 
@@ -270,7 +272,7 @@ TEST(Fusions, do_not_bond_particles_that_were_far_apart) {
     ++looked;
     std::vector<Bond> bonds(5, {1.1, 0});
     std::vector<test::Placed> placed;
-    place(bonds, placed);
+    place(bonds, placed, fusion.values.has(Value::clamp_reaction) ? test::clamp : test::solid);
     PairCase c(fusion, placed, {.halo = false});
     const int shift = c.context().scale.position_shift;
     for (std::size_t k = 0; k < bonds.size(); ++k)

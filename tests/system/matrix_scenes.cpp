@@ -119,6 +119,11 @@ const std::vector<Source>& sources() {
       {"freezing2d", "tests/scenes/freezing2d.toml", {"time.steps=1"}},
       // boxes that renew what flows through them, a background, walls that cool and radiate, means that are state
       {"through2d", "tests/scenes/through2d.toml", {"time.steps=1"}},
+      // ... where what is dissolved spreads, and takes heat and momentum along
+      {"water2d",
+       "tests/scenes/through2d.toml",
+       {"time.steps=1", "group.magma.water_diffusivity=20", "group.spray.exsolution_time=0.1",
+        "group.spray.water_diffusivity=5"}},
       {"laws3d",
        "tests/scenes/box3d_gas.toml",
        {"group.magma.becomes.0.void_fraction_above=0.09", "group.magma.viscosity=",
@@ -129,6 +134,11 @@ const std::vector<Source>& sources() {
        {"group.magma.becomes.0.void_fraction_above=0.09",
         "group.magma.permeability={law=\"percolation\", coefficient=1e-8, threshold=0.01}",
         "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-8}", "group.wall.gas_pressure=0"}},
+      {"water3d",
+       "tests/scenes/box3d_gas.toml",
+       {"group.magma.becomes.0.void_fraction_above=0.09", "group.magma.exsolution_time=0.1",
+        "group.magma.water_diffusivity=3", "group.spray.exsolution_time=0.05",
+        "group.spray.water_diffusivity=1"}},
       {"implicit3d",
        "tests/scenes/box3d_gas.toml",
        {"group.magma.becomes.0.void_fraction_above=0.09",

@@ -235,6 +235,12 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "tau, in which what is dissolved follows the pressure: dw/dt = (min(m, m_d) - w) / tau. All starts in "
      "equilibrium.",
      at<&Group::bubbly, &BubblyMaterial::exsolution_time>, of_sph, bubbly, Default{"0: at once"}},
+    {"water_diffusivity", Number{dimension::diffusivity, not_negative},
+     "D of what is dissolved, w, of groups with an exsolution_time (without, w is a function of the "
+     "pressure). It "
+     "spreads between particles of groups with a D; they keep their volume, so where nothing moves pressures "
+     "follow.",
+     at<&Group::bubbly, &BubblyMaterial::water_diffusivity>, of_sph, bubbly, Default{"0: it stays"}},
     {"becomes", Inner{&becomes}, "When particles join another group.", of_sph, matter},
     {"permeability", Inner{&permeability}, "Gas flows through a bubbly fluid by Darcy's law.", of_sph,
      bubbly},

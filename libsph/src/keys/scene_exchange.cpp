@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "keys/scene_resolve.hpp"
 #include "sph/laws/eos/law.hpp"
@@ -37,12 +38,23 @@ void read_permeability(const GroupReader& table, Group& group) {
   inner.finish();
 }
 
+/// Where what is dissolved follows the pressure at once it is no state of its own: its gradients are those of the pressure.
+void read_water(const GroupReader& table, const Group& group) {
+  if (group.bubbly.water_diffusivity > 0 && group.bubbly.exsolution_time == 0)
+    table.fail("water_diffusivity", "is given, and what is dissolved follows the pressure at once",
+               "give exsolution_time too");
+}
+
 void check_gas_flow(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
   const bool grains = any_grains(groups);
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    if (grains && groups[k].bubbly.permeability.coefficient > 0)
-      tables[k].fail("permeability", "is of a fluid with grains in it",
-                     "fluids without grains alone have it yet");
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    using Name = GroupReader::Name<>;
+    const BubblyMaterial& m = groups[k].bubbly;
+    for (const auto& [given, key] : {std::pair(m.permeability.coefficient, Name("permeability")),
+                                     std::pair(m.water_diffusivity, Name("water_diffusivity"))})
+      if (grains && given > 0)
+        tables[k].fail(key, "is of a fluid with grains in it", "fluids without grains alone have it yet");
+  }
   const bool flows =
       std::ranges::any_of(groups, [](const Group& g) { return g.bubbly.permeability.coefficient > 0; });
   for (std::size_t k = 0; k < groups.size(); ++k)
@@ -163,6 +175,7 @@ void check_viscosity_laws(const std::vector<GroupReader>& tables, const std::vec
 
 void read_exchange(const GroupReader& table, Group& group) {
   read_permeability(table, group);
+  read_water(table, group);
   read_heat(table, group);
   if (group.kind == GroupKind::wall) read_wall_heat(table, group);
   read_viscosity_law(table, group);

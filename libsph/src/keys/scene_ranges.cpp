@@ -31,6 +31,15 @@ constexpr Quantity outer_pressure{"p", "Pa", pressures, pressures};
 constexpr Quantity contact_energy{"(K + 4/3 mu) dx^D", "J", {0, 1e36}, {0, 1e144}};
 constexpr Quantity specific_energy{"u", "J/kg", row_single, row_double};
 constexpr Quantity viscosity{"eta / h", "Pa s/m", row_single, row_double};
+// No star is as hot; its fourth power must be a number.
+constexpr Quantity temperature{"T", "K", {0, 1e12}, {0, 1e12}};
+// Exchanges are in double precision always.
+constexpr Quantity specific_heat{"c_p", "J/kg/K", row_double, row_double};
+constexpr Quantity conductivity{"k / h", "W/m^2/K", row_double, row_double};
+constexpr Quantity heat_flux{"|q|", "W/m^2", row_double, row_double};
+constexpr Quantity face_flux{"h_c", "W/m^2/K", row_double, row_double};
+constexpr Quantity permeability{"k / h", "m", row_double, row_double};
+constexpr Quantity water{"rho_0 D / h", "kg/m^2/s", row_double, row_double};
 constexpr Quantity tension{"sigma / h", "Pa", row_single, row_double};
 constexpr Quantity head{"g h", "m^2/s^2", row_single, row_single};  // far above the square of light's speed
 constexpr Quantity potential{"a potential", "m^2/s^2", row_single, row_single};
@@ -81,6 +90,29 @@ void check_group(const Ranges& ranges, const GroupReader& table, const Scene& sc
   ranges.check(table, stiff, contact_energy, energy);
 }
 
+void check_exchange(const Ranges& ranges, const GroupReader& table, const Group& g, double h) {
+  const auto inner = [&]<auto & of>(GroupReader::Name<> name, auto look) {
+    if (table.has(name)) look(table.table<of>());
+  };
+  inner.operator()<keys::heat>("heat", [&](const auto& heat) {
+    ranges.check(heat, "specific_heat", specific_heat, g.heat.material.specific_heat);
+    ranges.check(heat, "conductivity", conductivity, g.heat.material.conductivity / h);
+  });
+  inner.operator()<keys::heat_transfer>("heat_transfer", [&](const auto& transfer) {
+    ranges.check(transfer, "coefficient", face_flux, g.heat.transfer.coefficient);
+    ranges.check(transfer, "temperature", temperature, g.heat.transfer.temperature);
+  });
+  inner.operator()<keys::radiation>("radiation", [&](const auto& radiation) {
+    ranges.check(radiation, "temperature", temperature, g.heat.radiation.temperature);
+  });
+  inner.operator()<keys::permeability>("permeability", [&](const auto& inside) {
+    ranges.check(inside, "coefficient", permeability, g.bubbly.permeability.coefficient / h);
+  });
+  if (g.heat.temperature) ranges.check(table, "temperature", temperature, *g.heat.temperature);
+  if (g.heat.wall_flux) ranges.check(table, "heat_flux", heat_flux, std::abs(*g.heat.wall_flux));
+  ranges.check(table, "water_diffusivity", water, g.density * g.bubbly.water_diffusivity / h);
+}
+
 }  // namespace
 
 void check_ranges(const TopReader& top, const DomainReader& domain, const StartReader& start,
@@ -89,7 +121,10 @@ void check_ranges(const TopReader& top, const DomainReader& domain, const StartR
   const double h = scene.kernel.smoothing_length;
   const std::vector<GroupReader> groups = top.tables<keys::group>();
   for (std::size_t k = 0; k < groups.size(); ++k)
-    if (scene.groups[k].kind != GroupKind::grain) check_group(ranges, groups[k], scene, scene.groups[k]);
+    if (const Group& g = scene.groups[k]; g.kind != GroupKind::grain) {
+      check_group(ranges, groups[k], scene, g);
+      check_exchange(ranges, groups[k], g, h);
+    }
   double square = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     ranges.check(domain, "gravity", head, std::abs(scene.domain.gravity[a]) * h);

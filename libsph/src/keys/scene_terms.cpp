@@ -78,11 +78,13 @@ void check_terms(const TermsReader& table, const Scene& scene) {
   refuse(terms.density_diffusion != 0, "density_diffusion");
   refuse(terms.artificial_viscosity != 0, "artificial_viscosity");
   refuse(terms.shifting, "shifting");
-  if (ida && (scene.has_heat() || scene.has_gas_flow()))
-    table.fail("motion", "is of a scene with heat or gas flow",
-               "formulation = \"ida\" has none: remove group.heat and group.permeability");
-  if (!terms.exchange.motion && !scene.has_heat() && !scene.has_gas_flow())
-    table.fail("motion", "is false", "without group.heat and group.permeability nothing would happen");
+  if (ida && scene.has_exchange())
+    table.fail("motion", "is of a scene with heat, gas flow or diffusion of water",
+               "formulation = \"ida\" has none: remove group.heat, group.permeability and "
+               "group.water_diffusivity");
+  if (!terms.exchange.motion && !scene.has_exchange())
+    table.fail("motion", "is false",
+               "without group.heat, group.permeability or group.water_diffusivity nothing would happen");
   if (terms.exchange.viscous_heat && !scene.has_heat())
     table.fail("viscous_heat", "is on", "without group.heat it would warm nothing");
   if (terms.exchange.viscous_heat && !terms.exchange.motion)
@@ -120,7 +122,7 @@ void read_terms(const TermsReader& table, Scene& scene) {
 // Gas that flows does, as soon as it does: that is looked at in a run.
 void check_still_step(const TermsReader& terms, const Scene& scene) {
   const ExchangeTerms& exchange = scene.terms.exchange;
-  if (exchange.motion || scene.has_gas_flow() || scene.time.dt) return;
+  if (exchange.motion || scene.has_gas_flow() || scene.has_water_diffusion() || scene.time.dt) return;
   if (exchange.implicit_conduction)
     terms.fail("implicit_conduction", "is on, and nothing else limits the time step", "give time.dt");
   if (std::ranges::none_of(scene.groups, [](const Group& g) { return g.heat.material.conductivity > 0; }))

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "models/gas_contents.hpp"
 #include "models/gas_flow_solver.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/laws/eos/bubbly.hpp"
@@ -96,12 +97,10 @@ struct Inertia {
 };
 
 struct Contents {
-  static constexpr FieldSet reads =
-      FaultView::reads | GasOutside::reads | Materials::reads |
-      FieldSet{Field::gas_gain, Field::gas_heat, Field::trial, Field::liquid_mass, Field::temperature};
+  static constexpr FieldSet reads = FaultView::reads | GasContents::reads | GasOutside::reads |
+                                    Materials::reads | FieldSet{Field::trial, Field::temperature};
   static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::gas_content, Field::mass,     Field::density,    Field::velocity,
-                                   Field::gas_inflow,  Field::enthalpy, Field::heat_inflow};
+      Materials::writes | GasContents::writes | FieldSet{Field::gas_inflow, Field::heat_inflow};
   const SphConstants* constants;
   const Materials* materials;
   GasOutside outside;
@@ -121,42 +120,24 @@ struct Contents {
     const auto d = static_cast<std::size_t>(p.dim());
     const double dt = step.global.dt, liquid = p.get<Field::liquid_mass>()[i];
     if (!(liquid > 0)) return;  // of no bubbly group
-    double &m = p.get<Field::gas_content>()[i], &mass = p.get<Field::mass>()[i],
-           &rho = p.get<Field::density>()[i];
+    const double m = p.get<Field::gas_content>()[i];
     const double* gain = p.get<Field::gas_gain>() + i * (d + 1);
     const double drive = (implicit ? p.get<Field::trial>() : p.get<Field::gas_pressure>())[i];
     const double from_outside = outside.rate(p, i, drive), more = dt * (gain[0] + from_outside) / liquid;
     change->see(std::fabs(more), m);
     if (gain[0] == 0 && from_outside == 0) return;
-    if (is_fault(p, i, m + more, step)) return;
-    m += more;
+    if (GasContents::is_fault(*constants, p, i, m + more, step)) return;
     if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += dt * from_outside;
-    const double now = liquid * (1 + m);
-    if (p.get<Field::enthalpy>() != nullptr) carry_heat(p, i, dt, from_outside, now);
-    rho *= now / mass;
-    mass = now;
-    for (std::size_t a = 0; a < d; ++a) p.get<Field::velocity>()[i * d + a] += dt * gain[1 + a] / now;
+    GasContents::take_in(p, i, dt, more, heat_from_outside(p, i, dt * from_outside));
   }
 
-  /// The law could not say what the pressure is.
-  bool is_fault(const FaultView& p, std::size_t i, double content, const Step& step) const {
-    const bool possible = content >= 0 && content < 1;
-    if (possible && can_hold(constants->scene->groups[p.get<Field::group>()[i]], content)) return false;
-    find_fault(*constants, p, i, step,
-               fmt::format("has a gas content of {:.3g}{}", content,
-                           possible ? ", of which the densest gas is denser than the liquid; check the "
-                                      "solubility, or lower the gas_pressure of walls"
-                                    : "; reduce time.dt, time.cfl or group.permeability"));
-    return true;
-  }
-
-  /// What comes and goes through walls and the surface is as warm as the particle.
-  void carry_heat(const View<reads, writes>& p, std::size_t i, double dt, double gas, double now) const {
+  /// What comes and goes through walls and the surface is as warm as the particle [J].
+  double heat_from_outside(const View<reads, writes>& p, std::size_t i, double gas) const {
+    if (p.get<Field::enthalpy>() == nullptr) return 0;
     const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
-    const double heat = dt * gas * (g.heat.material.specific_heat * p.get<Field::temperature>()[i]);
-    double& h = p.get<Field::enthalpy>()[i];
-    h = (p.get<Field::mass>()[i] * h + dt * p.get<Field::gas_heat>()[i] + heat) / now;
+    const double heat = gas * (g.heat.material.specific_heat * p.get<Field::temperature>()[i]);
     if (double* inflow = p.get<Field::heat_inflow>()) inflow[i] += heat;
+    return heat;
   }
 };
 
@@ -216,11 +197,7 @@ void Degassing::Fastest::see(double of_conductance, double of_stiffness) {
 
 double Degassing::start(const decomp::Comm& comm, Particles& p, GlobalState&) {
   const Scene& scene = *constants_->scene;
-  const auto* group = p.data<Field::group>();
-  const double *mass = p.data<Field::mass>(), *m = p.data<Field::gas_content>();
-  double* liquid = p.data<Field::liquid_mass>();
-  for (std::size_t i = 0; i < p.owned(); ++i)
-    liquid[i] = scene.groups[group[i]].eos.law->kind == EosKind::bubbly ? mass[i] / (1 + m[i]) : 0.0;
+  GasContents::start(*constants_, p);
   const Fastest own = at_start(p);
   std::array<double, 2> largest{own.conductance, own.stiffness};
   comm.max(largest);

@@ -144,6 +144,7 @@ GroupTable group_table(const Scene& of) {
                                                                      : g.bubbly.permeability.coefficient);
     groups.gas_flow.inverse_rt.push_back(
         g.kind != GroupKind::wall && g.bubbly.gas_rt > 0 ? 1 / g.bubbly.gas_rt : 0.0);
+    groups.gas_flow.diffusivity.push_back(g.bubbly.water_diffusivity);
     groups.gas_flow.wall_open.push_back(g.wall.gas_pressure ? 1.0 : 0.0);
     if (g.kind != GroupKind::grain) g.eos.law->check(g);
   }

@@ -16,6 +16,7 @@ namespace {
 
 void add_exchanges(Builder& b, const SphModels& m) {
   if (m.degassing) m.degassing->add_to(b);
+  if (m.water) m.water->add_to(b);
   if (m.heat) m.heat->add_to(b);
 }
 
@@ -98,6 +99,7 @@ SphModels::SphModels(std::size_t set, const Builder& b) {
   const Scene& s = b.scene();
   if (s.terms.shifting && s.terms.exchange.motion) shifting.emplace(set, b.constants(), b.body_forces());
   if (s.has_gas_flow()) degassing.emplace(set, b.constants(), b.materials());
+  if (s.has_water_diffusion()) water.emplace(set, b.constants(), b.materials());
   if (s.has_heat()) heat.emplace(set, b.constants());
 }
 
@@ -105,6 +107,7 @@ std::vector<Model*> SphModels::all() {
   std::vector<Model*> out;
   if (shifting) out.push_back(&*shifting);
   if (degassing) out.push_back(&*degassing);
+  if (water) out.push_back(&*water);
   if (heat) out.push_back(&*heat);
   return out;
 }

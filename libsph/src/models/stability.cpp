@@ -9,6 +9,7 @@
 #include "sph/models/grain_limits.hpp"
 #include "sph/models/heat.hpp"
 #include "sph/models/sph_time_step.hpp"
+#include "sph/models/water.hpp"
 #include "start/start_sounds.hpp"
 
 namespace sph {
@@ -44,6 +45,7 @@ void check_time_step(const Scene& scene) {
     throw InputError(fmt::format(
         "{}: time.dt: {:.6g} s is above the limit of explicit conduction, {:.6g} s; set it to that or less",
         scene.file, *scene.time.dt, limit));
+  check_water_step(scene);
   // What stiffens under pressure is looked at once it is there, by a start and by `check`.
   if (std::ranges::any_of(scene.groups, stiffens)) return;
   const SphConstants constants(scene, position_scale(scene));

@@ -39,6 +39,10 @@ bool Scene::has_gas_flow() const {
   return std::ranges::any_of(groups, [](const Group& g) { return g.bubbly.permeability.coefficient > 0; });
 }
 
+bool Scene::has_water_diffusion() const {
+  return std::ranges::any_of(groups, [](const Group& g) { return g.bubbly.water_diffusivity > 0; });
+}
+
 bool Scene::has_heat() const {
   return std::ranges::any_of(groups, [](const Group& g) { return g.heat.material.specific_heat > 0; });
 }

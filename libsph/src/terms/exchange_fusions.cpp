@@ -3,6 +3,7 @@
 #include "sph/terms/conduction.hpp"
 #include "sph/terms/gas_flow.hpp"
 #include "sph/terms/viscous_heat.hpp"
+#include "sph/terms/water_diffusion.hpp"
 
 namespace sph {
 namespace {
@@ -20,6 +21,8 @@ std::vector<Fusion> exchanges() {
           fusion_of<double, D, Kernel, ImplicitGasFlow>(),
           fusion_of<double, D, Kernel, ImplicitGasFlow, ImplicitGasHeat>(),
           fusion_of<double, D, Kernel, WallGas>(),
+          fusion_of<double, D, Kernel, WaterDiffusion>(),
+          fusion_of<double, D, Kernel, WaterDiffusion, WaterHeat>(),
           fusion_of<double, D, Kernel, ViscousHeat>(),
           fusion_of<double, D, Kernel, SymmetricViscousHeat>()};
 }

@@ -10,6 +10,7 @@
 #include "sph/models/heat.hpp"
 #include "sph/models/model.hpp"
 #include "sph/models/shifting.hpp"
+#include "sph/models/water.hpp"
 
 namespace sph {
 
@@ -20,6 +21,7 @@ struct SphModels {
 
   std::optional<Shifting> shifting;
   std::optional<Degassing> degassing;
+  std::optional<Water> water;
   std::optional<Heat> heat;
 };
 

@@ -304,11 +304,15 @@ struct HeatColumns {
   }
 };
 
-/// Of gas that flows through melt.
+/// Of volatiles that flow through melt, or spread in it.
 struct GasFlowColumns {
   explicit GasFlowColumns(const Particles& p)
-      : mobility(p.data<Field::gas_mobility>()), pressure(p.data<Field::gas_pressure>()) {}
-  const double *mobility, *pressure;
+      : mobility(p.data<Field::gas_mobility>()),
+        pressure(p.data<Field::gas_pressure>()),
+        content(p.data<Field::gas_content>()),
+        dissolved(p.data<Field::dissolved_gas>()),
+        rho(p.data<Field::density>()) {}
+  const double *mobility, *pressure, *content, *dissolved, *rho;
 
   template <class Row>
   [[gnu::always_inline]] void pack(const Row& row) const {
@@ -322,6 +326,12 @@ struct GasFlowColumns {
       row.put(Value::gas_density, 0,
               (pressure[row.i] + groups.gas_flow.surface_pressure) * groups.gas_flow.inverse_rt[row.group]);
     if constexpr (S.has(Value::wall_open)) row.put(Value::wall_open, 0, groups.gas_flow.wall_open[row.group]);
+    if constexpr (S.has(Value::dissolved))
+      row.put(Value::dissolved, 0, std::fmin(dissolved[row.i], content[row.i]));
+    if constexpr (S.has(Value::water_mobility)) {
+      const double d = groups.gas_flow.diffusivity[row.group] * row.scale.inverse_h;
+      row.put(Value::water_mobility, 0, d > 0 ? rho[row.i] / (1 + content[row.i]) * d : 0.0);
+    }
   }
 };
 

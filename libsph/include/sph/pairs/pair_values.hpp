@@ -68,16 +68,18 @@ enum class Value : std::uint8_t {
   gas_mobility,        ///< [s/m^2]
   gas_pressure,        ///< [Pa]
   gas_density,         ///< 0 of walls [kg/m^3]
-  wall_open,           ///< 1 for walls that let gas pass, else 0
-  wall_heat_flux,      ///< of walls, into what is beside them, or would be were that at 0 K [W/m^2]
-  wall_transfer,       ///< of walls: what of it a kelvin of the face takes [W/m^2/K] ...
-  wall_glow,           ///< ... and its fourth power [W/m^2/K^4]
-  sensible_heat,       ///< c_p T [J/kg]
-  grip,                ///< 0 of walls that slip, else 1
-  trial,               ///< what an implicit exchange is solved for [K or Pa]
-  weight,              ///< density, less what a background bears of its weight [kg/m^3]
-  wet_pressure,        ///< of a body what the fluid beside it presses with, else the pressure [Pa]
-  wet_velocity,        ///< of a body the mirror image of the flow beside it, else the velocity [m/s]
+  dissolved,           ///< w, of which there is no more than of all volatiles [1]
+  water_mobility,  ///< density of the liquid without volatiles in all of the volume, times D / h [kg/m^2/s]
+  wall_open,       ///< 1 for walls that let gas pass, else 0
+  wall_heat_flux,  ///< of walls, into what is beside them, or would be were that at 0 K [W/m^2]
+  wall_transfer,   ///< of walls: what of it a kelvin of the face takes [W/m^2/K] ...
+  wall_glow,       ///< ... and its fourth power [W/m^2/K^4]
+  sensible_heat,   ///< c_p T [J/kg]
+  grip,            ///< 0 of walls that slip, else 1
+  trial,           ///< what an implicit exchange is solved for [K or Pa]
+  weight,          ///< density, less what a background bears of its weight [kg/m^3]
+  wet_pressure,    ///< of a body what the fluid beside it presses with, else the pressure [Pa]
+  wet_velocity,    ///< of a body the mirror image of the flow beside it, else the velocity [m/s]
   own_head,  ///< -a h of a body, a its acceleration: rho times it is grad p h beside it, less the weight's part
   count_
 };
@@ -158,6 +160,8 @@ class ValueSet {
   if (values.has(Value::gas_mobility)) f |= FieldSet{Field::gas_mobility};
   if (values.has(Value::gas_pressure)) f |= FieldSet{Field::gas_pressure};
   if (values.has(Value::gas_density)) f |= FieldSet{Field::group, Field::gas_pressure};
+  if (values.has(Value::dissolved)) f |= FieldSet{Field::dissolved_gas, Field::gas_content};
+  if (values.has(Value::water_mobility)) f |= FieldSet{Field::group, Field::density, Field::gas_content};
   if (values.has(Value::trial)) f |= FieldSet{Field::trial};
   if (values.has(Value::rest_gradient)) f |= FieldSet{Field::liquid_density, Field::grain_drag};
   return f;
@@ -186,6 +190,7 @@ struct GroupTable {
     std::vector<double> permeability;  ///< scale [m^2]
     std::vector<double> inverse_rt;    ///< [s^2/m^2]
     std::vector<double> wall_open;     ///< 1 or 0
+    std::vector<double> diffusivity;   ///< of what is dissolved [m^2/s]
     double surface_pressure = 0;       ///< [Pa]
   };
   struct Heat {

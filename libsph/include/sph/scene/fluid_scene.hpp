@@ -31,6 +31,7 @@ struct BubblyMaterial {
   double solubility_pressure = 0;  ///< p_s [Pa]
   double solubility_exponent = 1;  ///< gamma [1]
   double exsolution_time = 0;      ///< tau, in which what is dissolved follows the pressure; 0: at once [s]
+  double water_diffusivity = 0;    ///< D of what is dissolved; 0: it stays [m^2/s]
   Permeability permeability;       ///< of its gas
   friend bool operator==(const BubblyMaterial&, const BubblyMaterial&) = default;
 };

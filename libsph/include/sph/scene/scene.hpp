@@ -51,7 +51,9 @@ struct Scene {
   [[nodiscard]] double list_range()
       const;  ///< how far pairs of the lists may be apart [m]: support(), or more
   [[nodiscard]] bool has_kind(GroupKind k) const;
-  [[nodiscard]] bool has_gas_flow() const;                             ///< through bubbly magma
+  [[nodiscard]] bool has_gas_flow() const;  ///< through bubbly magma
+  [[nodiscard]] bool has_exchange() const { return has_heat() || has_gas_flow() || has_water_diffusion(); }
+  [[nodiscard]] bool has_water_diffusion() const;                      ///< of what is dissolved in it
   [[nodiscard]] bool has_heat() const;                                 ///< its fluids and solids have
   [[nodiscard]] bool total_lagrangian() const;                         ///< its solids are
   [[nodiscard]] bool has_wet_bodies() const;  ///< total-Lagrangian solids and fluids

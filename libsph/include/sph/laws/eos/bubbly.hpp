@@ -9,6 +9,9 @@
 
 namespace sph {
 
+template <class V>
+struct BubblyFormulas;
+
 /// Bubbly magma. All functions are pure, finite for every finite positive argument and free of libm.
 /// With gas_content 0 the linear law, tension included; otherwise pressure(rho) > 0 for every rho > 0.
 class BubblyEos {
@@ -34,7 +37,7 @@ class BubblyEos {
     int steps;
   };
   [[nodiscard]] Root invert(double density) const;
-  [[nodiscard]] double first_guess(double density) const;
+  [[nodiscard]] BubblyFormulas<double> formulas() const;
   [[nodiscard]] bool is_gas_free(double pressure) const;
 
   double rho0_, k_, m_, rt_, ps_, gamma_;
@@ -70,6 +73,9 @@ class BubblyEos {
   return std::min(gas_content, bubbly_eos(g, gas_content).dissolved(pressure));
 }
 
+/// BubblyMagma::derive() where what is dissolved follows the pressure: of eight particles at a time, with the bits of one.
+void derive_in_equilibrium(const Group& g, const EosRows& rows, std::size_t first, std::size_t last);
+
 struct BubblyMagma : EosLaw {
   static constexpr std::string_view word = "bubbly";
   static constexpr EosKind kind = EosKind::bubbly;
@@ -84,11 +90,7 @@ struct BubblyMagma : EosLaw {
         derive_row(SlowBubblyEos(g, rows.gas_content[i], rows.dissolved_gas[i]), rows, i);
       return;
     }
-    const BubblyEos usual = bubbly_eos(g, g.bubbly.gas_content);
-    for (std::size_t i = first; i < last; ++i) {
-      const double gas = rows.gas_content[i];
-      derive_row(gas == g.bubbly.gas_content ? usual : bubbly_eos(g, gas), rows, i);
-    }
+    derive_in_equilibrium(g, rows, first, last);
   }
   template <class Eos>
   static void derive_row(const Eos& eos, const EosRows& rows, std::size_t i) {
