@@ -31,7 +31,7 @@ inline constexpr Condition of_lattices{
     [](const Scene& s) { return s.start.file.empty() && s.start.tile.file.empty(); }, "lattices",
     "the particles come from start.file or start.tile"};
 inline constexpr Condition of_viscous_forms{
-    [](const Scene& s) { return s.terms.formulation != Formulation::ida && !s.has_dry_bodies(); },
+    [](const Scene& s) { return s.terms.formulation != Formulation::ida && !has_dry_bodies(s); },
     "fluids and updated solids, not \"ida\"",
     "formulation = \"ida\" and total-Lagrangian solids have none: remove it"};
 inline constexpr Condition of_flows{

@@ -41,7 +41,7 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
 
 /// What holds by default, before the table says anything.
 void set_usual_terms(Scene& scene) {
-  const bool ida = scene.terms.formulation == Formulation::ida, total = scene.has_dry_bodies();
+  const bool ida = scene.terms.formulation == Formulation::ida, total = has_dry_bodies(scene);
   const bool gas = has_eos(scene, EosKind::ideal_gas);
   Terms& terms = scene.terms;
   if (ida || total || gas) terms.density_diffusion = 0;
@@ -51,7 +51,7 @@ void set_usual_terms(Scene& scene) {
     terms.gas.conduction = 0.3;
   }
   const auto counts = [&](const Group& g) {
-    return g.kind != GroupKind::grain && !(scene.has_wet_bodies() && g.kind != GroupKind::fluid);
+    return g.kind != GroupKind::grain && !(has_wet_bodies(scene) && g.kind != GroupKind::fluid);
   };
   const auto first = std::ranges::find_if(scene.groups, counts);
   const bool uniform = std::ranges::all_of(scene.groups, [&](const Group& g) {
@@ -72,7 +72,7 @@ void check_terms(const TermsReader& table, const Scene& scene) {
                "formulation = \"ida\" has none: remove it");
   if (ida && terms.shifting) table.fail("shifting", "is on", "formulation = \"ida\" has none: remove it");
   const auto refuse = [&](bool given, TermsReader::Name<> key) {
-    if (scene.has_dry_bodies() && given)
+    if (has_dry_bodies(scene) && given)
       table.fail(key, "is of fluids and updated solids", "total-Lagrangian solids have none: remove it");
   };
   refuse(terms.density_diffusion != 0, "density_diffusion");

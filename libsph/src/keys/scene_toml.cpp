@@ -173,10 +173,10 @@ void check_total_lagrangian(const Tables& tables, const Scene& scene) {
   if (!scene.total_lagrangian()) return;
   if (scene.terms.formulation == Formulation::ida)
     tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
-  if (scene.has_dry_bodies() && scene.domain.surface_pressure > 0)
+  if (has_dry_bodies(scene) && scene.domain.surface_pressure > 0)
     tables.domain.fail("surface_pressure", fmt::format("is {}", scene.domain.surface_pressure),
                        "solids with lagrangian = \"total\" start free of stress: remove it");
-  if (scene.has_dry_bodies() && scene.start.pressure != InitialPressure::zero)
+  if (has_dry_bodies(scene) && scene.start.pressure != InitialPressure::zero)
     tables.start.fail("pressure", "is of fluids", "solids with lagrangian = \"total\" start free of stress");
 }
 

@@ -92,7 +92,7 @@ struct Stresses {
       const double before = prestress != nullptr ? prestress[i] : 0.0;
       const ElasticState<D> state =
           neo_hooke<D>(bonds.gradient, own.eos.bulk_modulus, own.solid.shear_modulus, before);
-      const double hourglass = constants->groups.hourglass[group[i]];
+      const double hourglass = constants->groups.bodies.hourglass[group[i]];
       bond_stress = state.first_piola * bonds.inverse - hourglass * bonds.gradient;
       const double volume = mass[i] / own.density, ratio = 1 + state.volume_change;
       if (!(ratio > 0))
@@ -161,8 +161,8 @@ void add_bonds(Builder& b) {
   double first = -1;
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
     if (s.groups[g].kind == GroupKind::fluid) continue;
-    contact = contact || (first >= 0 && k.groups.body[g] != first);
-    first = k.groups.body[g];
+    contact = contact || (first >= 0 && k.groups.bodies.number[g] != first);
+    first = k.groups.bodies.number[g];
     viscous = viscous || (s.groups[g].kind == GroupKind::solid && k.groups.viscosity[g] > 0);
   }
   if (contact) {
@@ -176,10 +176,10 @@ void add_bonds(Builder& b) {
   b.add_sums("deformation", deformation, Builder::Rows::all);
   b.add_update("stress", Stresses{&k});
   b.begin_with_these();  // what bonds there are is known only from the start, and output wants the stress
-  b.add_sums(s.has_wet_bodies() ? "bond forces" : "forces", forces,
+  b.add_sums(has_wet_bodies(s) ? "bond forces" : "forces", forces,
              clamped ? Builder::Rows::all : Builder::Rows::movers);
   if (clamped) add_clamp_reactions(b);
-  if (!s.has_wet_bodies()) return;
+  if (!has_wet_bodies(s)) return;
   b.add_fields({Field::bond_force});
   b.add_update("bonds' part of the forces", KeepBondForces{});
 }

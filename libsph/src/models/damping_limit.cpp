@@ -210,7 +210,7 @@ double largest(double most, Holds&& holds) {
 
 DampingLimit damping_limit(const Scene& scene, const std::vector<double>& sounds, double step) {
   DampingLimit limit{std::numeric_limits<double>::infinity(), "", 0, 0};
-  if (scene.of_grains() || scene.has_dry_bodies()) return limit;
+  if (scene.of_grains() || has_dry_bodies(scene)) return limit;
   const Modes modes(scene);
   const double enough = 4 * step;  // what is beyond need not be known
   const auto longest = [&](const Scene& s) {

@@ -150,7 +150,7 @@ void add_wet_forces(Builder& b) {
 
 void add_forces(Builder& b) {
   const Scene& s = b.scene();
-  if (s.has_wet_bodies()) return add_wet_forces(b);
+  if (has_wet_bodies(s)) return add_wet_forces(b);
   const bool solid = has_updated(s);
   const bool uniform_viscosity =
       std::ranges::all_of(s.groups, [first = std::ranges::find_if(s.groups, is_matter)](const Group& g) {

@@ -31,7 +31,7 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
   if (stiffens_) builder_.add_fields({Field::sound_speed});
   if (scene.has_kind(GroupKind::solid) || scene.terms.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
-  if (scene.has_wet_bodies()) builder_.add_fields({Field::prestress, Field::acceleration});
+  if (has_wet_bodies(scene)) builder_.add_fields({Field::prestress, Field::acceleration});
   if (gas_) reach_.emplace(scene);
   add_stages(builder_, models_);
 }

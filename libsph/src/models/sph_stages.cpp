@@ -28,21 +28,21 @@ void add_liquids_and_solids(Builder& b, const SphModels& m) {
   const bool early = has_drag(s) || exchange;
   const bool wall_share =
       exchange || (walls && fluid && (s.terms.viscous.implicit || s.start.has_surface || has_drag(s)));
-  if (s.has_wet_bodies()) add_bonds(b);
+  if (has_wet_bodies(s)) add_bonds(b);
   if (wall_share && early) add_wall_share(b);
   add_kinematics(b);
   if (exchange) add_wall_slopes(b);
   if (has_viscosity_law(s)) add_viscosities(b);
   add_exchanges(b, m);
   if (bulk_viscous(s)) add_excess_pressures(b);
-  if (s.has_wet_bodies())
+  if (has_wet_bodies(s))
     add_wet_sides(b);
   else if (walls)
     add_walls(b, s.terms.pressure_weights == PressureWeights::density);
   const InterfaceTension& tension = s.terms.surface_tension;
   if (tension.coefficient > 0 && tension.form == TensionForm::jump) add_curvature(b);
   add_forces(b);
-  if (s.has_wet_bodies()) add_bond_forces(b);
+  if (has_wet_bodies(s)) add_bond_forces(b);
   add_accelerations(b);
   // Only where fluid flies can it come into walls.
   if (wall_share && !early) add_wall_share(b);
@@ -73,7 +73,7 @@ void add_motion(Builder& b, const SphModels& m) {
     add_ida(b);
   else if (has_eos(b.scene(), EosKind::ideal_gas))
     add_gas(b);
-  else if (b.scene().has_dry_bodies())
+  else if (has_dry_bodies(b.scene()))
     add_bonds(b);
   else
     add_liquids_and_solids(b, m);

@@ -53,13 +53,17 @@ bool Scene::total_lagrangian() const {
   return false;
 }
 
-bool Scene::has_wet_bodies() const { return total_lagrangian() && has_kind(GroupKind::fluid); }
-bool Scene::has_dry_bodies() const { return total_lagrangian() && !has_kind(GroupKind::fluid); }
-
 bool Scene::has_kind(GroupKind k) const {
   for (const Group& g : groups)
     if (g.kind == k) return true;
   return false;
+}
+
+bool has_wet_bodies(const Scene& scene) {
+  return scene.total_lagrangian() && scene.has_kind(GroupKind::fluid);
+}
+bool has_dry_bodies(const Scene& scene) {
+  return scene.total_lagrangian() && !scene.has_kind(GroupKind::fluid);
 }
 
 int Scene::group_index(const std::string& group_name) const {

@@ -185,7 +185,7 @@ struct BondColumns {
     if constexpr (S.has(Value::reference_volume))
       row.put(Value::reference_volume, 0,
               mass[i] / groups.weight.density[row.group] * row.scale.inverse_volume);
-    if constexpr (S.has(Value::body)) row.put(Value::body, 0, groups.body[row.group]);
+    if constexpr (S.has(Value::body)) row.put(Value::body, 0, groups.bodies.number[row.group]);
     if constexpr (S.has(Value::bond_stress))
       for (int k = 0; k < D * D; ++k) row.put(Value::bond_stress, k, stress[i * D * D + k]);
     if constexpr (S.has(Value::clamp_shift))
@@ -194,8 +194,8 @@ struct BondColumns {
     if constexpr (S.has(Value::clamp_reaction))
       for (int k = 0; k < D; ++k)
         row.put(Value::clamp_reaction, k, row.is_wall() ? reaction[i * D + k] : 0.0);
-    if constexpr (S.has(Value::modulus)) row.put(Value::modulus, 0, groups.modulus[row.group]);
-    if constexpr (S.has(Value::hourglass)) row.put(Value::hourglass, 0, groups.hourglass[row.group]);
+    if constexpr (S.has(Value::modulus)) row.put(Value::modulus, 0, groups.bodies.modulus[row.group]);
+    if constexpr (S.has(Value::hourglass)) row.put(Value::hourglass, 0, groups.bodies.hourglass[row.group]);
   }
 };
 
@@ -214,7 +214,7 @@ struct WetColumns {
     constexpr ValueSet S = Row::values;
     constexpr int D = Row::dim;
     const std::size_t i = row.i;
-    [[maybe_unused]] const auto bonded = [&] { return row.groups.bonded[row.group] != 0; };
+    [[maybe_unused]] const auto bonded = [&] { return row.groups.bodies.bonded[row.group] != 0; };
     if constexpr (S.has(Value::wet_pressure))
       row.put(Value::wet_pressure, 0, bonded() ? wet_pressure[i] : pressure[i]);
     if constexpr (S.has(Value::wet_velocity))

@@ -176,10 +176,13 @@ struct GroupTable {
   std::vector<double> side;         ///< 1, -1 or 0
   std::vector<double> shears;       ///< 1 or 0
   double surface_tension = 0;       ///< [N/m]
-  std::vector<double> body;         ///< index of the group, of a clamp that of the solid it holds
-  std::vector<double> modulus;      ///< K + 4/3 mu, 0 of fluids [Pa]
-  std::vector<double> hourglass;    ///< [Pa]
-  std::vector<double> bonded;       ///< 1 for total-Lagrangian solids, else 0
+  struct Bodies {
+    std::vector<double> number;     ///< index of the group, of a clamp that of the solid it holds
+    std::vector<double> modulus;    ///< K + 4/3 mu, 0 of fluids [Pa]
+    std::vector<double> hourglass;  ///< stiffness, 0 but of total-Lagrangian solids [Pa]
+    std::vector<double> bonded;     ///< 1 for total-Lagrangian solids, else 0
+  };
+  Bodies bodies;
   /// Gravity acts on rho share - borne: rho (1 - rho_b / rho_0), of bubbly groups rho - rho_b.
   struct Weight {
     std::vector<double> density;       ///< rho_0 [kg/m^3]

@@ -56,11 +56,13 @@ struct Scene {
   [[nodiscard]] bool has_water_diffusion() const;                      ///< of what is dissolved in it
   [[nodiscard]] bool has_heat() const;                                 ///< its fluids and solids have
   [[nodiscard]] bool total_lagrangian() const;                         ///< its solids are
-  [[nodiscard]] bool has_wet_bodies() const;  ///< total-Lagrangian solids and fluids
-  [[nodiscard]] bool has_dry_bodies() const;  ///< total-Lagrangian solids alone
   [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none
   friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+/// There are total-Lagrangian solids in a fluid, or alone.
+[[nodiscard]] bool has_wet_bodies(const Scene& scene);
+[[nodiscard]] bool has_dry_bodies(const Scene& scene);
 
 /// Reads and resolves a scene; `overrides` are "a.b=v" texts of --set, applied before anything is checked.
 /// If `end` has any it is taken instead of the scene's, which is checked all the same.
