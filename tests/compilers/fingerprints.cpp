@@ -31,6 +31,10 @@ const std::vector<std::string> hertz{"contact.law=hertz",
                                      "group.glass.young_modulus=2e6",
                                      "group.glass.poisson_ratio=0.2"};
 
+/// A bar that is a fluid around the others.
+const std::vector<std::string> wet{
+    "group.bar.kind=fluid", "group.bar.lagrangian=", "group.bar.poisson_ratio=", "start.region.0.group=bar"};
+
 std::uint64_t libm_hash() {
   std::uint64_t hash = 0;
   for (int k = 1; k <= 2000; ++k) {
@@ -76,8 +80,8 @@ int main(int argc, char** argv) {
     for (const Case& c :
          {Case{"fluid", {}}, Case{"fluid", {"formulation=ida", "terms="}},
           Case{"fluid", {"terms.implicit_viscosity=true"}}, Case{"flow", {}}, Case{"solid", {}},
-          Case{"bodies", {}}, Case{"gas", {}}, Case{"blast", {}}, Case{"box", {}}, Case{"grains", {}, true},
-          Case{"grains", hertz, true}, Case{"melts", {}, true}})
+          Case{"bodies", {}}, Case{"bodies", wet}, Case{"gas", {}}, Case{"blast", {}}, Case{"box", {}},
+          Case{"grains", {}, true}, Case{"grains", hertz, true}, Case{"melts", {}, true}})
       run(comm, argv[1], c);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
