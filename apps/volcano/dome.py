@@ -7,10 +7,7 @@ hundred times less permeable.
 Runs that are not in RUNS yet are made, on one rank each, side by side: three minutes in all.
 """
 
-import argparse
-import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
@@ -19,20 +16,12 @@ import numpy as np
 here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "plotting"))
 from figures import RUNS, plt, save  # noqa: E402
-from run_folder import BadInput, refusing  # noqa: E402
+from run_folder import refusing  # noqa: E402
+from runs import drawn_from_runs  # noqa: E402
 
 PERMEABILITIES = {"permeable": 1e-10, "tight": 1e-12}
 MAGMA, PLUG, SPRAY = 0, 1, 2
 LAYER = 6.0  # m, of the means over the conduit
-
-
-def make(programs, folder, permeability):
-    settings = [word for group in ("magma", "plug")
-                for word in ("--set", f"group.{group}.permeability.coefficient={permeability}")]
-    done = subprocess.run([str(Path(programs) / "peperite"), "run", str(here / "dome.toml"), "--out", str(folder), *settings],
-                          capture_output=True, text=True)
-    if done.returncode:
-        raise BadInput(done.stderr.strip().split("\n")[0])
 
 
 def state_of(file):
@@ -98,16 +87,8 @@ def draw(folders, out):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs")
-    parser.add_argument("--out", help="default: RUNS")
-    parser.add_argument("--programs", default="build/bin")
-    given = parser.parse_args()
-    folders = {name: Path(given.runs) / name for name in PERMEABILITIES}
-    wanted = [name for name, folder in folders.items() if not (folder / "perf.json").is_file()]
-    with ThreadPoolExecutor(2) as two:
-        list(two.map(lambda name: make(given.programs, folders[name], PERMEABILITIES[name]), wanted))
-    draw(folders, given.out or given.runs)
+    drawn_from_runs(__doc__, "dome.toml", {name: (name, [f"group.{group}.permeability.coefficient={k}" for group in ("magma", "plug")])
+                                           for name, k in PERMEABILITIES.items()}, draw)
 
 
 if __name__ == "__main__":

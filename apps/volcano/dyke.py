@@ -7,11 +7,8 @@ where nothing moves and the rock is cold, against Neumann's solution of a melt t
 Runs that are not in RUNS yet are made, on one rank each, two at a time: four minutes in all.
 """
 
-import argparse
 import math
-import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
@@ -20,7 +17,8 @@ import numpy as np
 here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "plotting"))
 from figures import plt, save  # noqa: E402
-from run_folder import BadInput, refusing  # noqa: E402
+from run_folder import refusing  # noqa: E402
+from runs import drawn_from_runs  # noqa: E402
 
 COEFFICIENTS = (100, 1000, 3000)  # W/m2/K
 SOLIDUS, LIQUIDUS, HOT, COLD = 1273, 1423, 1473, 400
@@ -32,14 +30,6 @@ STILL = ("terms.motion=false", "time.cfl=", "time.dt=0.02", "time.until=40", "re
 
 def settings_of(name):
     return STILL if name == "still" else (f"group.rock.heat_transfer.coefficient={name}",)
-
-
-def make(programs, folder, name):
-    settings = [word for setting in settings_of(name) for word in ("--set", setting)]
-    done = subprocess.run([str(Path(programs) / "peperite"), "run", str(here / "dyke.toml"), "--out", str(folder), *settings],
-                          capture_output=True, text=True)
-    if done.returncode:
-        raise BadInput(done.stderr.strip().split("\n")[0])
 
 
 def neumann():
@@ -135,16 +125,7 @@ def draw(folders, out):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs")
-    parser.add_argument("--out", help="default: RUNS")
-    parser.add_argument("--programs", default="build/bin")
-    given = parser.parse_args()
-    folders = {name: Path(given.runs) / f"h_{name}" for name in (*COEFFICIENTS, "still")}
-    wanted = [c for c, folder in folders.items() if not (folder / "perf.json").is_file()]
-    with ThreadPoolExecutor(2) as two:
-        list(two.map(lambda c: make(given.programs, folders[c], c), wanted))
-    draw(folders, given.out or given.runs)
+    drawn_from_runs(__doc__, "dyke.toml", {name: (f"h_{name}", settings_of(name)) for name in ("still", *COEFFICIENTS)}, draw)
 
 
 if __name__ == "__main__":

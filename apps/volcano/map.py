@@ -8,12 +8,9 @@ Runs that are not in RUNS yet are made, on one rank each and two at a time, at t
 with a bulk viscosity like the viscosity, which decides how fast foam can expand: five minutes in all.
 """
 
-import argparse
 import math
-import subprocess
 import sys
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +18,8 @@ import numpy as np
 here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "plotting"))
 from figures import plt, save  # noqa: E402
-from run_folder import BadInput, refusing  # noqa: E402
+from run_folder import refusing  # noqa: E402
+from runs import drawn_from_runs  # noqa: E402
 
 UNTIL = {1e5: 4, 3e5: 4, 1e6: 6, 3e6: 6}  # s, by viscosity (Pa s): afterwards little changes
 STEP = {3e6: 7e-5}  # s, half of the scene's own: the light spray beside thick magma bears no longer ones
@@ -32,18 +30,10 @@ SETTINGS = ("start.spacing=2", "terms.implicit_gas_flow=true", "domain.lower=[-4
             f'start.region=[{{group="rock"}}, {{group="magma", shape="box", lower=[-10, {-DEPTH}], upper=[10, 0]}}]')
 
 
-def folder_of(runs, viscosity, permeability):
-    return Path(runs) / f"eta_{viscosity:.0e}_k_{permeability:.1e}"
-
-
-def make(programs, folder, viscosity, permeability):
-    settings = (*SETTINGS, f"group.magma.viscosity={viscosity}", f"group.magma.bulk_viscosity={viscosity}",
-                f"group.magma.permeability.coefficient={permeability}", f"time.until={UNTIL[viscosity]}",
-                *(["time.cfl=", f"time.dt={STEP[viscosity]}"] if viscosity in STEP else []))
-    done = subprocess.run([str(Path(programs) / "peperite"), "run", str(here / "conduit.toml"), "--out", str(folder),
-                           *(word for setting in settings for word in ("--set", setting))], capture_output=True, text=True)
-    if done.returncode:
-        raise BadInput(done.stderr.strip().split("\n")[0])
+def settings_of(viscosity, permeability):
+    return (*SETTINGS, f"group.magma.viscosity={viscosity}", f"group.magma.bulk_viscosity={viscosity}",
+            f"group.magma.permeability.coefficient={permeability}", f"time.until={UNTIL[viscosity]}",
+            *(["time.cfl=", f"time.dt={STEP[viscosity]}"] if viscosity in STEP else []))
 
 
 def at_the_end(folder):
@@ -131,16 +121,8 @@ def draw_boundaries(axes, viscosities, magma, measured):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs")
-    parser.add_argument("--out", help="default: RUNS")
-    parser.add_argument("--programs", default="build/bin")
-    given = parser.parse_args()
-    folders = {(eta, k): folder_of(given.runs, eta, k) for eta in UNTIL for k in PERMEABILITIES}
-    wanted = [at for at, folder in folders.items() if not (folder / "perf.json").is_file()]
-    with ThreadPoolExecutor(2) as two:
-        list(two.map(lambda at: make(given.programs, folders[at], *at), reversed(wanted)))  # the longest first
-    draw({at: at_the_end(folder) for at, folder in folders.items()}, given.out or given.runs)
+    drawn_from_runs(__doc__, "conduit.toml", {(eta, k): (f"eta_{eta:.0e}_k_{k:.1e}", settings_of(eta, k)) for eta in UNTIL for k in PERMEABILITIES},
+                    lambda folders, out: draw({at: at_the_end(folder) for at, folder in folders.items()}, out))
 
 
 if __name__ == "__main__":

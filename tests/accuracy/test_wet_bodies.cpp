@@ -98,6 +98,61 @@ TEST(WetBodies, ClampsHoldTheFace) {
   EXPECT_NEAR(PINNED(bar(10, false)), 0, 0.005);
 }
 
+constexpr const char* ball_on_clamp = R"(
+dimension = 2
+kernel = { h_over_dx = 1 }
+domain = { lower = [-5, -5], upper = [30, 30] }
+[[group]]
+name = "beam"
+kind = "solid"
+lagrangian = "total"
+density = 1000
+sound_speed = 100
+poisson_ratio = 0.25
+[[group]]
+name = "slot"
+kind = "wall"
+clamps = "beam"
+[[group]]
+name = "ball"
+kind = "solid"
+lagrangian = "total"
+density = 1000
+sound_speed = 100
+poisson_ratio = 0.25
+[start]
+spacing = 1
+velocity = [0, -0.5]
+region = [{ group = "none" }, { group = "slot", shape = "box", lower = [0, 0], upper = [6, 6] },
+          { group = "beam", shape = "box", lower = [6, 0], upper = [20, 6] },
+          { group = "ball", shape = "ball", centre = [4, 10], radius = 3.2 }]
+[time]
+cfl = 0.5
+until = 12
+)";
+
+// What touches a clamp pushes the clamp, not what is bonded to it (which would gain 7 %).
+TEST(WetBodies, ContactWithAClampDoesNoWork) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s(comm, sph::parse_scene(ball_on_clamp, "ball.toml", {}));
+  const auto energy = [&] {
+    double sum = 0;
+    for (const Sample& q : samples(s))
+      if (!measure::is_wall(s, q)) sum += 0.5 * q.mass * (q.v[0] * q.v[0] + q.v[1] * q.v[1]);
+    const double* strain = s.particles().data<sph::Field::strain_energy>();
+    for (std::size_t i = 0; i < s.particles().owned(); ++i) sum += strain[i];
+    return sum;
+  };
+  const double before = energy();
+  double up = -1;
+  run_until(s, 12, [&] {
+    for (const Sample& q : samples(s))
+      if (q.group == 2) up = std::max(up, q.v[1]);
+  });
+  EXPECT_GT(up, 0.3);  // the ball has come back
+  EXPECT_NEAR(PINNED(energy() / before), 1, 0.01);
+}
+
 TEST(WetBodies, WaterOnAPlate) {
   constexpr double bulk = 2e8, young = 3 * bulk * (1 - 2 * nu), g = young / 2 / (1 + nu), thick = 0.1;
   constexpr double plane = young / (1 - nu * nu), load = 9.81 * (1000 * 0.5 + 2000 * thick);

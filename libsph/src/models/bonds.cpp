@@ -4,8 +4,10 @@
 #include "sph/terms/bonds.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
+#include "models/clamps.hpp"
 #include "sph/laws/neo_hooke.hpp"
 #include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
@@ -170,15 +172,16 @@ void add_bonds(Builder& b) {
     forces.push_back(term<BodyContact>);
   }
   if (viscous) forces.push_back(term<BondViscosity>);
-  const bool clamped = std::ranges::any_of(s.groups, [](const Group& g) { return g.wall.clamps >= 0; });
+  std::optional<Clamps> clamps;
+  if (std::ranges::any_of(s.groups, [](const Group& g) { return g.wall.clamps >= 0; })) clamps.emplace(s);
   b.add_fields({Field::displacement, Field::bonds, Field::bond_stress, Field::strain_energy});
-  if (clamped) add_clamps(b);
-  b.add_sums("deformation", deformation, Builder::Rows::all);
+  if (clamps) clamps->add_shifts(b);
+  // Of walls only how contacts strain them.
+  b.add_sums("deformation", deformation, contact ? Builder::Rows::all : Builder::Rows::movers);
   b.add_update("stress", Stresses{&k});
   b.begin_with_these();  // what bonds there are is known only from the start, and output wants the stress
-  b.add_sums(has_wet_bodies(s) ? "bond forces" : "forces", forces,
-             clamped ? Builder::Rows::all : Builder::Rows::movers);
-  if (clamped) add_clamp_reactions(b);
+  b.add_sums(has_wet_bodies(s) ? "bond forces" : "forces", forces);
+  if (clamps) clamps->add_reactions(b);
   if (!has_wet_bodies(s)) return;
   b.add_fields({Field::bond_force});
   b.add_update("bonds' part of the forces", KeepBondForces{});

@@ -1,10 +1,10 @@
 // Where bonds see the particles of clamps, and what these give back of the forces on them (terms/clamp.hpp).
+#include "models/clamps.hpp"
+
 #include <cmath>
-#include <memory>
 
 #include "pairs/for_rows.hpp"
-#include "sph/models/models.hpp"
-#include "sph/models/wall_mirror.hpp"
+#include "sph/terms/bonds.hpp"
 #include "sph/terms/clamp.hpp"
 
 namespace sph {
@@ -28,9 +28,6 @@ struct Shifts {
     const auto d = static_cast<std::size_t>(p.dim());
     const double* sums = p.get<Field::clamp_sums>();
     double* shift = p.get<Field::clamp_shift>();
-    for_movers(step.ranges, [&](std::size_t i) {
-      for (std::size_t a = 0; a < d; ++a) shift[i * d + a] = 0;
-    });
     for_walls(step.ranges, [&](std::size_t i) {
       const double* s = sums + i * (1 + 2 * d);
       const double share = share_of(s, d, *mirror);
@@ -71,16 +68,18 @@ struct AddReactions {
 
 }  // namespace
 
-void add_clamps(Builder& b) {
+Clamps::Clamps(const Scene& scene) : mirror_(std::make_shared<const WallMirror>(scene)) {}
+
+void Clamps::add_shifts(Builder& b) const {
   b.add_fields({Field::clamp_shift});
   b.add_sums("clamps", {term<ClampSums>}, Builder::Rows::walls);
-  b.add_update("shifts of clamps",
-               Shifts{b.scene().kernel.smoothing_length, std::make_shared<const WallMirror>(b.scene())});
+  b.add_update("shifts of clamps", Shifts{b.scene().kernel.smoothing_length, mirror_});
 }
 
-void add_clamp_reactions(Builder& b) {
+void Clamps::add_reactions(Builder& b) const {
   b.add_fields({Field::clamp_reaction});
-  b.add_update("reactions of clamps", Reactions{std::make_shared<const WallMirror>(b.scene())});
+  b.add_sums("forces on clamps", {term<BondForce>}, Builder::Rows::walls);
+  b.add_update("reactions of clamps", Reactions{mirror_});
   b.add_sums("reactions", {term<ClampReaction>});
   b.add_update("forces of clamps", AddReactions{});
 }

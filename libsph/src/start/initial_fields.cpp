@@ -85,7 +85,6 @@ void InitialFields::set(NewParticle& p) const {
   if (g.kind == GroupKind::wall && scene.terms.formulation == Formulation::conservative) {
     p.density = g.density;
     p.velocity = g.wall.velocity;
-    if (g.wall.clamps >= 0) p.prestress = pressure_in_place(x);
   } else {
     // A body is as dense as its group in its reference state, whatever presses on it there.
     if (is_bonded(g)) p.prestress = pressure_in_place(x);

@@ -40,9 +40,6 @@ void add_implicit_viscosity(Builder& builder);
 void add_ida(Builder& builder);
 /// Total-Lagrangian solids.
 void add_bonds(Builder& builder);
-/// What holds them: before their deformation is known, and after the forces of bonds are.
-void add_clamps(Builder& builder);
-void add_clamp_reactions(Builder& builder);
 /// ... in a fluid, whose forces are known.
 void add_bond_forces(Builder& builder);
 /// v += (F/m + g) dt for particles that move; walls get their own velocity back.

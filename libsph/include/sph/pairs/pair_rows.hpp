@@ -190,7 +190,8 @@ struct BondColumns {
       for (int k = 0; k < D * D; ++k) row.put(Value::bond_stress, k, stress[i * D * D + k]);
     if constexpr (S.has(Value::clamp_shift))
       for (int k = 0; k < D; ++k)
-        row.put(Value::clamp_shift, k, shift != nullptr ? shift[i * D + k] * row.scale.inverse_h : 0.0);
+        row.put(Value::clamp_shift, k,
+                shift != nullptr && row.is_wall() ? shift[i * D + k] * row.scale.inverse_h : 0.0);
     if constexpr (S.has(Value::clamp_reaction))
       for (int k = 0; k < D; ++k)
         row.put(Value::clamp_reaction, k, row.is_wall() ? reaction[i * D + k] : 0.0);

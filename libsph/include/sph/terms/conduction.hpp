@@ -11,17 +11,14 @@
 // precision rounds.
 #pragma once
 
+#include "sph/terms/exchange_rule.hpp"
 #include "sph/terms/wall_profile.hpp"
 
 namespace sph {
 
 template <class P, class C>
 [[nodiscard, gnu::always_inline]] inline typename P::V conductance(const P& p, const C& c) {
-  using V = typename P::V;
-  const V a = p.template i<Value::conductivity>(), b = p.template j<Value::conductivity>();
-  const V twice_mean = V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-300)));
-  return -(p.template i<Value::volume>() * p.template j<Value::volume>() * twice_mean *
-           (V(c.viscous.laplacian) * p.f));
+  return exchange_rate(p, c, exchange_mean<Value::conductivity>(p));
 }
 
 struct Conduction {

@@ -7,7 +7,7 @@
 // takes the mean velocity of the pair along: momentum is conserved, and so is the kinetic energy of what flows.
 #pragma once
 
-#include "sph/pairs/pair_values.hpp"
+#include "sph/terms/exchange_rule.hpp"
 #include "sph/terms/head.hpp"
 #include "sph/terms/wall_profile.hpp"
 
@@ -27,14 +27,10 @@ template <class P, class C>
 [[nodiscard, gnu::always_inline]] inline typename P::V gas_conductance(const P& p, const C& c) {
   using V = typename P::V;
   using T = typename P::Scalar;
-  const V half(T(0.5)), tiny(static_cast<T>(1e-300)), drive = gas_drive<Value::gas_pressure>(p, c);
-  const V k_i = p.template i<Value::permeability>(), k_j = p.template j<Value::permeability>();
+  const V half(T(0.5)), drive = gas_drive<Value::gas_pressure>(p, c);
   const V b_i = p.template i<Value::gas_mobility>(), b_j = p.template j<Value::gas_mobility>();
   const V up = where_less(V::zero(), drive, b_j) + where_less(drive, V::zero(), b_i);
-  const V twice_scale = V(4) * (k_i * k_j) / max(k_i + k_j, tiny);
-  const V conductance = twice_scale * min(half * (b_i + b_j), up + up);
-  return -(p.template i<Value::volume>() * p.template j<Value::volume>() * conductance *
-           (V(c.viscous.laplacian) * p.f));
+  return exchange_rate(p, c, exchange_mean<Value::permeability>(p) * min(half * (b_i + b_j), up + up));
 }
 
 inline constexpr ValueSet gas_exchange_reads{Value::volume, Value::permeability, Value::gas_mobility,
@@ -49,12 +45,7 @@ struct GasFlowBy {
   static constexpr Field writes = Field::gas_gain;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V half(static_cast<typename P::Scalar>(0.5)), flow = gas_conductance(p, c) * gas_drive<by>(p, c);
-    sums.template add<Field::gas_gain>(0, flow);
-    for (int a = 0; a < P::dim; ++a)
-      sums.template add<Field::gas_gain>(
-          1 + a, half * flow * (p.template j<Value::velocity>(a) - p.template i<Value::velocity>(a)));
+    add_matter(p, gas_conductance(p, c) * gas_drive<by>(p, c), sums);
   }
 };
 
@@ -67,11 +58,8 @@ struct GasHeatBy {
   static constexpr Field writes = Field::gas_heat;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V drive = gas_drive<by>(p, c);
-    const V heat = where_less(V::zero(), drive, p.template j<Value::sensible_heat>()) +
-                   where_less(drive, V::zero(), p.template i<Value::sensible_heat>());
-    sums.template add<Field::gas_heat>(0, gas_conductance(p, c) * drive * heat);
+    const auto drive = gas_drive<by>(p, c);
+    sums.template add<Field::gas_heat>(0, gas_conductance(p, c) * drive * heat_upstream(p, drive));
   }
 };
 

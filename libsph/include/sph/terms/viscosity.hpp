@@ -14,15 +14,35 @@
 // (Colagrossi et al. 2011), decays at half its rate.
 #pragma once
 
-#include "sph/pairs/pair_values.hpp"
+#include "sph/terms/harmonic_mean.hpp"
 
 namespace sph {
 
+/// Twice the mean.
 template <class P>
 typename P::V mean_viscosity(const P& p) {
+  return twice_harmonic_mean(p.template i<Value::viscosity>(), p.template j<Value::viscosity>(),
+                             typename P::V(static_cast<typename P::Scalar>(1e-30)));
+}
+
+template <Value velocity, class P, class C, class S>
+void add_laplacian(const P& p, const C& c, typename P::V twice_mean, S& sums) {
   using V = typename P::V;
-  const V a = p.template i<Value::viscosity>(), b = p.template j<Value::viscosity>();
-  return V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-30)));
+  const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * twice_mean *
+              (V(c.viscous.laplacian) * p.f);
+  for (int k = 0; k < P::dim; ++k)
+    sums.template add<Field::force>(k, s * (p.template i<velocity>(k) - p.template j<velocity>(k)));
+}
+
+template <Value velocity, class P, class C, class S>
+void add_symmetric(const P& p, const C& c, typename P::V twice_mean, S& sums) {
+  using V = typename P::V;
+  V stretch = V::zero();
+  for (int k = 0; k < P::dim; ++k)
+    stretch += (p.template i<velocity>(k) - p.template j<velocity>(k)) * p.e[k];
+  const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * twice_mean *
+              (V(c.viscous.symmetric) * p.f * stretch);
+  for (int k = 0; k < P::dim; ++k) sums.template add<Field::force>(k, s * p.e[k]);
 }
 
 struct Viscosity {
@@ -31,28 +51,17 @@ struct Viscosity {
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * mean_viscosity(p) *
-                (V(c.viscous.laplacian) * p.f);
-    for (int k = 0; k < P::dim; ++k)
-      sums.template add<Field::force>(
-          k, s * (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)));
+    add_laplacian<Value::velocity>(p, c, mean_viscosity(p), sums);
   }
 };
 
 struct SymmetricViscosity {
   static constexpr std::string_view name = "SymmetricViscosity";
-  static constexpr ValueSet reads{Value::volume, Value::velocity, Value::viscosity};
+  static constexpr ValueSet reads = Viscosity::reads;
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    V stretch = V::zero();
-    for (int k = 0; k < P::dim; ++k)
-      stretch += (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)) * p.e[k];
-    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * mean_viscosity(p) *
-                (V(c.viscous.symmetric) * p.f * stretch);
-    for (int k = 0; k < P::dim; ++k) sums.template add<Field::force>(k, s * p.e[k]);
+    add_symmetric<Value::velocity>(p, c, mean_viscosity(p), sums);
   }
 };
 

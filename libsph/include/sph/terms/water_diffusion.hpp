@@ -7,19 +7,15 @@
 // from where it comes.
 #pragma once
 
-#include "sph/pairs/pair_values.hpp"
+#include "sph/terms/exchange_rule.hpp"
 
 namespace sph {
 
 /// Towards the first of the pair [kg/s].
 template <class P, class C>
 [[nodiscard, gnu::always_inline]] inline typename P::V water_flow(const P& p, const C& c) {
-  using V = typename P::V;
-  const V a = p.template i<Value::water_mobility>(), b = p.template j<Value::water_mobility>();
-  const V twice_mean = V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-300)));
-  const V rate = -(p.template i<Value::volume>() * p.template j<Value::volume>() * twice_mean *
-                   (V(c.viscous.laplacian) * p.f));
-  return rate * (p.template j<Value::dissolved>() - p.template i<Value::dissolved>());
+  return exchange_rate(p, c, exchange_mean<Value::water_mobility>(p)) *
+         (p.template j<Value::dissolved>() - p.template i<Value::dissolved>());
 }
 
 inline constexpr ValueSet water_exchange_reads{Value::volume, Value::water_mobility, Value::dissolved};
@@ -31,12 +27,7 @@ struct WaterDiffusion {
   static constexpr Field writes = Field::gas_gain;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V half(static_cast<typename P::Scalar>(0.5)), flow = water_flow(p, c);
-    sums.template add<Field::gas_gain>(0, flow);
-    for (int a = 0; a < P::dim; ++a)
-      sums.template add<Field::gas_gain>(
-          1 + a, half * flow * (p.template j<Value::velocity>(a) - p.template i<Value::velocity>(a)));
+    add_matter(p, water_flow(p, c), sums);
   }
 };
 
@@ -48,11 +39,8 @@ struct WaterHeat {
   static constexpr Field writes = Field::gas_heat;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V flow = water_flow(p, c);
-    const V heat = where_less(V::zero(), flow, p.template j<Value::sensible_heat>()) +
-                   where_less(flow, V::zero(), p.template i<Value::sensible_heat>());
-    sums.template add<Field::gas_heat>(0, flow * heat);
+    const auto flow = water_flow(p, c);
+    sums.template add<Field::gas_heat>(0, flow * heat_upstream(p, flow));
   }
 };
 

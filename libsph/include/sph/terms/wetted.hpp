@@ -53,7 +53,7 @@ template <class P>
   using V = typename P::V;
   const V i = p.template i<Value::viscosity>(), j = p.template j<Value::viscosity>();
   const V a = i + p.template i<Value::shears>() * (j - i), b = j + p.template j<Value::shears>() * (i - j);
-  return is_wet(p) * (V(4) * (a * b) / max(a + b, V(static_cast<typename P::Scalar>(1e-30))));
+  return is_wet(p) * twice_harmonic_mean(a, b, V(static_cast<typename P::Scalar>(1e-30)));
 }
 
 struct WettedViscosity {
@@ -62,12 +62,7 @@ struct WettedViscosity {
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * wet_viscosity(p) *
-                (V(c.viscous.laplacian) * p.f);
-    for (int k = 0; k < P::dim; ++k)
-      sums.template add<Field::force>(
-          k, s * (p.template i<Value::wet_velocity>(k) - p.template j<Value::wet_velocity>(k)));
+    add_laplacian<Value::wet_velocity>(p, c, wet_viscosity(p), sums);
   }
 };
 
@@ -77,13 +72,7 @@ struct WettedSymmetricViscosity {
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    V stretch = V::zero();
-    for (int k = 0; k < P::dim; ++k)
-      stretch += (p.template i<Value::wet_velocity>(k) - p.template j<Value::wet_velocity>(k)) * p.e[k];
-    const V s = p.template i<Value::volume>() * p.template j<Value::volume>() * wet_viscosity(p) *
-                (V(c.viscous.symmetric) * p.f * stretch);
-    for (int k = 0; k < P::dim; ++k) sums.template add<Field::force>(k, s * p.e[k]);
+    add_symmetric<Value::wet_velocity>(p, c, wet_viscosity(p), sums);
   }
 };
 
