@@ -32,10 +32,12 @@ void refuse_faults(const decomp::Comm& comm, const Scene& scene, const Findings&
 
 }  // namespace
 
-// For tests of the balance: this rank's cores are slower by scene.decomposition.slowness.
+// For tests of the balance: a rank's cores are slower by scene.decomposition.slowness. All ranks have the stage, or they
+// would count what guards find in different stages.
 void Simulation::add_dawdling() {
-  const double slowness = scene_.decomposition.slowness;
-  if (slowness <= 1 || scene_.decomposition.slow_rank != comm_.rank()) return;
+  if (scene_.decomposition.slowness <= 1) return;
+  const double slowness =
+      scene_.decomposition.slow_rank == comm_.rank() ? scene_.decomposition.slowness : 0.0;
   append(parts_.plan.kick,
          {"dawdle", decomp::Region::update, {}, {}, [this, slowness, before = 0.0](StepState&, Side) mutable {
             const double until = before + slowness * (timers_.cost() - before);
