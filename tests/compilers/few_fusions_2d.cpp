@@ -20,6 +20,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, SymmetricViscousOperator>(),
       List::template fuse<Quintic, SlippingStress, Viscosity, ArtificialViscosity>(),
       List::template fuse<Quintic, Deformation, BodyContactEnergy>(),
+      List::template fuse<Quintic, BondForce>(),
       List::template fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
       List::template fuse<Quintic, ClampSums>(),
       List::template fuse<Quintic, ClampReaction>(),
