@@ -55,7 +55,13 @@ void read_resets(const TopReader& top, Scene& scene) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
       if (!(box.lower[a] < box.upper[a]))
         table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
-    if (!box.temperature && !box.gas_content) table.fail_missing("temperature", "give it, or gas_content");
+    if (!box.temperature && !box.gas_content && !box.pressure)
+      table.fail_missing("temperature", "give it, gas_content or pressure");
+    table.only_if(box.pressure.has_value(), "rise_time", "it is of a pressure: give that");
+    table.only_if(scene.has_kind(GroupKind::fluid) && !has_eos(scene, EosKind::ideal_gas), "pressure",
+                  "it is of liquids and bubbly fluids");
+    table.only_if(!scene.is_mixture() && scene.terms.exchange.motion, "pressure",
+                  "it is of fluids that move, without grains");
     table.only_if(scene.has_heat(), "temperature", "there is no heat: give group.heat");
     table.only_if(has_eos(scene, EosKind::bubbly), "gas_content", "no group has gas: set eos = \"bubbly\"");
     if (box.gas_content) check_content(table, *box.gas_content, scene.groups);

@@ -107,6 +107,27 @@ void check_total_lagrangian(const std::vector<GroupReader>& tables, const std::v
   }
 }
 
+using BecomesReader = Reader<keys::becomes>;
+
+void check_failure(const BecomesReader& row, const Transition& change, const Group& group, const Group& to) {
+  const bool total = is_bonded(group);
+  row.only_if(total, "toughness", "only solids with lagrangian = \"total\" fail so");
+  row.only_if(total, "tensile_strength", "only solids with lagrangian = \"total\" fail so");
+  row.only_if(total, "cohesion", "only solids with lagrangian = \"total\" fail so");
+  row.only_if(total, "keeps", "only solids with lagrangian = \"total\" have it");
+  row.only_if(change.failure.cohesion.has_value(), "friction_angle", "it is of cohesion: give that");
+  if (!change.of_failure()) return;
+  if (change.failure.toughness && change.failure.tensile_strength)
+    row.fail("tensile_strength", "is given with toughness", "give one of them");
+  for (const Transition& other : group.becomes)
+    if (other.of_failure())
+      row.fail("group", "is the second that the solid fails into", "give one row of failure");
+  constexpr double alike = 0.02;
+  if (change.keeps == Conserved::mass && std::abs(to.density / group.density - 1) > alike)
+    row.fail("group", fmt::format("is of {} kg/m3, and what fails of {}", to.density, group.density),
+             "with its mass it would have another volume at once: give keeps = \"volume\", or a fluid as dense");
+}
+
 void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>& groups) {
   Group& group = groups[self];
   for (const auto& row : table.tables<keys::becomes>()) {
@@ -118,15 +139,18 @@ void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>
     if (!is_matter(to))
       row.fail("group", fmt::format("names \"{}\", which is no fluid and no solid", to.name),
                "only these can be joined");
-    const auto stays = [](const Group& g) {
-      return g.eos.law->kind == EosKind::ideal_gas || g.solid.lagrangian == Lagrangian::total;
+    const auto stays = [&](const Group& g) {
+      return g.eos.law->kind == EosKind::ideal_gas ||
+             (is_bonded(g) && !(&g == &group && change.of_failure() && to.kind == GroupKind::fluid));
     };
     if (stays(group) || stays(to))
       row.fail("group", fmt::format("leads from \"{}\" to \"{}\"", group.name, to.name),
-               "ideal gases and total-Lagrangian solids stay what they are");
+               "ideal gases and total-Lagrangian solids stay what they are; where these fail they become fluid: give "
+               "toughness, tensile_strength or cohesion");
     if (change.limits() == 0)
       row.fail_missing("void_fraction_above",
                        "give that, void_fraction_below, temperature_above or temperature_below");
+    check_failure(row, change, group, to);
     if (change.limits() > 1)
       row.fail("group", fmt::format("is joined at {} limits", change.limits()), "give each a row of its own");
     const bool warm = group.heat.material.specific_heat > 0, bubbly = group.eos.law->kind == EosKind::bubbly;

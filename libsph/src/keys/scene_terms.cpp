@@ -39,12 +39,16 @@ InterfaceTension read_surface_tension(const Reader<keys::surface_tension>& table
   return tension;
 }
 
+/// In spacings: bonds to the neighbours along the axes and the diagonals of a plane, so that few cross a crack.
+constexpr double short_bonds = 1.9;
+
 /// What holds by default, before the table says anything.
 void set_usual_terms(Scene& scene) {
   const bool ida = scene.terms.formulation == Formulation::ida, total = has_dry_bodies(scene);
   const bool gas = has_eos(scene, EosKind::ideal_gas);
   Terms& terms = scene.terms;
   if (ida || total || gas) terms.density_diffusion = 0;
+  if (has_failure(scene)) terms.bonds.reach = short_bonds;
   if (gas) {  // is rarely without shocks
     terms.artificial_viscosity = 1;
     terms.gas.quadratic_viscosity = 2;

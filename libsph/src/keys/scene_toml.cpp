@@ -173,6 +173,10 @@ void check_total_lagrangian(const Tables& tables, const Scene& scene) {
   if (!scene.total_lagrangian()) return;
   if (scene.terms.formulation == Formulation::ida)
     tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
+  if (scene.bond_width() > scene.kernel.smoothing_length)
+    tables.terms.fail("bond_reach", fmt::format("is {}", *scene.terms.bonds.reach),
+                      fmt::format("bonds reach as far as the kernel at most, {:.4g} spacings",
+                                  scene.kernel_radius() / scene.start.spacing));
   if (has_dry_bodies(scene) && scene.domain.surface_pressure > 0)
     tables.domain.fail("surface_pressure", fmt::format("is {}", scene.domain.surface_pressure),
                        "solids with lagrangian = \"total\" start free of stress: remove it");

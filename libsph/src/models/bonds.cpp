@@ -3,7 +3,10 @@
 // is integrated in time but position and velocity.
 #include "sph/terms/bonds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -12,6 +15,7 @@
 #include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/terms/body_contact.hpp"
+#include "sph/terms/crack.hpp"
 
 namespace sph {
 namespace {
@@ -37,13 +41,19 @@ Tensor<D> adjugate(const double* a) {
 /// The sums of terms/bonds.hpp for one particle, with their scale undone.
 template <int D>
 struct BondSums {
-  double count, square, shape;
+  double count, shape;
   Tensor<D> inverse;   ///< A^-1
   Tensor<D> gradient;  ///< H = B A^-1
   double residual;     ///< sum w |u - H X|^2
-  BondSums(const double* sums, double scale) : count(sums[0]) {
+  /// `round`: so much of an isotropic tensor is added to A.
+  BondSums(const double* sums, double scale, double round = 0) : count(sums[0]) {
     constexpr int n = D * (D + 1) / 2;
-    const double* a = sums + 2;
+    double a[n];
+    std::copy_n(sums + 2, n, a);
+    if (round > 0) {
+      const double more = round * std::accumulate(a, a + D, 0.0);
+      for (int k = 0; k < D; ++k) a[k] += more;
+    }
     const Eigen::Map<const Tensor<D>> b(sums + 2 + n);
     const Tensor<D> adjugate_of_a = adjugate<D>(a);
     double determinant = 0, trace = 0;
@@ -57,11 +67,16 @@ struct BondSums {
     inverse = adjugate_of_a / (determinant * scale);
     residual = (sums[1] - gradient.cwiseProduct(b).sum()) * scale;
   }
+  void set_free() {
+    inverse.setZero();
+    gradient.setZero();
+    residual = 0;
+  }
 };
 
 struct Stresses {
   static constexpr FieldSet reads =
-      RangeView::reads | FieldSet{Field::contact_energy, Field::deformation, Field::prestress};
+      RangeView::reads | FieldSet{Field::contact_energy, Field::deformation, Field::prestress, Field::crack};
   static constexpr FieldSet writes{Field::bond_stress, Field::stress,  Field::strain_energy,
                                    Field::bonds,       Field::density, Field::pressure};
   const SphConstants* constants;
@@ -78,6 +93,7 @@ struct Stresses {
     const double* mass = p.get<Field::mass>();
     const double* contact = p.get<Field::contact_energy>();
     const double* prestress = p.get<Field::prestress>();
+    const double* crack = p.get<Field::crack>();
     for (std::size_t i = first; i < last; ++i) {
       Eigen::Map<Tensor<D>> bond_stress(p.get<Field::bond_stress>() + i * D * D);
       double* stress = p.get<Field::stress>() + i * n;
@@ -88,9 +104,11 @@ struct Stresses {
         bond_stress.setZero();
         continue;
       }
-      const BondSums<D> bonds(p.get<Field::deformation>() + i * sums,
-                              constants->gradient_factor * constants->scene->kernel.smoothing_length);
-      check(p, i, bonds.count, bonds.shape, step);
+      BondSums<D> bonds(p.get<Field::deformation>() + i * sums, constants->bond_factor);
+      if (crack == nullptr)
+        check(p, i, bonds.count, bonds.shape, step);
+      else
+        check_cracked(p, i, bonds, step);
       const double before = prestress != nullptr ? prestress[i] : 0.0;
       const ElasticState<D> state =
           neo_hooke<D>(bonds.gradient, own.eos.bulk_modulus, own.solid.shear_modulus, before);
@@ -122,11 +140,7 @@ struct Stresses {
     std::uint32_t& bonds = p.get<Field::bonds>()[i];
     const auto found = static_cast<std::uint32_t>(count);
     if (bonds == 0) {
-      if (!(shape > least_shape))
-        find_fault(*constants, p, i, step,
-                   "has its " + std::to_string(found) +
-                       " neighbours in one line or plane: a total-Lagrangian body must be at least two "
-                       "particles across; refine start.spacing");
+      if (!(shape > least_shape)) find_thin(p, i, count, step);
       bonds = found;
     }
     if (bonds != found)
@@ -134,6 +148,29 @@ struct Stresses {
           *constants, p, i, step,
           "finds " + std::to_string(found) + " of its " + std::to_string(bonds) +
               " neighbours: the body is stretched beyond terms.largest_stretch; raise it or reduce time.dt");
+  }
+
+  // What a crack has left without bonds that span the space fails next (models/failure.cpp), with 1 for their number. Until
+  // then they are as those of a thread, which bears nothing across.
+  template <int D>
+  void check_cracked(const View<reads, writes>& p, std::size_t i, BondSums<D>& bonds, const Step& step) const {
+    std::uint32_t& number = p.get<Field::bonds>()[i];
+    const bool loose = !(bonds.shape > least_shape);
+    if (loose && number == 0) find_thin(p, i, bonds.count, step);
+    number = loose ? 1 : static_cast<std::uint32_t>(bonds.count);
+    if (!loose) return;
+    constexpr std::size_t sums = 2 + D * (D + 1) / 2 + D * D;
+    if (bonds.count > 0)
+      bonds = BondSums<D>(p.get<Field::deformation>() + i * sums, constants->bond_factor, 0.01);
+    else
+      bonds.set_free();
+  }
+
+  void find_thin(const View<reads, writes>& p, std::size_t i, double count, const Step& step) const {
+    find_fault(*constants, p, i, step,
+               fmt::format("has its {} neighbours in one line or plane: a total-Lagrangian body must be at least two "
+                           "particles across; refine start.spacing",
+                           static_cast<std::uint32_t>(count)));
   }
 };
 
@@ -158,7 +195,9 @@ struct KeepBondForces {
 void add_bonds(Builder& b) {
   const Scene& s = b.scene();
   const SphConstants& k = b.constants();
-  std::vector<Term> deformation{term<Deformation>}, forces{term<BondForce>};
+  const bool cracks = has_failure(s);
+  std::vector<Term> deformation{cracks ? term<CrackedDeformation> : term<Deformation>};
+  std::vector<Term> forces{cracks ? term<CrackedBondForce> : term<BondForce>};
   bool contact = false, viscous = false;
   double first = -1;
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
@@ -171,7 +210,11 @@ void add_bonds(Builder& b) {
     deformation.push_back(term<BodyContactEnergy>);
     forces.push_back(term<BodyContact>);
   }
-  if (viscous) forces.push_back(term<BondViscosity>);
+  if (viscous) forces.push_back(cracks ? term<CrackedBondViscosity> : term<BondViscosity>);
+  if (cracks) {
+    deformation.push_back(term<CrackSums>);
+    b.add_fields({Field::overload, Field::crack, Field::failing});
+  }
   std::optional<Clamps> clamps;
   if (std::ranges::any_of(s.groups, [](const Group& g) { return g.wall.clamps >= 0; })) clamps.emplace(s);
   b.add_fields({Field::displacement, Field::bonds, Field::bond_stress, Field::strain_energy});

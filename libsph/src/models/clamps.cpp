@@ -6,6 +6,7 @@
 #include "pairs/for_rows.hpp"
 #include "sph/terms/bonds.hpp"
 #include "sph/terms/clamp.hpp"
+#include "sph/terms/crack.hpp"
 
 namespace sph {
 namespace {
@@ -68,17 +69,18 @@ struct AddReactions {
 
 }  // namespace
 
-Clamps::Clamps(const Scene& scene) : mirror_(std::make_shared<const WallMirror>(scene)) {}
+Clamps::Clamps(const Scene& scene) : mirror_(std::make_shared<const WallMirror>(scene, scene.bond_width())) {}
 
 void Clamps::add_shifts(Builder& b) const {
   b.add_fields({Field::clamp_shift});
   b.add_sums("clamps", {term<ClampSums>}, Builder::Rows::walls);
-  b.add_update("shifts of clamps", Shifts{b.scene().kernel.smoothing_length, mirror_});
+  b.add_update("shifts of clamps", Shifts{b.scene().bond_width(), mirror_});
 }
 
 void Clamps::add_reactions(Builder& b) const {
   b.add_fields({Field::clamp_reaction});
-  b.add_sums("forces on clamps", {term<BondForce>}, Builder::Rows::walls);
+  b.add_sums("forces on clamps", {has_failure(b.scene()) ? term<CrackedBondForce> : term<BondForce>},
+             Builder::Rows::walls);
   b.add_update("reactions of clamps", Reactions{mirror_});
   b.add_sums("reactions", {term<ClampReaction>});
   b.add_update("forces of clamps", AddReactions{});

@@ -19,6 +19,7 @@
 #include "sph/terms/surface_tension.hpp"
 #include "sph/terms/tension_jump.hpp"
 #include "sph/terms/viscosity.hpp"
+#include "sph/terms/crack.hpp"
 #include "sph/terms/wetted.hpp"
 
 namespace sph {
@@ -139,7 +140,7 @@ namespace {
 
 void add_wet_forces(Builder& b) {
   const Scene& s = b.scene();
-  std::vector<Term> terms{term<WettedPressure>, s.terms.viscous.form == ViscosityForm::symmetric
+  std::vector<Term> terms{has_failure(s) ? term<CrackedWettedPressure> : term<WettedPressure>, s.terms.viscous.form == ViscosityForm::symmetric
                                                     ? term<WettedSymmetricViscosity>
                                                     : term<WettedViscosity>};
   if (s.terms.artificial_viscosity > 0) terms.push_back(term<WettedArtificialViscosity>);

@@ -1,6 +1,7 @@
 #include "sph/models/resets.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
@@ -10,11 +11,11 @@ namespace sph {
 namespace {
 
 struct Resets {
-  static constexpr FieldSet reads = FaultView::reads | Materials::reads | FieldSet{Field::liquid_mass};
+  static constexpr FieldSet reads = FaultView::reads | Materials::reads;
   static constexpr FieldSet writes =
       Materials::writes | FieldSet{Field::density,    Field::mass,         Field::gas_content,
                                    Field::enthalpy,   Field::temperature,  Field::heat_inflow,
-                                   Field::gas_inflow, Field::dissolved_gas};
+                                   Field::gas_inflow, Field::dissolved_gas, Field::liquid_mass};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
   const Materials* materials;
@@ -25,6 +26,7 @@ struct Resets {
         if (!contains(box, p, i)) continue;
         if (box.gas_content) fill(p, i, *box.gas_content, step);
         if (box.temperature) heat(p, i, *box.temperature);
+        if (box.pressure) press(p, i, *box.pressure * risen(box, step.global), step);
       }
     });
   }
@@ -54,6 +56,27 @@ struct Resets {
     if (double* w = p.get<Field::dissolved_gas>())
       w[i] = dissolved_gas(g, m, p.get<Field::pressure>()[i] + materials->outer(p, i, g));
     p.get<Field::density>()[i] = materials->density_of(p, i, g, content, step);
+    materials->derive(p, i, i + 1);  // as after a restart
+  }
+
+  [[nodiscard]] static double risen(const Reset& box, const GlobalState& global) {
+    return box.rise_time > 0 ? std::fmin((global.time + global.dt) / box.rise_time, 1.0) : 1.0;
+  }
+
+  void press(const Rows& p, std::size_t i, double wanted, const Step& step) const {
+    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
+    if (g.kind != GroupKind::fluid) return;
+    double &mass = p.get<Field::mass>()[i], &rho = p.get<Field::density>()[i];
+    const double* content = p.get<Field::gas_content>();
+    const double m = content != nullptr ? content[i] : 0.0;
+    p.get<Field::pressure>()[i] = wanted;
+    const double now = materials->density_of(p, i, g, m, step), more = now / rho;
+    if (const double* h = p.get<Field::enthalpy>())
+      p.get<Field::heat_inflow>()[i] += (more - 1) * mass * h[i];
+    if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += (more - 1) * mass * (m / (1 + m));
+    if (double* liquid = p.get<Field::liquid_mass>()) liquid[i] *= more;
+    mass *= more;
+    rho = now;
     materials->derive(p, i, i + 1);  // as after a restart
   }
 

@@ -204,7 +204,10 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   terms.shock.quadratic_viscosity = of.terms.gas.quadratic_viscosity;
   terms.shock.conduction = of.terms.gas.conduction;
   terms.inverse_w_spacing = 1 / kernel.w_spacing;
-  terms.bonds.range = of.list_range() / h;
+  const double ratio = h / of.bond_width();
+  terms.bonds = {of.list_range() / h, row_scale.position_unit * ratio, ratio, power(ratio, of.dim + 1),
+                 power(ratio, of.dim + 2)};
+  bond_factor = gradient_factor * h * power(ratio, of.dim);
   terms.contact.range = of.start.spacing / h;
   // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor later.
   const double contact = contact_stiffness * power(of.start.spacing, of.dim) / (h * h);

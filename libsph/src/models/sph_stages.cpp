@@ -4,6 +4,7 @@
 
 #include "sph/laws/eos/law.hpp"
 #include "sph/models/exsolution.hpp"
+#include "sph/models/failure.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/resets.hpp"
 #include "sph/models/transitions.hpp"
@@ -59,6 +60,7 @@ void add_end_of_step(Builder& b, const SphModels& m) {
   add_drifts(b);
   if (bulk_viscous(s)) add_pressures(b);
   if (exsolves_slowly(s)) add_exsolution(b);
+  if (has_failure(s)) add_failure(b);
   if (has_transitions(s)) add_transitions(b);
   if (!s.domain.resets.empty()) add_resets(b);
   if (m.shifting) m.shifting->add_motion_to(b);

@@ -24,7 +24,7 @@ double SphTimeStep::longest(const StepMaxima& maxima) const {
   const Scene& scene = *constants_->scene;
   if (scene.time.dt) return *scene.time.dt;
   if (!scene.terms.exchange.motion) return std::numeric_limits<double>::infinity();
-  const double h = scene.kernel.smoothing_length;
+  const double h = std::min(scene.kernel.smoothing_length, scene.bond_width());
   double fastest = maxima.sound, viscous = maxima.viscosity, bulk = maxima.bulk;
   const bool law = has_viscosity_law(scene);
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
@@ -61,7 +61,8 @@ double SphTimeStep::resting(const std::vector<double>& sounds) const {
 }
 
 double SphTimeStep::courant_number(double dt, const std::vector<double>& sounds) const {
-  return std::ranges::max(sounds) * dt / constants_->scene->kernel.smoothing_length;
+  const Scene& scene = *constants_->scene;
+  return std::ranges::max(sounds) * dt / std::min(scene.kernel.smoothing_length, scene.bond_width());
 }
 
 void SphTimeStep::guard(double sound, const GlobalState& global) const {
@@ -71,7 +72,7 @@ void SphTimeStep::guard(double sound, const GlobalState& global) const {
         "step {}: nothing moves, no gas flows any more, and nothing limits the time step; give time.dt",
         global.step));
   if (!scene.time.dt || !scene.terms.exchange.motion) return;
-  const double limit = courant_limit(scene), courant = sound * *scene.time.dt / scene.kernel.smoothing_length;
+  const double limit = courant_limit(scene), courant = courant_number(*scene.time.dt, {sound});
   if (!(courant > limit)) return;
   if (gas_)
     throw GuardError(

@@ -36,12 +36,12 @@ double elastic_energy(const Group& g, const double* s, std::size_t d) {
 
 struct Transitions {
   static constexpr FieldSet reads =
-      FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::mass};
+      FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::failing, Field::wet_pressure, Field::strain_energy};
   static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::group,           Field::density,         Field::stress,
+      Materials::writes | FieldSet{Field::group, Field::mass,          Field::density,         Field::stress,
                                    Field::temperature,     Field::liquid_mass,     Field::waiting_for,
                                    Field::waiting_time,    Field::released_energy, Field::void_fraction_mean,
-                                   Field::temperature_mean};
+                                   Field::temperature_mean, Field::pressure};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
   const Materials* materials;
@@ -62,11 +62,12 @@ struct Transitions {
             : follow(p.get<Field::void_fraction_mean>()[i], psi[i], row.average, step.global);
       }
       const auto first = std::ranges::find_if(table, [&](const Transition& row) {
-        return row.holds(of(psi, psi_mean, row, i), of(t, t_mean, row, i));
+        return row.of_failure() ? p.get<Field::failing>()[i] == 1
+                                : row.holds(of(psi, psi_mean, row, i), of(t, t_mean, row, i));
       });
       if (has_waited(p, i, first == table.end() ? nullptr : &*first,
                      static_cast<std::uint32_t>(first - table.begin()), step.global.dt))
-        change(p, i, static_cast<std::uint32_t>(first->group), step);
+        change(p, i, *first, step);
     });
   }
 
@@ -96,11 +97,12 @@ struct Transitions {
     return true;
   }
 
-  void change(const Rows& p, std::size_t i, std::uint32_t to, const Step& step) const {
+  void change(const Rows& p, std::size_t i, const Transition& row, const Step& step) const {
     const Scene& scene = *constants->scene;
+    const auto to = static_cast<std::uint32_t>(row.group);
     auto* group = p.get<Field::group>();
     const Group &old = scene.groups[group[i]], &now = scene.groups[to];
-    const double mass = p.get<Field::mass>()[i];
+    double& mass = p.get<Field::mass>()[i];
     double& rho = p.get<Field::density>()[i];
     const bool bubbly = now.eos.law->kind == EosKind::bubbly;
     if (const double* gas = p.get<Field::gas_content>(); bubbly && gas != nullptr && !can_hold(now, gas[i])) {
@@ -112,9 +114,12 @@ struct Transitions {
       return;
     }
     if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
-    if (!same_state(old, now)) {
+    if (is_bonded(old)) p.get<Field::pressure>()[i] = p.get<Field::wet_pressure>()[i];
+    if (is_bonded(old) || !same_state(old, now)) {
       const double* gas = p.get<Field::gas_content>();
+      const double before = rho;
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
+      if (row.keeps == Conserved::volume) mass *= rho / before;
     }
     group[i] = to;
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
@@ -130,7 +135,8 @@ struct Transitions {
   void release(const Rows& p, std::size_t i, const Group& old, const Group& now, double* stress,
                double volume) const {
     const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
-    const double before = elastic_energy(old, stress + i * n, d);
+    const bool bonded = is_bonded(old);
+    const double before = bonded ? p.get<Field::strain_energy>()[i] / volume : elastic_energy(old, stress + i * n, d);
     if (old.kind == GroupKind::solid && now.kind == GroupKind::fluid) std::fill_n(stress + i * n, n, 0.0);
     if (double* released = p.get<Field::released_energy>())
       released[i] += (before - elastic_energy(now, stress + i * n, d)) * volume;

@@ -47,8 +47,8 @@ std::vector<View> views(int dim, double spacing) {
 
 }  // namespace
 
-WallMirror::WallMirror(const Scene& scene) {
-  const double spacing = scene.start.spacing / scene.kernel.smoothing_length;
+WallMirror::WallMirror(const Scene& scene, double smoothing_length) {
+  const double spacing = scene.start.spacing / smoothing_length;
   const std::vector<View> at = scene.kernel.shape == KernelShape::quintic ? views<Quintic>(scene.dim, spacing)
                                : scene.kernel.shape == KernelShape::wendland_c2
                                    ? views<WendlandC2>(scene.dim, spacing)

@@ -143,7 +143,7 @@ WallPressures wall_pressures(Builder& b) {
   WallPressures update{&s, nullptr};
   if (std::ranges::any_of(s.groups,
                           [](const Group& g) { return g.kind == GroupKind::wall && !g.wall.slip; })) {
-    update.of_wall = std::make_shared<const WallMirror>(s);
+    update.of_wall = std::make_shared<const WallMirror>(s, s.kernel.smoothing_length);
     b.add_fields({Field::wall_mirror});
   }
   return update;

@@ -27,12 +27,19 @@ double Scene::kernel_radius() const {
   return (kernel.shape == KernelShape::quintic ? 3 : 2) * kernel.smoothing_length;
 }
 
+double Scene::bond_width() const {
+  const double h = kernel.smoothing_length;
+  return terms.bonds.reach ? *terms.bonds.reach * start.spacing * (h / kernel_radius()) : h;
+}
+
 double Scene::support() const {
   return has_melt() && !has_grains() ? start.spacing : std::max(kernel_radius(), largest_diameter());
 }
 
 double Scene::list_range() const {
-  return support() * (total_lagrangian() ? terms.bonds.largest_stretch : kernel.largest_growth);
+  if (total_lagrangian())
+    return std::max(support(), bond_width() / kernel.smoothing_length * kernel_radius() * terms.bonds.largest_stretch);
+  return support() * kernel.largest_growth;
 }
 
 bool Scene::has_gas_flow() const {
@@ -64,6 +71,11 @@ bool has_wet_bodies(const Scene& scene) {
 }
 bool has_dry_bodies(const Scene& scene) {
   return scene.total_lagrangian() && !scene.has_kind(GroupKind::fluid);
+}
+bool has_failure(const Scene& scene) {
+  return std::ranges::any_of(scene.groups, [](const Group& g) {
+    return std::ranges::any_of(g.becomes, [](const Transition& t) { return t.of_failure(); });
+  });
 }
 
 int Scene::group_index(const std::string& group_name) const {

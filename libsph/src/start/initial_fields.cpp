@@ -143,6 +143,12 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
     for (std::size_t a = 0; a < d; ++a) spin[i * d + a] = p.spin[a];
   if (auto* pressure = particles.data<Field::pressure>()) pressure[i] = 0;
   if (auto* bonds = particles.data<Field::bonds>()) bonds[i] = 0;  // not counted yet
+  if (auto* overload = particles.data<Field::overload>()) {
+    overload[i] = -1;
+    // What is fluid beside a solid at the start is a crack to it.
+    particles.data<Field::failing>()[i] = scene.groups[p.group].kind == GroupKind::fluid ? 1 : 0;
+    for (std::size_t a = 0; a < d; ++a) particles.data<Field::crack>()[i * d + a] = 0;
+  }
   if (auto* prestress = particles.data<Field::prestress>()) prestress[i] = p.prestress;
   if (auto* mean = particles.data<Field::acceleration>())
     for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = 0;

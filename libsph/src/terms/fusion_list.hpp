@@ -6,6 +6,7 @@
 #include "sph/terms/body_contact.hpp"
 #include "sph/terms/bonds.hpp"
 #include "sph/terms/clamp.hpp"
+#include "sph/terms/crack.hpp"
 #include "sph/terms/density_diffusion.hpp"
 #include "sph/terms/divergence.hpp"
 #include "sph/terms/gas.hpp"
@@ -97,6 +98,8 @@ struct FusionList {
              fuse<Quintic, IdaStress, ArtificialViscosity>(),
              fuse<Quintic, Deformation>(),
              fuse<Quintic, Deformation, BodyContactEnergy>(),
+             fuse<Quintic, CrackedDeformation, CrackSums>(),
+             fuse<Quintic, CrackedDeformation, BodyContactEnergy, CrackSums>(),
              fuse<Quintic, WettedExtrapolation>(),
              fuse<Quintic, ClampSums>(),
              fuse<Quintic, ClampReaction>(),
@@ -104,6 +107,10 @@ struct FusionList {
              fuse<Quintic, BondForce, BondViscosity>(),
              fuse<Quintic, BondForce, BodyContact>(),
              fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
+             fuse<Quintic, CrackedBondForce>(),
+             fuse<Quintic, CrackedBondForce, CrackedBondViscosity>(),
+             fuse<Quintic, CrackedBondForce, BodyContact>(),
+             fuse<Quintic, CrackedBondForce, BodyContact, CrackedBondViscosity>(),
          })
       list.push_back(std::move(f));
     for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>(), wetted<WettedViscosity>(),
@@ -132,6 +139,8 @@ struct FusionList {
     return {
         fuse<Quintic, WettedPressure, Viscous>(),
         fuse<Quintic, WettedPressure, Viscous, WettedArtificialViscosity>(),
+        fuse<Quintic, CrackedWettedPressure, Viscous>(),
+        fuse<Quintic, CrackedWettedPressure, Viscous, WettedArtificialViscosity>(),
     };
   }
 

@@ -100,6 +100,10 @@ enum class Field : std::uint8_t {
   clamp_shift,
   clamp_reaction,
   clamp_push,
+  overload,
+  crack,
+  failing,
+  crack_sums,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);

@@ -245,6 +245,16 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of a clamp's particle: what it gives back of the force on it, a kernel of weight 1"},
     {Field::clamp_push, "clamp_push", "N", Type::f64, Shape::vector, false, false,
      "of a particle that is bonded to clamps: what they give back", SumScale::one},
+    {Field::overload, "overload", "1", Type::f64, Shape::scalar, true, true,
+     "of solids that can fail: how far beyond their strength they are, over it; below 0 where they hold"},
+    {Field::crack, "crack", "1", Type::f64, Shape::vector, true, true,
+     "n: where beside a particle of a solid others have failed (terms/crack.hpp)"},
+    {Field::failing, "failing", "1", Type::u32, Shape::scalar, true, false,
+     "1: has become fluid since cracks were last looked at"},
+    {Field::crack_sums, "crack_sums", "1", Type::f64, Shape::shifting, false, false,
+     "over bonds: how many are nearly lost, how many lead to what is further beyond its strength; then n of what has "
+     "just failed",
+     SumScale::one},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

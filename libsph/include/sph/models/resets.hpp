@@ -1,6 +1,7 @@
 // Boxes in which particles get another state at the end of each step ([[reset]]): hot or gas-rich matter comes in where a
 // period, or a flow, has brought old matter round. Of a particle in a box
 //   the temperature becomes T, its enthalpy H(T), at constant mass;
+//   the pressure p, at constant volume: mass comes in, of the matter that is there, or leaves;
 //   the gas content m, its mass M (1 + m), M that of its liquid, at constant temperature, velocity and pressure: the
 //   density follows, and the volume. What can be dissolved is, where that takes time. (At constant volume gas that comes in would be a blow.)
 // What heat and gas that adds is counted for the particle (heat_inflow, gas_inflow); its momentum grows as its mass does.

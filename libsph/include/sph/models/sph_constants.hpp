@@ -32,6 +32,7 @@ struct SphConstants {
   GroupTable groups;
   RowScale row_scale{};
   TermConstants<double> terms{};
+  double bond_factor = 0;  ///< scale of a sum over bonds of V_j W'/|X| X X (terms/bonds.hpp)
   double gradient_factor = 0, force_factor = 0, diffusion_factor = 0;  ///< as PassContext has them
   double own_concentration = 0;  ///< V W(0) of a particle of volume spacing^D
   double kernel_at_zero = 0;     ///< W(0) without its factor

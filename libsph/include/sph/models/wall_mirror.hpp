@@ -18,7 +18,7 @@ namespace sph {
 
 class WallMirror {
  public:
-  explicit WallMirror(const Scene& scene);
+  WallMirror(const Scene& scene, double smoothing_length);
   /// k where D / h is `distance`, 0 on the face and where fluid is all around; 1 where the sum of the kernel,
   /// `weight`, is too small for a flat wall: beside the edge of the fluid and in corners.
   [[nodiscard]] double operator()(double distance, double weight) const;

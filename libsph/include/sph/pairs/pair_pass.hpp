@@ -32,11 +32,12 @@ struct PairWidths {
 /// Of a pair whose terms read Value::reference.
 template <class V, int D>
 struct PairBond {
-  V reference[D];     ///< X = (X_j - X_i) / h
-  V displacement[D];  ///< u = e - X, exact before it is rounded once
+  V reference[D];     ///< X = (X_j - X_i) / h, h that of the kernel of bonds
+  V displacement[D];  ///< u = x_j - x_i over the same h, less X; exact before it is rounded once
   V intact;  ///< 1 for two particles of one body within each other's support in the reference state, unless
              ///< lost
   V weight;  ///< -w'(|X|) / |X| of a bond, else 0; grad_i W = weight X
+  V weight_of_any;  ///< the same of all that were so near, of whatever body
 };
 
 template <class T, int D, ValueSet S>
@@ -193,7 +194,7 @@ struct PairPass {
         pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
         if constexpr (values.has(Value::width)) look_at_widths(own, other, pair);
         if constexpr (values.has(Value::reference))
-          look_at_bond(own, other, unit, V(constants.bonds.range), pair);
+          look_at_bond(own, other, constants.bonds, pair);
         (Terms::template add<Kernel>(pair, constants, sums), ...);
       }
       store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
@@ -223,7 +224,9 @@ struct PairPass {
     pair.f = V(static_cast<T>(0.5)) * (pair.width.f_i + pair.width.f_j);
   }
 
-  static void look_at_bond(const V* own, const V* other, V unit, V range, Pair<T, D, values>& pair) {
+  static void look_at_bond(const V* own, const V* other, const BondConstants<T>& bonds,
+                           Pair<T, D, values>& pair) {
+    const V unit(bonds.position_unit);
     constexpr int reference = Layout::offset(Value::reference), body = Layout::offset(Value::body);
     V square = V::zero();
     for (int a = 0; a < D; ++a) {
@@ -233,7 +236,7 @@ struct PairPass {
           coordinate_difference(stored_difference(xi, own[a]), stored_difference(xj, other[a])) * unit;
       if constexpr (values.has(Value::clamp_shift)) {
         constexpr int shift = Layout::offset(Value::clamp_shift);
-        pair.bond.displacement[a] += other[shift + a] - own[shift + a];
+        pair.bond.displacement[a] += (other[shift + a] - own[shift + a]) * V(bonds.ratio);
       }
       square += pair.bond.reference[a] * pair.bond.reference[a];
     }
@@ -243,11 +246,11 @@ struct PairPass {
     const V distance = sqrt(square), tiny(static_cast<T>(1e-30));
     // A bond longer than the range is lost even where a list, with its skin, still holds it: how wide lists
     // are must not decide when a run ends.
-    const V found = where_less(pair.r, range, V(static_cast<T>(1)));
+    const V found = where_less(pair.r, V(bonds.range), V(static_cast<T>(1)));
     const V inside = where_less(distance, V(static_cast<T>(Kernel::radius)), found * near);
     pair.bond.intact = where_equal(own[body], other[body], where_less(V::zero(), square, inside));
-    pair.bond.weight = where_equal(
-        own[body], other[body], -(found * near * Kernel::template slope<D>(distance) / max(distance, tiny)));
+    pair.bond.weight_of_any = -(found * near * Kernel::template slope<D>(distance) / max(distance, tiny));
+    pair.bond.weight = where_equal(own[body], other[body], pair.bond.weight_of_any);
   }
 
   /// 1 where the reference positions are less than three cells of 2^29 units apart along each axis, else 0.
@@ -278,7 +281,8 @@ struct PairPass {
                  static_cast<T>(d.viscous.symmetric)};
     c.shock = {static_cast<T>(d.shock.quadratic_viscosity), static_cast<T>(d.shock.conduction)};
     c.jump = {static_cast<T>(d.jump.damping), static_cast<T>(d.jump.background_pressure)};
-    c.bonds = {static_cast<T>(d.bonds.range)};
+    c.bonds = {static_cast<T>(d.bonds.range), static_cast<T>(d.bonds.position_unit),
+               static_cast<T>(d.bonds.ratio), static_cast<T>(d.bonds.force), static_cast<T>(d.bonds.viscosity)};
     c.contact = {static_cast<T>(d.contact.range), static_cast<T>(d.contact.force),
                  static_cast<T>(d.contact.energy)};
     return c;

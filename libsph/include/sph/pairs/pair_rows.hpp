@@ -200,6 +200,31 @@ struct BondColumns {
   }
 };
 
+/// Of solids that crack.
+struct CrackColumns {
+  explicit CrackColumns(const Particles& p)
+      : crack(p.data<Field::crack>()),
+        overload(p.data<Field::overload>()),
+        failing(p.data<Field::failing>()) {}
+  const double *crack, *overload;
+  const std::uint32_t* failing;
+
+  template <class Row>
+  [[gnu::always_inline]] void pack(const Row& row) const {
+    constexpr ValueSet S = Row::values;
+    constexpr int D = Row::dim;
+    const std::size_t i = row.i;
+    if constexpr (S.has(Value::crack)) {
+      double square = 0;
+      for (int k = 0; k < D; ++k) square += crack[i * D + k] * crack[i * D + k];
+      const double length = std::sqrt(square);
+      for (int k = 0; k < D; ++k) row.put(Value::crack, k, length > 0 ? crack[i * D + k] / length : 0.0);
+    }
+    if constexpr (S.has(Value::overload)) row.put(Value::overload, 0, overload[i]);
+    if constexpr (S.has(Value::failing)) row.put(Value::failing, 0, failing[i]);
+  }
+};
+
 /// Of total-Lagrangian solids in a fluid.
 struct WetColumns {
   explicit WetColumns(const Particles& p)
@@ -343,6 +368,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const StateColumns state(p);
   const InterfaceColumns interface(p);
   const BondColumns bonds(p);
+  const CrackColumns cracks(p);
   const WetColumns wet(p);
   const ImplicitColumns implicit(p);
   const CorrectionColumns corrections(p);
@@ -354,6 +380,7 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
     state.pack(row);
     interface.pack(row);
     bonds.pack(row);
+    cracks.pack(row);
     wet.pack(row);
     implicit.pack(row);
     corrections.pack(row);

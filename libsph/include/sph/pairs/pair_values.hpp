@@ -81,6 +81,9 @@ enum class Value : std::uint8_t {
   wet_pressure,    ///< of a body what the fluid beside it presses with, else the pressure [Pa]
   wet_velocity,    ///< of a body the mirror image of the flow beside it, else the velocity [m/s]
   own_head,  ///< -a h of a body, a its acceleration: rho times it is grad p h beside it, less the weight's part
+  crack,     ///< n over its length, 0 without a crack
+  overload,  ///< how far beyond its strength, over it
+  failing,   ///< 1 where it has just become fluid, else 0
   count_
 };
 
@@ -104,7 +107,7 @@ class ValueSet {
   const bool vector = v == Value::velocity || v == Value::reference || v == Value::reference_cell ||
                       v == Value::direction || v == Value::wall_slope || v == Value::interface_normal ||
                       v == Value::rest_gradient || v == Value::wet_velocity || v == Value::clamp_shift ||
-                      v == Value::clamp_reaction || v == Value::own_head;
+                      v == Value::clamp_reaction || v == Value::own_head || v == Value::crack;
   const bool tensor = v == Value::stress || v == Value::capillary;
   return vector                                                     ? dim
          : v == Value::pressures                                    ? 2
@@ -149,6 +152,9 @@ class ValueSet {
   if (values.has(Value::wet_pressure)) f |= FieldSet{Field::group, Field::pressure, Field::wet_pressure};
   if (values.has(Value::wet_velocity)) f |= FieldSet{Field::group, Field::velocity, Field::wet_velocity};
   if (values.has(Value::own_head)) f |= FieldSet{Field::group, Field::acceleration};
+  if (values.has(Value::crack)) f |= FieldSet{Field::crack};
+  if (values.has(Value::overload)) f |= FieldSet{Field::overload};
+  if (values.has(Value::failing)) f |= FieldSet{Field::failing};
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   if (values.has(Value::shears)) f |= FieldSet{Field::group};
   if (values.has(Value::temperature)) f |= FieldSet{Field::temperature};

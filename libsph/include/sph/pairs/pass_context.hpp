@@ -31,7 +31,11 @@ struct JumpConstants {
 /// Of terms/bonds.hpp.
 template <class T>
 struct BondConstants {
-  T range;  ///< largest distance of two bonded particles / h
+  T range;          ///< largest distance of two bonded particles / h
+  T position_unit;  ///< of the rows, over the h_b of the kernel of bonds
+  T ratio;          ///< h / h_b ...
+  T force;          ///< ... to the power of D + 1, as forces of bonds grow with it ...
+  T viscosity;      ///< ... and of D + 2
 };
 /// Of terms/body_contact.hpp.
 template <class T>

@@ -10,7 +10,9 @@ namespace sph {
 struct Reset {
   std::array<double, 3> lower{}, upper{};
   std::optional<double> temperature;  ///< of fluids and solids with heat [K] ...
-  std::optional<double> gas_content;  ///< ... and of bubbly fluids [1]: one of the two at least
+  std::optional<double> gas_content;  ///< ... of bubbly fluids [1] ...
+  std::optional<double> pressure;     ///< ... and of fluids [Pa]: one of the three at least
+  double rise_time = 0;               ///< the pressure grows from 0 to that in so long [s]
   friend bool operator==(const Reset&, const Reset&) = default;
 };
 

@@ -45,6 +45,7 @@ struct Scene {
   [[nodiscard]] bool has_matter() const;          ///< fluids or solids
   [[nodiscard]] double largest_diameter() const;  ///< of grains, 0 if there are none [m]
   [[nodiscard]] double kernel_radius() const;     ///< 0 if there is no matter [m]
+  [[nodiscard]] double bond_width() const;  ///< smoothing length of the kernel of bonds [m]
   /// Range of interaction [m]: the kernel's radius or the largest diameter of the grains, whichever is more; of melts
   /// alone a cell.
   [[nodiscard]] double support() const;
@@ -63,6 +64,8 @@ struct Scene {
 /// There are total-Lagrangian solids in a fluid, or alone.
 [[nodiscard]] bool has_wet_bodies(const Scene& scene);
 [[nodiscard]] bool has_dry_bodies(const Scene& scene);
+/// Some of them can fail.
+[[nodiscard]] bool has_failure(const Scene& scene);
 
 /// Reads and resolves a scene; `overrides` are "a.b=v" texts of --set, applied before anything is checked.
 /// If `end` has any it is taken instead of the scene's, which is checked all the same.

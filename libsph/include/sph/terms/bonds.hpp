@@ -14,6 +14,25 @@
 
 namespace sph {
 
+/// `share`: of the bond, 1 but for those that a crack cuts (terms/crack.hpp).
+template <class P, class S>
+void add_deformation(const P& p, typename P::V share, S& sums) {
+  using V = typename P::V;
+  const V w = p.template j<Value::reference_volume>() * (share * p.bond.weight);
+  V square = V::zero();
+  for (int a = 0; a < P::dim; ++a) square += p.bond.displacement[a] * p.bond.displacement[a];
+  sums.template add<Field::deformation>(0, share * p.bond.intact);
+  sums.template add<Field::deformation>(1, w * square);
+  for (int a = 0; a < P::dim; ++a) {
+    const V wx = w * p.bond.reference[a], wu = w * p.bond.displacement[a];
+    for (int b = a; b < P::dim; ++b)
+      sums.template add<Field::deformation>(2 + symmetric_index(a, b, P::dim), wx * p.bond.reference[b]);
+    for (int b = 0; b < P::dim; ++b)
+      sums.template add<Field::deformation>(2 + P::dim * (P::dim + 1) / 2 + a * P::dim + b,
+                                            wu * p.bond.reference[b]);
+  }
+}
+
 /// Number of bonds, sum w u.u, A (symmetric), B (by rows), the last three less their common scale.
 struct Deformation {
   static constexpr std::string_view name = "Deformation";
@@ -23,22 +42,26 @@ struct Deformation {
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
-    using V = typename P::V;
-    const V w = p.template j<Value::reference_volume>() * p.bond.weight;
-    V square = V::zero();
-    for (int a = 0; a < P::dim; ++a) square += p.bond.displacement[a] * p.bond.displacement[a];
-    sums.template add<Field::deformation>(0, p.bond.intact);
-    sums.template add<Field::deformation>(1, w * square);
-    for (int a = 0; a < P::dim; ++a) {
-      const V wx = w * p.bond.reference[a], wu = w * p.bond.displacement[a];
-      for (int b = a; b < P::dim; ++b)
-        sums.template add<Field::deformation>(2 + symmetric_index(a, b, P::dim), wx * p.bond.reference[b]);
-      for (int b = 0; b < P::dim; ++b)
-        sums.template add<Field::deformation>(2 + P::dim * (P::dim + 1) / 2 + a * P::dim + b,
-                                              wu * p.bond.reference[b]);
-    }
+    add_deformation(p, typename P::V(1), sums);
   }
 };
+
+template <class P, class C, class S>
+void add_bond_force(const P& p, const C& c, typename P::V share, S& sums) {
+  using V = typename P::V;
+  const V s = p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() *
+              (V(c.bonds.force) * (share * p.bond.weight));
+  const V stiffness = p.template i<Value::hourglass>() + p.template j<Value::hourglass>();
+  for (int a = 0; a < P::dim; ++a) {
+    V t = stiffness * p.bond.displacement[a];
+    for (int b = 0; b < P::dim; ++b) {
+      const int ab = a * P::dim + b;
+      t += (p.template i<Value::bond_stress>(ab) + p.template j<Value::bond_stress>(ab)) *
+           p.bond.reference[b];
+    }
+    sums.template add<Field::force>(a, s * t);
+  }
+}
 
 struct BondForce {
   static constexpr std::string_view name = "BondForce";
@@ -48,25 +71,27 @@ struct BondForce {
   static constexpr Field writes = Field::force;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
-  static void add(const P& p, const C&, S& sums) {
-    using V = typename P::V;
-    const V s =
-        p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.bond.weight;
-    const V stiffness = p.template i<Value::hourglass>() + p.template j<Value::hourglass>();
-    for (int a = 0; a < P::dim; ++a) {
-      V t = stiffness * p.bond.displacement[a];
-      for (int b = 0; b < P::dim; ++b) {
-        const int ab = a * P::dim + b;
-        t += (p.template i<Value::bond_stress>(ab) + p.template j<Value::bond_stress>(ab)) *
-             p.bond.reference[b];
-      }
-      sums.template add<Field::force>(a, s * t);
-    }
+  static void add(const P& p, const C& c, S& sums) {
+    add_bond_force(p, c, typename P::V(1), sums);
   }
 };
 
 /// Central, so that angular momentum stays: f_ij = 2 (D+2) eta V_i V_j (-W'/|X|) (v_ij.e) e / |e|^2, the form
 /// of Monaghan (2005, eq. 8.8) on bonds.
+template <class P, class C, class S>
+void add_bond_viscosity(const P& p, const C& c, typename P::V share, S& sums) {
+  using V = typename P::V;
+  V closing = V::zero();
+  for (int a = 0; a < P::dim; ++a)
+    closing += (p.template j<Value::velocity>(a) - p.template i<Value::velocity>(a)) * p.e[a];
+  const V eta = V(static_cast<typename P::Scalar>(P::dim + 2)) *
+                (p.template i<Value::viscosity>() + p.template j<Value::viscosity>());
+  const V s = p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() *
+              (V(c.bonds.viscosity) * (share * p.bond.weight));
+  const V t = s * eta * (closing / max(p.r2, V(static_cast<typename P::Scalar>(1e-30))));
+  for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, t * p.e[a]);
+}
+
 struct BondViscosity {
   static constexpr std::string_view name = "BondViscosity";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
@@ -75,17 +100,8 @@ struct BondViscosity {
   static constexpr Field writes = Field::force;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
-  static void add(const P& p, const C&, S& sums) {
-    using V = typename P::V;
-    V closing = V::zero();
-    for (int a = 0; a < P::dim; ++a)
-      closing += (p.template j<Value::velocity>(a) - p.template i<Value::velocity>(a)) * p.e[a];
-    const V eta = V(static_cast<typename P::Scalar>(P::dim + 2)) *
-                  (p.template i<Value::viscosity>() + p.template j<Value::viscosity>());
-    const V s =
-        p.template i<Value::reference_volume>() * p.template j<Value::reference_volume>() * p.bond.weight;
-    const V t = s * eta * (closing / max(p.r2, V(static_cast<typename P::Scalar>(1e-30))));
-    for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, t * p.e[a]);
+  static void add(const P& p, const C& c, S& sums) {
+    add_bond_viscosity(p, c, typename P::V(1), sums);
   }
 };
 

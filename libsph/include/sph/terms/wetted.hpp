@@ -35,15 +35,20 @@ struct WettedExtrapolation {
   }
 };
 
+/// The force of pairs with this sum of pressures.
+template <class P, class S>
+void add_pressure(const P& p, typename P::V both, S& sums) {
+  const auto s = p.template i<Value::volume>() * p.template j<Value::volume>() * both * p.f;
+  for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, s * p.e[a]);
+}
+
 struct WettedPressure {
   static constexpr std::string_view name = "WettedPressure";
   static constexpr ValueSet reads{Value::volume, Value::wet_pressure, Value::shears};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
-    const auto s = is_wet(p) * p.template i<Value::volume>() * p.template j<Value::volume>() *
-                   (p.template i<Value::wet_pressure>() + p.template j<Value::wet_pressure>()) * p.f;
-    for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, s * p.e[a]);
+    add_pressure(p, is_wet(p) * (p.template i<Value::wet_pressure>() + p.template j<Value::wet_pressure>()), sums);
   }
 };
 

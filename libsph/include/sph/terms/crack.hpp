@@ -1,0 +1,124 @@
+// Bonds beside cracks. A particle that has failed is fluid and has no bonds; what else spans the crack are bonds between
+// its two faces, round the particle that failed, and with them it opens 28 % too little. Each particle therefore has the
+// vector
+//   n_i = sum over what failed beside it of w X_ik,   X_ik from i to the failed k in the reference state,
+// state, and a bond within 37 degrees of n at both of its ends is cut: n_i.X > 0.8 |n_i| |X|, n_j.(-X) > 0.8 |n_j| |X|.
+// Across a crack that is narrower than the kernel the faces press on each other with the fluid's pressure, or a row of it
+// would transmit 0.82 to 0.93 of it.
+#pragma once
+
+#include "sph/terms/bonds.hpp"
+#include "sph/terms/wetted.hpp"
+
+namespace sph {
+
+/// 1 where j is on the side of i's crack and i on that of j's, within an angle of this cosine; else 0.
+template <class P>
+[[nodiscard]] typename P::V faces(const P& p, double cosine) {
+  using V = typename P::V;
+  V at_i = V::zero(), at_j = V::zero(), square = V::zero();
+  for (int a = 0; a < P::dim; ++a) {
+    const V x = p.bond.reference[a];
+    at_i += p.template i<Value::crack>(a) * x;
+    at_j -= p.template j<Value::crack>(a) * x;
+    square += x * x;
+  }
+  const V least = V(static_cast<typename P::Scalar>(cosine)) * sqrt(square), one(1);
+  return where_less(least, at_i, where_less(least, at_j, one));
+}
+
+/// 1 for bonds that no crack cuts.
+template <class P>
+[[nodiscard]] typename P::V uncut(const P& p) {
+  return typename P::V(1) - faces(p, 0.8);
+}
+
+struct CrackedDeformation {
+  static constexpr std::string_view name = "CrackedDeformation";
+  static constexpr ValueSet reads = Deformation::reads | ValueSet{Value::crack};
+  static constexpr Field writes = Field::deformation;
+  static constexpr Value nothing_without = Value::modulus;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    add_deformation(p, uncut(p), sums);
+  }
+};
+
+struct CrackedBondForce {
+  static constexpr std::string_view name = "CrackedBondForce";
+  static constexpr ValueSet reads = BondForce::reads | ValueSet{Value::crack};
+  static constexpr Field writes = Field::force;
+  static constexpr Value nothing_without = Value::modulus;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    add_bond_force(p, c, uncut(p), sums);
+  }
+};
+
+struct CrackedBondViscosity {
+  static constexpr std::string_view name = "CrackedBondViscosity";
+  static constexpr ValueSet reads = BondViscosity::reads | ValueSet{Value::crack};
+  static constexpr Field writes = Field::force;
+  static constexpr Value nothing_without = Value::modulus;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    add_bond_viscosity(p, c, uncut(p), sums);
+  }
+};
+
+/// What models/failure.cpp asks of bonds: how many are as long as lists reach, nearly; how many lead to a particle that is
+/// further beyond its strength, of two alike the one in the direction of growing coordinates; and n of what has just failed.
+struct CrackSums {
+  static constexpr std::string_view name = "CrackSums";
+  static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::body,   Value::modulus,
+                                  Value::crack,     Value::overload,       Value::failing};
+  static constexpr Field writes = Field::crack_sums;
+  static constexpr Value nothing_without = Value::modulus;
+  static constexpr double nearly = 0.95;
+
+  template <class P>
+  static auto is_ahead(const P& p) {
+    using V = typename P::V;
+    V ahead = V::zero();
+    for (int a = P::dim - 1; a >= 0; --a) {
+      const V x = p.bond.reference[a];
+      ahead = where_less(V::zero(), x, V(1)) + where_equal(x, V::zero(), ahead);
+    }
+    return ahead;
+  }
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    using V = typename P::V;
+    const V bonded = uncut(p) * p.bond.intact;
+    const V own = p.template i<Value::overload>(), other = p.template j<Value::overload>();
+    sums.template add<Field::crack_sums>(
+        0, where_less(V(static_cast<typename P::Scalar>(nearly) * c.bonds.range), p.r, bonded));
+    sums.template add<Field::crack_sums>(
+        1, where_less(own, other, bonded) + where_equal(own, other, bonded * is_ahead(p)));
+    const V w = p.template j<Value::failing>() * p.bond.weight_of_any;
+    for (int a = 0; a < P::dim; ++a) sums.template add<Field::crack_sums>(2 + a, w * p.bond.reference[a]);
+  }
+};
+
+/// As WettedPressure, and between the faces of a crack where both are wet.
+struct CrackedWettedPressure {
+  static constexpr std::string_view name = "CrackedWettedPressure";
+  static constexpr ValueSet reads = WettedPressure::reads | ValueSet{Value::reference, Value::reference_cell, Value::body,
+                                                                     Value::crack};
+  static constexpr Field writes = Field::force;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    const V p_i = p.template i<Value::wet_pressure>(), p_j = p.template j<Value::wet_pressure>();
+    V turned = V::zero();
+    for (int a = 0; a < P::dim; ++a)
+      turned += p.template i<Value::crack>(a) * p.template j<Value::crack>(a);
+    const V across = where_less(turned, V::zero(), faces(p, 0));
+    const V dry = where_equal(p_i, V::zero(), V(1)) + where_equal(p_j, V::zero(), V(1));
+    const V wet = is_wet(p);
+    const V faced = where_equal(dry, V::zero(), (V(1) - wet) * (V(1) - p.bond.intact) * across);
+    add_pressure(p, (wet + faced) * (p_i + p_j), sums);
+  }
+};
+
+}  // namespace sph
