@@ -63,6 +63,7 @@ Scene scene_for(const Fusion& fusion) {
   s.groups[clamp].wall.clamps = solid;
   if (needs(Value::reference) || needs(Value::wet_pressure) || needs(Value::own_head))
     s.groups[solid].solid.lagrangian = Lagrangian::total;
+  if (needs(Value::crack)) s.terms.bonds.reach = 1.9;
   if (needs(Value::width)) s.kernel.least_growth = 0.8, s.kernel.largest_growth = 1.3;
   s.terms.density_diffusion = 0.13;
   s.terms.artificial_viscosity = 0.6;
@@ -232,6 +233,11 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   numbers(Field::trial, 6000, 4000);
   numbers(Field::gas_content, 0.05, 0.03);
   numbers(Field::dissolved_gas, 0.04, 0.03);
+  numbers(Field::crack, 0, uniform(number, Field::crack, 9) > -0.5 ? 1 : 0);
+  if (particles_.has(Field::overload))  // some are alike
+    particles_.data<Field::overload>()[row] = std::round(2 * uniform(number, Field::overload, 0));
+  if (particles_.has(Field::failing))
+    particles_.data<Field::failing>()[row] = uniform(number, Field::failing, 0) > 0 ? 1 : 0;
 }
 
 // Pairs are taken where they were half a step ago, at most `back` farther apart.

@@ -1,4 +1,4 @@
-// The formulas: of forces, of what is summed beside them, of bonds.
+// The formulas: of forces, of what is summed beside them.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -203,6 +203,10 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     case key("BondViscosity"):
     case key("ClampSums"):
     case key("ClampReaction"):
+    case key("CrackedDeformation"):
+    case key("CrackedBondForce"):
+    case key("CrackedBondViscosity"):
+    case key("CrackSums"):
       return add_bond(pair, term, sums);
     default:
       return add_force(pair, term, sums);
@@ -225,60 +229,6 @@ void PairOracle::add_contact(const Pair& pair, Term term, PairSums& sums) const 
   for (int a = 0; a < dim_; ++a)
     sums.of[static_cast<std::size_t>(Field::force)][static_cast<std::size_t>(a)].add(
         -k * overlap / r * x(a), k * d / r * std::abs(x(a)));
-}
-
-void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {
-  const PairParticle &i = pair.i, &j = pair.j;
-  const Vec& x = pair.x;
-  const double r = pair.r;
-  if (i.body != j.body) return;
-  Vec X = Vec::Zero(), u = Vec::Zero();
-  for (std::size_t a = 0; a < 3; ++a) {
-    const std::int64_t then = j.reference[a] - i.reference[a];
-    X(static_cast<Eigen::Index>(a)) = static_cast<double>(then) * of_.quantum();
-    u(static_cast<Eigen::Index>(a)) = static_cast<double>(j.x[a] - i.x[a] - then) * of_.quantum();
-  }
-  // Beyond the range of lists a bond is lost.
-  const double R = X.norm(), weight = r < scene_.list_range() ? -dw(R, h_) / R : 0.0,
-               both = i.rest_volume * j.rest_volume;
-  const auto one = [&](Field f, int k, double value) {
-    sums.of[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)].add(value);
-  };
-  Vec force = Vec::Zero();
-  if (term.name == "ClampSums" || term.name == "ClampReaction") {
-    if (j.mover != (term.name == "ClampSums")) return;
-    const double part = R < scene_.support() && r < scene_.list_range() ? bare(w(R, h_)) : 0.0;
-    if (term.name == "ClampSums") one(Field::clamp_sums, 0, part);
-    for (int a = 0; a < dim_; ++a) {
-      if (term.name == "ClampReaction") {
-        one(Field::clamp_push, a, part * j.reaction(a));
-        continue;
-      }
-      one(Field::clamp_sums, 1 + a, part * u(a) / h_);
-      one(Field::clamp_sums, 1 + dim_ + a, part * X(a) / h_);
-    }
-    return;
-  }
-  u += j.shift - i.shift;
-  if (term.name == "Deformation") {
-    const double bare_weight = bare(weight) * h_ * h_ * j.rest_volume / power(scene_.start.spacing, dim_);
-    one(Field::deformation, 0, R < scene_.support() && r < scene_.list_range() ? 1 : 0);
-    one(Field::deformation, 1, bare_weight * u.squaredNorm() / (h_ * h_));
-    for (int a = 0; a < dim_; ++a) {
-      for (int b = a; b < dim_; ++b)
-        one(Field::deformation, 2 + symmetric_index(a, b, dim_), bare_weight * X(a) * X(b) / (h_ * h_));
-      for (int b = 0; b < dim_; ++b)
-        one(Field::deformation, 2 + dim_ * (dim_ + 1) / 2 + a * dim_ + b,
-            bare_weight * u(a) * X(b) / (h_ * h_));
-    }
-    return;
-  }
-  if (term.name == "BondForce")
-    force = both * weight * ((i.bond_stress + j.bond_stress) * X + (i.hourglass + j.hourglass) * u);
-  else
-    force =
-        2 * (dim_ + 2) * 0.5 * (i.viscosity + j.viscosity) * both * weight * (j.v - i.v).dot(x) * x / (r * r);
-  for (int a = 0; a < dim_; ++a) one(Field::force, a, force(a));
 }
 
 Vec PairOracle::shock(const Pair& pair) const {
@@ -326,6 +276,9 @@ void PairOracle::add_force(const Pair& pair, Term term, PairSums& sums) const {
       }
       case key("IdaStress"):
         return both * j.stress * grad;
+      case key("CrackedWettedPressure"):
+        if (presses_across(pair)) return Vec(-both * (i.wet_pressure + j.wet_pressure) * grad);
+        [[fallthrough]];
       case key("WettedPressure"):
         return i.shears && j.shears ? Vec(Vec::Zero())
                                     : Vec(-both * (i.wet_pressure + j.wet_pressure) * grad);

@@ -41,7 +41,7 @@ void PairOracle::load() {
   all_.resize(p.rows());
   for (std::size_t row = 0; row < p.rows(); ++row) {
     PairParticle& q = all_[row];
-    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient, &q.wet_v, &q.frame, &q.shift,
+    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient, &q.wet_v, &q.frame, &q.shift, &q.crack,
                    &q.reaction})
       v->setZero();
     for (Mat* m : {&q.stress, &q.bond_stress, &q.gradient}) m->setZero();
@@ -57,6 +57,7 @@ void PairOracle::load() {
       q.direction(e) = get(Field::direction, row, a);
       q.slope(e) = get(Field::wall_slope, row, a);
       q.wet_v(e) = is_bonded(g) ? get(Field::wet_velocity, row, a) : q.v(e);
+      q.crack(e) = get(Field::crack, row, a);
       q.shift(e) = get(Field::clamp_shift, row, a);
       q.reaction(e) = g.kind == GroupKind::wall ? get(Field::clamp_reaction, row, a) : 0.0;
       q.frame(e) = is_bonded(g) ? get(Field::acceleration, row, a) : 0.0;
@@ -99,6 +100,8 @@ void PairOracle::load() {
     q.gas_density = g.kind == GroupKind::wall ? 0.0 : q.gas_pressure / g.bubbly.gas_rt;
     q.dissolved = std::min(get(Field::dissolved_gas, row, 0), get(Field::gas_content, row, 0));
     q.water_mobility = q.density / (1 + get(Field::gas_content, row, 0)) * g.bubbly.water_diffusivity;
+    q.overload = get(Field::overload, row, 0);
+    q.failing = read.has(Field::failing) && p.data<Field::failing>()[row] == 1;
     q.open = g.wall.gas_pressure.has_value();
     q.slips = g.wall.slip;
     q.group = static_cast<int>(group);
@@ -190,6 +193,10 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("WettedExtrapolation"):
       return p.shears;
     case key("Deformation"):
+    case key("CrackedDeformation"):
+    case key("CrackedBondForce"):
+    case key("CrackedBondViscosity"):
+    case key("CrackSums"):
     case key("BondForce"):
     case key("BondViscosity"):
     case key("BodyContact"):

@@ -31,15 +31,16 @@ struct PairParticle {
   std::array<std::int64_t, 3> x{}, reference{};  ///< [quanta]
   Vec v, colour, direction, slope, rest_gradient, wet_v, shift, reaction;
   Vec frame;                          ///< acceleration of a body
+  Vec crack;
   Mat stress, bond_stress, gradient;  ///< stress: the total one
   double mass, density, weight, pressure, wet_pressure, volume, sound, energy, width, correction, curvature,
       viscosity;
   double rest_volume, modulus, hourglass;
   double temperature, trial, conductivity, sensible_heat;
   double permeability, gas_mobility, gas_pressure, gas_density;
-  double dissolved, water_mobility;
+  double dissolved, water_mobility, overload;
   std::array<double, 2> wall_pressures;
-  bool mover, shears, heavy, owned, warm, open, slips;
+  bool mover, shears, heavy, owned, warm, open, slips, failing;
   int side, group, body;
 };
 
@@ -68,7 +69,14 @@ class PairOracle {
     double slope;  ///< dW/dr; where kernels differ in width the mean of both
     Vec gradient;  ///< grad_i W
   };
+  struct Bond {
+    Vec X, u;  ///< reference distance, displacement
+  };
   void load();
+  [[nodiscard]] Bond bond(const Pair& pair) const;
+  [[nodiscard]] bool faces(const Pair& pair, double cosine) const;  ///< both see the other across a crack
+  [[nodiscard]] bool presses_across(const Pair& pair) const;
+  void add_crack(const Pair& pair, double weight, PairSums& sums) const;
   [[nodiscard]] double w(double r, double h) const;         ///< W
   [[nodiscard]] double dw(double r, double h) const;        ///< dW/dr
   [[nodiscard]] double bare(double value) const;            ///< without the kernel's factor

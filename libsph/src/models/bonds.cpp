@@ -22,6 +22,8 @@ namespace {
 
 /// Least determinant of A over that of the isotropic tensor of the same trace: below it is a thread.
 constexpr double least_shape = 1e-3;
+/// ... and so is what a crack has left, where bonds are less than some ten degrees off a line or plane.
+constexpr double least_cracked_shape = 0.1;
 
 /// Inverse of a symmetric tensor stored xx yy xy or xx yy zz xy xz yz, times its determinant.
 template <int D>
@@ -155,7 +157,7 @@ struct Stresses {
   template <int D>
   void check_cracked(const View<reads, writes>& p, std::size_t i, BondSums<D>& bonds, const Step& step) const {
     std::uint32_t& number = p.get<Field::bonds>()[i];
-    const bool loose = !(bonds.shape > least_shape);
+    const bool loose = !(bonds.shape > least_cracked_shape);
     if (loose && number == 0) find_thin(p, i, bonds.count, step);
     number = loose ? 1 : static_cast<std::uint32_t>(bonds.count);
     if (!loose) return;

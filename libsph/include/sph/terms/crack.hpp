@@ -116,7 +116,7 @@ struct CrackedWettedPressure {
     const V across = where_less(turned, V::zero(), faces(p, 0));
     const V dry = where_equal(p_i, V::zero(), V(1)) + where_equal(p_j, V::zero(), V(1));
     const V wet = is_wet(p);
-    const V faced = where_equal(dry, V::zero(), (V(1) - wet) * (V(1) - p.bond.intact) * across);
+    const V faced = where_equal(dry, V::zero(), (V(1) - wet) * (V(1) - p.bond.intact * uncut(p)) * across);
     add_pressure(p, (wet + faced) * (p_i + p_j), sums);
   }
 };
