@@ -38,10 +38,11 @@ struct Transitions {
   static constexpr FieldSet reads =
       FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::mass};
   static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::group,           Field::density,         Field::stress,
-                                   Field::temperature,     Field::liquid_mass,     Field::waiting_for,
-                                   Field::waiting_time,    Field::released_energy, Field::void_fraction_mean,
-                                   Field::temperature_mean};
+      Materials::writes | FieldSet{Field::plastic_volume} |
+      FieldSet{Field::group,           Field::density,         Field::stress,
+               Field::temperature,     Field::liquid_mass,     Field::waiting_for,
+               Field::waiting_time,    Field::released_energy, Field::void_fraction_mean,
+               Field::temperature_mean};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
   const Materials* materials;
@@ -112,11 +113,13 @@ struct Transitions {
       return;
     }
     if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
-    if (!same_state(old, now)) {
+    double* opened = p.get<Field::plastic_volume>();
+    if (!same_state(old, now) || (opened != nullptr && opened[i] != 0)) {
       const double* gas = p.get<Field::gas_content>();
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
     }
     group[i] = to;
+    if (opened != nullptr) opened[i] = 0;  // the density is that of the pressure now
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
     materials->derive(p, i, i + 1);  // as after a restart
     if (double* liquid = p.get<Field::liquid_mass>(); liquid != nullptr && bubbly && !(liquid[i] > 0))

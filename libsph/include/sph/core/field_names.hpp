@@ -100,6 +100,9 @@ enum class Field : std::uint8_t {
   clamp_shift,
   clamp_reaction,
   clamp_push,
+  plastic_volume,
+  plastic_strain,
+  plastic_work,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);

@@ -245,6 +245,14 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of a clamp's particle: what it gives back of the force on it, a kernel of weight 1"},
     {Field::clamp_push, "clamp_push", "N", Type::f64, Shape::vector, false, false,
      "of a particle that is bonded to clamps: what they give back", SumScale::one},
+    {Field::plastic_volume, "plastic_volume", "1", Type::f64, Shape::scalar, true, true,
+     "e of a solid with strength: what its pressure does not feel of its volume, p = K (rho (1 + e) / rho_0 "
+     "- "
+     "1)"},
+    {Field::plastic_strain, "plastic_strain", "1", Type::f64, Shape::scalar, true, true,
+     "of a solid with strength: plastic shear strain, largest less smallest, summed up"},
+    {Field::plastic_work, "plastic_work", "J", Type::f64, Shape::scalar, true, false,
+     "of a solid with strength: elastic energy that yielding took since the start"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

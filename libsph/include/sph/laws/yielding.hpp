@@ -1,0 +1,42 @@
+// Strength of updated-Lagrangian solids: after the elastic change of a step the stress is brought back onto the yield
+// surface (laws/mohr_coulomb.hpp, laws/drucker_prager.hpp), that of the stress above the surface pressure. In the
+// plane the third axis is that of plane strain, s_zz = -(s_xx + s_yy). The pressure moves by the plastic volume e,
+// p = K (rho (1 + e)/rho_0 - 1); the elastic energy that the return takes is counted for the particle (plastic_work).
+// Softening (crack band: Bazant & Oh 1983): c falls linearly from c_0 to c_r over the plastic shear
+// 2 G_f / ((c_0 - c_r) cos(phi) dx), and the tensile strength with it, so that a band one spacing wide takes G_f of
+// cohesion per area at any spacing.
+#pragma once
+
+#include <limits>
+
+#include "sph/laws/plasticity.hpp"
+#include "sph/scene/group_scene.hpp"
+
+namespace sph {
+
+/// A group's strength, ready for use.
+class Yielding {
+ public:
+  /// Of a group that has one; `spacing` of the start [m].
+  Yielding(const Group& group, int dim, double spacing);
+
+  [[nodiscard]] StrengthConstants constants(double plastic_shear) const;
+  /// Plastic shear at which cohesion is residual; infinite without fracture_energy.
+  [[nodiscard]] double softening_shear() const { return softening_shear_; }
+
+  struct End {
+    bool yields = false;
+    double pressure = 0;  ///< [Pa]
+    double plastic_shear = 0;
+    double deviator_change = 0;  ///< of s:s [Pa^2]
+  };
+  /// Of a deviator s, xx yy (zz) xy (xz yz), which it changes, and a pressure p [Pa].
+  [[nodiscard]] End bring_back(double* s, double p, double plastic_shear) const;
+
+ private:
+  StrengthLaw law_;
+  StrengthConstants at_start_;
+  double residual_share_ = 1, softening_shear_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace sph
