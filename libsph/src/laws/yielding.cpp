@@ -25,8 +25,15 @@ void store(const SymmetricTensor& t, bool in_plane, double* s) {
   if (!in_plane) std::copy(t.begin() + 3, t.end(), s + 3);
 }
 
-double product(const SymmetricTensor& t) {
-  return ((t[0] * t[0] + t[1] * t[1]) + t[2] * t[2]) + 2 * ((t[3] * t[3] + t[4] * t[4]) + t[5] * t[5]);
+double product(const SymmetricTensor& a, const SymmetricTensor& b) {
+  return ((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]) + 2 * ((a[3] * b[3] + a[4] * b[4]) + a[5] * b[5]);
+}
+
+/// Of the deviator `end` on the plastic strain that `trial` left behind.
+double shear_work(const StrengthConstants& k, const SymmetricTensor& trial, const SymmetricTensor& end) {
+  SymmetricTensor gone{};
+  for (std::size_t c = 0; c < gone.size(); ++c) gone[c] = trial[c] - end[c];
+  return product(end, gone) / (2 * k.shear_modulus);
 }
 
 /// s1 - s3 <= 2 sqrt(J2), |s2| <= sqrt(J2/3), s1 <= 2 sqrt(J2/3) of a deviator: most rock is elastic, and needs no axes.
@@ -45,7 +52,7 @@ Yielding::End to_cone(const StrengthConstants& k, const SymmetricTensor& t, doub
   SymmetricTensor scaled = t;
   for (double& x : scaled) x *= scale;
   store(scaled, k.in_plane, s);
-  return {true, -end.mean, end.plastic_shear, product(scaled) - product(t)};
+  return {true, -end.mean, end.plastic_shear, shear_work(k, t, scaled)};
 }
 
 Yielding::End to_planes(const StrengthConstants& k, const SymmetricTensor& t, double p, double* s) {
@@ -58,7 +65,7 @@ Yielding::End to_planes(const StrengthConstants& k, const SymmetricTensor& t, do
   for (std::size_t i = 0; i < 3; ++i) principal.values[i] = end.stress[i] - mean;
   const SymmetricTensor now = tensor_of(principal);
   store(now, k.in_plane, s);
-  return {true, -mean, end.plastic_shear, product(now) - product(t)};
+  return {true, -mean, end.plastic_shear, shear_work(k, t, now)};
 }
 
 }  // namespace
@@ -92,7 +99,7 @@ StrengthConstants Yielding::constants(double plastic_shear) const {
 Yielding::End Yielding::bring_back(double* s, double p, double plastic_shear) const {
   const StrengthConstants k = constants(plastic_shear);
   const SymmetricTensor t = in_space(s, k.in_plane);
-  const double shear = std::sqrt(product(t) / 2);
+  const double shear = std::sqrt(product(t, t) / 2);
   if (law_ == StrengthLaw::drucker_prager) return to_cone(k, t, shear, p, s);
   if (surely_elastic(k, shear, -p)) return {false, p, 0};
   return to_planes(k, t, p, s);

@@ -15,9 +15,9 @@ double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
     return strain[row];
   const double m = p.data<Field::mass>()[row], rho = p.data<Field::density>()[row];
   const double* liquid = p.data<Field::liquid_density>();
-  const double felt = g.solid.strength ? rho * (1 + p.data<Field::plastic_volume>()[row]) : rho;
-  double energy =
-      m * (g.eos.bulk_modulus / g.density) * g.eos.law->energy(g, liquid != nullptr ? liquid[row] : felt);
+  const double opened = g.solid.strength ? 1 + p.data<Field::plastic_volume>()[row] : 1.0;
+  double energy = m * opened * (g.eos.bulk_modulus / g.density) *
+                  g.eos.law->energy(g, (liquid != nullptr ? liquid[row] : rho) * opened);
   if (g.kind != GroupKind::solid || scene.terms.formulation != Formulation::conservative) return energy;
   const std::size_t n = d * (d + 1) / 2;
   const double* s = p.data<Field::stress>() + row * n;

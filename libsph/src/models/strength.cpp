@@ -29,17 +29,16 @@ struct Strengths {
   void yield(const View<reads, writes>& p, std::size_t i, const Group& g, const Yielding& strength,
              double* s) const {
     double &pressure = p.get<Field::pressure>()[i], &e = p.get<Field::plastic_volume>()[i];
-    const double rho = p.get<Field::density>()[i], mass = p.get<Field::mass>()[i];
-    const double felt = rho * (1 + e);
+    const double rho = p.get<Field::density>()[i], mass = p.get<Field::mass>()[i], before = e;
     const Yielding::End end = strength.bring_back(s, pressure, p.get<Field::plastic_strain>()[i]);
     if (!end.yields) return;
-    const double more = g.eos.law->density(g, end.pressure + scene->domain.surface_pressure);
-    if (end.pressure != pressure) e = more / rho - 1;
+    if (end.pressure != pressure)
+      e = g.eos.law->density(g, end.pressure + scene->domain.surface_pressure) / rho - 1;
     materials->derive_pressure(p, i, i + 1);
     p.get<Field::plastic_strain>()[i] += end.plastic_shear;
-    const double compression = g.eos.law->energy(g, felt) - g.eos.law->energy(g, rho * (1 + e));
-    p.get<Field::plastic_work>()[i] += mass * (g.eos.bulk_modulus / g.density) * compression -
-                                       mass / rho * (end.deviator_change / (4 * g.solid.shear_modulus));
+    const double felt = rho * (1 + e), stored = g.eos.bulk_modulus / g.density * g.eos.law->energy(g, felt);
+    p.get<Field::plastic_work>()[i] +=
+        mass * (end.shear_work / rho - (pressure / felt + stored) * (e - before));
   }
 };
 

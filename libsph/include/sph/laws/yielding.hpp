@@ -1,7 +1,8 @@
 // Strength of updated-Lagrangian solids: after the elastic change of a step the stress is brought back onto the yield
 // surface (laws/mohr_coulomb.hpp, laws/drucker_prager.hpp), that of the stress above the surface pressure. In the
 // plane the third axis is that of plane strain, s_zz = -(s_xx + s_yy). The pressure moves by the plastic volume e,
-// p = K (rho (1 + e)/rho_0 - 1); the elastic energy that the return takes is counted for the particle (plastic_work).
+// p = K (rho (1 + e)/rho_0 - 1). Work is that of the stress on the surface on the plastic strain, never negative: what the
+// return takes of the trial's elastic energy is more than forces, which never see the trial, have spent.
 // Softening (crack band: Bazant & Oh 1983): c falls linearly from c_0 to c_r over the plastic shear
 // 2 G_f / ((c_0 - c_r) cos(phi) dx), and the tensile strength with it, so that a band one spacing wide takes G_f of
 // cohesion per area at any spacing.
@@ -28,7 +29,7 @@ class Yielding {
     bool yields = false;
     double pressure = 0;  ///< [Pa]
     double plastic_shear = 0;
-    double deviator_change = 0;  ///< of s:s [Pa^2]
+    double shear_work = 0;  ///< of the new deviator on the plastic strain [J/m^3]
   };
   /// Of a deviator s, xx yy (zz) xy (xz yz), which it changes, and a pressure p [Pa].
   [[nodiscard]] End bring_back(double* s, double p, double plastic_shear) const;
