@@ -157,6 +157,14 @@ TEST(MohrCoulomb, FlowsAsItsDilatancySays) {
     EXPECT_NEAR(end.plastic_volume, lost.sum() / (3 * K), 1e-9 * lost.norm() / K);
     const Vector strain = stiffness().inverse() * lost;
     EXPECT_NEAR(end.plastic_shear, strain.maxCoeff() - strain.minCoeff(), 1e-9 * lost.norm() / G);
+    const bool shears_alone = end.region <= StressRegion::edge_23;
+    const bool cut = end.region >= StressRegion::tension;
+    if (shears_alone) {
+      EXPECT_EQ(end.opening, 0);
+    } else if (cut && psi == 0) {
+      EXPECT_NEAR(end.opening, end.plastic_volume, 1e-9 * lost.norm() / K);
+    }
+    EXPECT_LE(end.opening, end.plastic_volume + 1e-9 * lost.norm() / K);
     // The energy that the return takes.
     EXPECT_GE(strain.dot(vector(trial) + vector(end.stress)), 0) << n;
     ASSERT_EQ(return_to_mohr_coulomb(k, end.stress).stress, end.stress) << n;

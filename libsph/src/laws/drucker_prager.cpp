@@ -35,17 +35,17 @@ ConeReturn return_to_drucker_prager(const StrengthConstants& k, double shear, do
 
   const double amount =
       std::fmax(beyond / (k.shear_modulus + 9 * k.bulk_modulus * (cone.slope * cone.flow_slope)), 0.0);
-  ConeReturn on_cone{shear - k.shear_modulus * amount,
-                     mean - 3 * k.bulk_modulus * (cone.flow_slope * amount)};
-  if (!(on_cone.mean <= cap)) {
+  ConeReturn end{shear - k.shear_modulus * amount, mean - 3 * k.bulk_modulus * (cone.flow_slope * amount)};
+  if (!(end.mean <= cap)) {
     const double allowed = std::fmax(cone.limit - 3 * cone.slope * cap, 0.0);
-    on_cone = {std::fmin(shear, allowed), cap};
+    end = {std::fmin(shear, allowed), cap};
   } else if (cone.slope > 0) {
-    on_cone.shear = std::fmin(on_cone.shear, cone.limit - 3 * cone.slope * on_cone.mean);
+    end.shear = std::fmin(end.shear, cone.limit - 3 * cone.slope * end.mean);
   }
-  on_cone.plastic_shear = (shear - on_cone.shear) / k.shear_modulus;
-  on_cone.plastic_volume = (mean - on_cone.mean) / k.bulk_modulus;
-  return on_cone;
+  end.plastic_shear = (shear - end.shear) / k.shear_modulus;
+  end.plastic_volume = (mean - end.mean) / k.bulk_modulus;
+  end.opening = std::fmax(end.plastic_volume - 3 * cone.flow_slope * end.plastic_shear, 0.0);
+  return end;
 }
 
 }  // namespace sph

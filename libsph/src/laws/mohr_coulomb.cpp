@@ -17,6 +17,7 @@ struct Plane {
   double limit;
 };
 
+constexpr std::size_t first_of_tension = 3;
 struct Surface {
   std::array<Plane, 6> planes;  // shear 13, 23, 12, tension 1, 2, 3
   double shear_modulus, tolerance;
@@ -124,10 +125,12 @@ StressReturn returned(const Surface& f, const Active& active, const Candidate& c
   Vector strain{};
   for (std::size_t j = 0; j < active.count; ++j)
     for (std::size_t i = 0; i < 3; ++i) strain[i] += c.amounts[j] * f.planes[active.planes[j]].flow[i];
-  StressReturn out{c.stress, active.region, 0, 0};
+  StressReturn out{c.stress, active.region};
   out.plastic_shear = std::fmax(std::fmax(strain[0], strain[1]), strain[2]) -
                       std::fmin(std::fmin(strain[0], strain[1]), strain[2]);
   out.plastic_volume = std::fmax((strain[0] + strain[1]) + strain[2], 0.0);
+  for (std::size_t j = 0; j < active.count; ++j)
+    if (active.planes[j] >= first_of_tension) out.opening += std::fmax(c.amounts[j], 0.0);
   return out;
 }
 

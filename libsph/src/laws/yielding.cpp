@@ -29,6 +29,8 @@ double product(const SymmetricTensor& a, const SymmetricTensor& b) {
   return ((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]) + 2 * ((a[3] * b[3] + a[4] * b[4]) + a[5] * b[5]);
 }
 
+double share(double part, double all) { return all > 0 ? std::fmin(part / all, 1.0) : 0.0; }
+
 /// Of the deviator `end` on the plastic strain that `trial` left behind.
 double shear_work(const StrengthConstants& k, const SymmetricTensor& trial, const SymmetricTensor& end) {
   SymmetricTensor gone{};
@@ -52,7 +54,8 @@ Yielding::End to_cone(const StrengthConstants& k, const SymmetricTensor& t, doub
   SymmetricTensor scaled = t;
   for (double& x : scaled) x *= scale;
   store(scaled, k.in_plane, s);
-  return {true, -end.mean, end.plastic_shear, shear_work(k, t, scaled)};
+  return {true, -end.mean, end.plastic_shear, share(end.opening, end.plastic_volume),
+          shear_work(k, t, scaled)};
 }
 
 Yielding::End to_planes(const StrengthConstants& k, const SymmetricTensor& t, double p, double* s) {
@@ -65,7 +68,7 @@ Yielding::End to_planes(const StrengthConstants& k, const SymmetricTensor& t, do
   for (std::size_t i = 0; i < 3; ++i) principal.values[i] = end.stress[i] - mean;
   const SymmetricTensor now = tensor_of(principal);
   store(now, k.in_plane, s);
-  return {true, -mean, end.plastic_shear, shear_work(k, t, now)};
+  return {true, -mean, end.plastic_shear, share(end.opening, end.plastic_volume), shear_work(k, t, now)};
 }
 
 }  // namespace
@@ -94,6 +97,12 @@ StrengthConstants Yielding::constants(double plastic_shear) const {
   now.cohesion *= share;
   now.tensile_strength *= share;
   return now;
+}
+
+// Drucker-Prager's cut-off is that of the mean stress.
+double Yielding::closed_pressure(const double* s, double p) const {
+  if (law_ == StrengthLaw::drucker_prager) return std::fmin(p, 0.0);
+  return p + std::fmin(principal_axes(in_space(s, at_start_.in_plane)).values[0] - p, 0.0);
 }
 
 Yielding::End Yielding::bring_back(double* s, double p, double plastic_shear) const {

@@ -38,7 +38,7 @@ struct Transitions {
   static constexpr FieldSet reads =
       FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::mass};
   static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::plastic_volume} |
+      Materials::writes | FieldSet{Field::plastic_volume, Field::opening} |
       FieldSet{Field::group,           Field::density,         Field::stress,
                Field::temperature,     Field::liquid_mass,     Field::waiting_for,
                Field::waiting_time,    Field::released_energy, Field::void_fraction_mean,
@@ -119,7 +119,8 @@ struct Transitions {
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
     }
     group[i] = to;
-    if (opened != nullptr) opened[i] = 0;  // the density is that of the pressure now
+    if (opened != nullptr)
+      opened[i] = p.get<Field::opening>()[i] = 0;  // the density is that of the pressure now
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
     materials->derive(p, i, i + 1);  // as after a restart
     if (double* liquid = p.get<Field::liquid_mass>(); liquid != nullptr && bubbly && !(liquid[i] > 0))

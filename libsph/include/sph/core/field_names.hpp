@@ -101,6 +101,7 @@ enum class Field : std::uint8_t {
   clamp_reaction,
   clamp_push,
   plastic_volume,
+  opening,
   plastic_strain,
   plastic_work,
   count_

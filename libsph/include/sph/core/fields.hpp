@@ -249,6 +249,9 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "e of a solid with strength: what its pressure does not feel of its volume, p = K (rho (1 + e) / rho_0 "
      "- "
      "1)"},
+    {Field::opening, "opening", "1", Type::f64, Shape::scalar, true, true,
+     "of a solid with strength: part of plastic_volume that tension opened, and that closes again without "
+     "pressure"},
     {Field::plastic_strain, "plastic_strain", "1", Type::f64, Shape::scalar, true, true,
      "of a solid with strength: plastic shear strain, largest less smallest, summed up"},
     {Field::plastic_work, "plastic_work", "J", Type::f64, Shape::scalar, true, false,

@@ -20,6 +20,7 @@ struct ConeReturn {
   double shear, mean;         ///< sqrt(J2), I1/3 [Pa]
   double plastic_shear = 0;   ///< 2 sqrt(J2) of the plastic strain: gamma in simple shear
   double plastic_volume = 0;  ///< its trace, >= 0
+  double opening = 0;         ///< that of the cap alone
 };
 
 /// Of sqrt(J2) and I1/3. What is not finite stays as it is.

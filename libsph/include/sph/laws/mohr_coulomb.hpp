@@ -33,6 +33,7 @@ struct StressReturn {
   StressRegion region = StressRegion::elastic;
   double plastic_shear = 0;   ///< largest less smallest principal plastic strain
   double plastic_volume = 0;  ///< trace of the plastic strain, >= 0
+  double opening = 0;         ///< that of the planes of tension alone
 };
 
 /// Of principal stresses, the largest first. What is not finite stays as it is.
