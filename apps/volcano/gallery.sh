@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs the conduit and its map over viscosity and permeability, the freezing dyke and the dome, and draws the pictures in
+# Runs the conduit and its map over viscosity and permeability, the freezing dyke, the dome and the edifice, and draws the pictures in
 # gallery/: a quarter of an hour on two cores. Runs that have already come to their end in RUNS are only drawn.
 #
 #     sh apps/volcano/gallery.sh [PROGRAMS] [RUNS] [RANKS]     default: build/bin out/gallery 2
@@ -29,3 +29,4 @@ picture() {
 picture conduit.toml map
 picture dyke.toml dyke
 picture dome.toml dome
+picture edifice.toml edifice

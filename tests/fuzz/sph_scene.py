@@ -190,6 +190,20 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             group["poisson_ratio"] = poisson
         return group
 
+    def strength(self, d, group):
+        """Some yield at once, some never; brittle ones have as much fracture energy as the spacing asks for, or more."""
+        mu = group.get("shear_modulus") or (3 * (1 - 2 * group["poisson_ratio"]) / (2 * (1 + group["poisson_ratio"]))
+                                            * group["density"] * self.c**2)
+        c, phi = mu * d.log("cohesion", 1e-5, 0.1), d.one("phi", [0, 0, 20, 30.5, 45])
+        out = {"law": d.one("law", ["mohr_coulomb", "drucker_prager"]), "cohesion": c, "friction_angle": phi,
+               "dilatancy_angle": phi * d.one("psi", [0, 0.2, 1])}
+        if d.chance("tension", 0.6):
+            out["tensile_strength"] = c * d.one("cut", [0, 0.1, 0.9])
+        if d.chance("softens", 0.4):
+            out["fracture_energy"] = c * c * self.dx / mu * d.log("energy", 0.6, 100)
+            out["residual_cohesion"] = c * d.one("residual", [0, 0.3])
+        return out
+
     def with_solids(self):
         """Updated solids beside fluids, or alone; Ida's equations without them too."""
         d = self.d
@@ -199,6 +213,8 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
         for k in range(d.weighted("solids", {1: 3, 2: 1})):
             group = self.solid(d.part("solid", k), ["block", "rock"][k])
             self.viscosities(d.part("solid", k), group)
+            if self.family == "solid" and d.chance(f"yields/{k}", 0.6):
+                group["strength"] = self.strength(d.part("strength", k), group)
             if d.chance(f"say updated/{k}", 0.3):
                 group["lagrangian"] = "updated"
             out.append(group)

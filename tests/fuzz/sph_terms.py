@@ -30,6 +30,8 @@ class Terms:
                 del out["artificial_viscosity"]
         if d.chance("form", 0.4) and not (self.kernel != "quintic" and "artificial_viscosity" in out):
             out["viscosity"] = d.one("viscosity form", ["laplacian", "symmetric"])
+        if self.family == "solid" and d.chance("against clumps", 0.3):
+            out["artificial_stress"] = d.one("eps of tension", [0.1, 0.3, 1.0])
         if self.family == "fluid":
             self.fluid_terms(scene, out)
         return out

@@ -88,6 +88,12 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     }
     case key("Xsph"):
       return vector(Field::added, 0, (j.mover ? j.volume * j.density / rho : 0.0) * (w_ij / h_) * dv);
+    case key("ArtificialStress"): {
+      const double pull = std::max(x.dot((i.stress + j.stress) * x) / (r * r), 0.0);
+      const double near = power(w_ij / w(scene_.start.spacing, h_), 4);
+      return vector(Field::added, 0,
+                    (i.shears && j.shears ? -j.volume / i.density * near * pull : 0.0) * grad);
+    }
     case key("Concentration"):
       vector(Field::spread, 0, j.volume * (1 + 0.2 * power(w_ij / w(scene_.start.spacing, h_), 4)) * grad);
       one(Field::spread, dim_, j.volume * w_ij / h_);

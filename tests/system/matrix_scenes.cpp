@@ -167,6 +167,12 @@ const std::vector<Source>& sources() {
         "start.region.2={group=\"bar\", shape=\"box\", lower=[0, 5, 2], upper=[76, 9, 5]}",
         "start.region.3={group=\"clamp\", shape=\"box\", lower=[38, 5, 2], upper=[40, 9, 5]}",
         "start.region.5={group=\"clamp\", shape=\"box\", lower=[0, 5, 2], upper=[2, 9, 5]}"}},
+      // updated-Lagrangian solids that yield, alone and in melt
+      {"slope2d", "tests/scenes/slope2d.toml", {}},
+      {"rock3d",
+       "tests/scenes/box3d_solid.toml",
+       {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3",
+        "group.rock.strength={cohesion=500, friction_angle=25, dilatancy_angle=10, tensile_strength=400}"}},
       // two sets of particles that act on each other, with contacts that remember
       {"mixture", "tests/scenes/grains_in_melt.toml", {}},
       {"linear", "tests/scenes/grains_pour.toml", {}},
@@ -231,6 +237,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   const std::uint32_t* group = particles.data<sph::Field::group>();
   const double* psi = particles.data<sph::Field::void_fraction>();
   const double* strain = particles.data<sph::Field::strain_energy>();
+  const double* plastic = particles.data<sph::Field::plastic_strain>();
   Liveliness out{simulation.rebuilds()};
   if (const sph::Grains* grains = simulation.grains()) {
     out.contacts = grains->pairs().touching();
@@ -245,6 +252,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
     for (const sph::Group& g : simulation.scene().groups)
       for (const sph::Transition& row : g.becomes)
         if (row.group == static_cast<int>(group[i])) ++out.spray;
+    if (plastic != nullptr) out.yielded += plastic[i] > 0 ? 1 : 0;
     if (psi != nullptr) out.void_fraction = std::max(out.void_fraction, psi[i]);
     if (strain != nullptr && simulation.scene().groups[group[i]].kind == sph::GroupKind::solid)
       out.unstrained += strain[i] == 0 ? 1 : 0;
@@ -272,6 +280,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     return;
   }
   if (end.unstrained > 0) quiet("a body meets no other");
+  if (sph::has_strength(scene.groups) && end.yielded < some) quiet("little rock has yielded");
   if (!has_eos(scene, sph::EosKind::bubbly)) return;
   if (end.void_fraction <= 0) quiet("no gas came out of solution");
   if (end.spray <= start.spray) quiet("no particle changed its group");

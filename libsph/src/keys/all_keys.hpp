@@ -42,10 +42,10 @@ inline constexpr auto top_keys = std::to_array<Key>({
 });
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
-inline constexpr std::array<const KeyTable*, 30> all{
-    &top,   &domain,          &kernel,    &reset,         &group,  &becomes,    &permeability, &viscosity_law,
-    &heat,  &heat_transfer,   &radiation, &start,         &region, &layer,      &tile,         &fill,
-    &terms, &surface_tension, &contact,   &contact_pair,  &drag,   &melt_table, &melt_side,    &wall,
-    &stage, &stage_wall,      &time,      &decomposition, &output, &monitor};
+inline constexpr std::array<const KeyTable*, 31> all{
+    &top,      &domain, &kernel,          &reset,     &group,         &becomes, &permeability, &viscosity_law,
+    &strength, &heat,   &heat_transfer,   &radiation, &start,         &region,  &layer,        &tile,
+    &fill,     &terms,  &surface_tension, &contact,   &contact_pair,  &drag,    &melt_table,   &melt_side,
+    &wall,     &stage,  &stage_wall,      &time,      &decomposition, &output,  &monitor};
 
 }  // namespace sph::keys

@@ -166,6 +166,36 @@ inline constexpr Table<WallRadiation> radiation{
     {"group.radiation", false,
      "Heat that the face of a wall, at T, radiates and gets; heat_transfer adds to it.", radiation_keys}};
 
+inline constexpr auto strength_keys = std::to_array<Key>({
+    {"law", Words{strength_law_words},
+     "\"mohr_coulomb\", with a cut-off of tension; \"drucker_prager\": the smooth cone that is as strong in "
+     "triaxial "
+     "compression, in 2D in plane strain.",
+     at<&Strength::law>},
+    {"cohesion", Number{dimension::pressure, not_negative}, "c.", at<&Strength::cohesion>, required},
+    {"friction_angle",
+     Number{dimension::none,
+            {.least = 0, .most = 90, .below_most = true, .is = "it is an angle in degrees,"}},
+     "phi in degrees.", at<&Strength::friction_angle>},
+    {"dilatancy_angle",
+     Number{dimension::none,
+            {.least = 0, .most = 90, .below_most = true, .is = "it is an angle in degrees,"}},
+     "psi in degrees, at most phi: how much shear opens the rock.", at<&Strength::dilatancy_angle>},
+    {"tensile_strength", Number{dimension::pressure, not_negative},
+     "It fails in tension as soon as that; beyond c / tan(phi) it has no meaning.",
+     at<&Strength::tensile_strength>, Default{"c / tan(phi); without friction none"}},
+    {"fracture_energy", Number{dimension::stiffness, positive},
+     "G_f: what a shear band takes, per area, of cohesion until it is residual, at any start.spacing. "
+     "Tensile "
+     "strength falls with it.",
+     at<&Strength::fracture_energy>, Default{"none: cohesion stays"}},
+    {"residual_cohesion", Number{dimension::pressure, not_negative}, "What is left then.",
+     at<&Strength::residual_cohesion>},
+});
+inline constexpr Table<Strength> strength{
+    {"group.strength", false,
+     "An updated-Lagrangian solid yields: where stress would be beyond this it flows.", strength_keys}};
+
 inline constexpr Where bubbly = where("eos", "bubbly"), gas = where("eos", "ideal_gas");
 inline constexpr Where solid = where("kind", "solid"), walls = where("kind", "wall");
 inline constexpr Where grain = where("kind", "grain");
@@ -232,6 +262,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "of a "
      "group are one body.",
      at<&Group::solid, &SolidMaterial::lagrangian>, of_sph, solid},
+    {"strength", Inner{&strength}, "Of an updated-Lagrangian solid that yields.", of_sph, solid,
+     Default{"none: it is elastic"}},
     {"gas_content",
      Number{dimension::none,
             {.least = 0,

@@ -83,6 +83,8 @@ void check_background(const DomainReader& domain, const Scene& scene) {
          "its pressure is absolute: remove it");
   refuse(scene.terms.formulation == Formulation::ida, "is given with formulation = \"ida\"",
          "that has none: remove it");
+  refuse(has_strength(scene.groups), "is given with a solid that has strength",
+         "its stress is judged without the background's: remove it");
   refuse(scene.total_lagrangian(), "is given with total-Lagrangian solids",
          "they start free of stress: remove it");
   refuse(scene.domain.central_pull > 0, "is given with central_pull", "gravity alone presses on it");

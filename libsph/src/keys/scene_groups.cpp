@@ -229,6 +229,7 @@ void read_groups(const TopReader& top, Scene& scene) {
                                                     : nullptr;
       read_material(tables[k], group, like);
       read_exchange(tables[k], group);
+      read_strength(tables[k], group, scene);
       if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &group;
     }
   check_total_lagrangian(tables, groups);

@@ -32,6 +32,8 @@ void read_groups(const TopReader& top, Scene& scene);
 /// [group.permeability], [group.heat] and [group.viscosity_law] of one, and what of all groups they want.
 void read_exchange(const GroupReader& table, Group& group);
 void check_exchange(const std::vector<GroupReader>& tables, const std::vector<Group>& groups);
+/// [group.strength] of one whose moduli are known.
+void read_strength(const GroupReader& table, Group& group, const Scene& scene);
 /// Those of grains, which depend on the contact law.
 void read_grain_groups(const TopReader& top, Scene& scene);
 

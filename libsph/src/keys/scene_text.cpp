@@ -20,6 +20,7 @@ void write_group(SceneWriter& out, const Group& g) {
     out.vector("velocity", g.wall.velocity);
   if (g.bubbly.permeability.coefficient > 0) out.table(keys::permeability, g.bubbly.permeability);
   if (g.viscosity_law.varies()) out.table(keys::viscosity_law, g.viscosity_law);
+  if (g.solid.strength) out.table(keys::strength, *g.solid.strength);
   if (g.heat.material.specific_heat > 0) out.table(keys::heat, g.heat.material);
   if (g.heat.transfer.coefficient > 0) out.table(keys::heat_transfer, g.heat.transfer);
   if (g.heat.radiation.emissivity > 0) out.table(keys::radiation, g.heat.radiation);

@@ -80,6 +80,8 @@ inline constexpr auto group_kind_words = std::to_array<Word>({{"fluid", GroupKin
                                                               {"melt", GroupKind::melt}});
 inline constexpr auto lagrangian_words =
     std::to_array<Word>({{"updated", Lagrangian::updated}, {"total", Lagrangian::total}});
+inline constexpr auto strength_law_words = std::to_array<Word>(
+    {{"mohr_coulomb", StrengthLaw::mohr_coulomb}, {"drucker_prager", StrengthLaw::drucker_prager}});
 inline constexpr auto region_shape_words = std::to_array<Word>(
     {{"everywhere", RegionShape::everywhere}, {"box", RegionShape::box}, {"ball", RegionShape::ball}});
 inline constexpr auto lattice_kind_words = std::to_array<Word>(

@@ -8,6 +8,21 @@
 
 namespace sph {
 
+// What has yielded fills more than its pressure knows of.
+template <class V>
+void derive_plastic(const V& p, const Group& g, EosRows rows, std::size_t begin, std::size_t end) {
+  const double *rho = rows.density, *e = p.template get<Field::plastic_volume>();
+  double* pressure = rows.pressure;
+  double felt = 0;
+  rows.density = &felt;
+  rows.sound_speed = rows.void_fraction = nullptr;
+  for (std::size_t i = begin; i < end; ++i) {
+    felt = rho[i] * (1 + e[i]);
+    rows.pressure = pressure + i;
+    g.eos.law->derive(g, rows, 0, 1);
+  }
+}
+
 // Rows of one group in a row are one call of its law: particles that are near in space are near in memory.
 template <class V>
 void Materials::derive_into(const V& p, std::size_t first, std::size_t last) const {
@@ -50,6 +65,7 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
       const bool excess = scene.domain.background.density > 0;
       rows.surface_pressure = excess ? 0.0 : scene.domain.surface_pressure;
       g.eos.law->derive(g, rows, begin, end);
+      if (g.solid.strength) derive_plastic(p, g, rows, begin, end);
       for (std::size_t i = begin; excess && i < end; ++i) rows.pressure[i] -= outer(p, i, g);
     }
   }

@@ -15,8 +15,9 @@ double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
     return strain[row];
   const double m = p.data<Field::mass>()[row], rho = p.data<Field::density>()[row];
   const double* liquid = p.data<Field::liquid_density>();
-  double energy =
-      m * (g.eos.bulk_modulus / g.density) * g.eos.law->energy(g, liquid != nullptr ? liquid[row] : rho);
+  const double opened = g.solid.strength ? 1 + p.data<Field::plastic_volume>()[row] : 1.0;
+  double energy = m * opened * (g.eos.bulk_modulus / g.density) *
+                  g.eos.law->energy(g, (liquid != nullptr ? liquid[row] : rho) * opened);
   if (g.kind != GroupKind::solid || scene.terms.formulation != Formulation::conservative) return energy;
   const std::size_t n = d * (d + 1) / 2;
   const double* s = p.data<Field::stress>() + row * n;
@@ -29,6 +30,8 @@ double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
 
 std::vector<Energy> Physics::energies() const {
   if (gas_) return {Energy::kinetic, Energy::potential, Energy::internal, Energy::elastic};
+  if (has_strength(scene_->groups))
+    return {Energy::kinetic, Energy::potential, Energy::elastic, Energy::plastic};
   return {Energy::kinetic, Energy::potential, Energy::elastic};
 }
 
@@ -40,6 +43,7 @@ void Physics::add_energies(const Particles& p, EnergySums& sums) const {
     if (held) continue;
     sums[Energy::kinetic].add(kinetic_energy(p, i));
     sums[Energy::potential].add(potential_energy(*scene_, constants_.scale, constants_.wrap, p, i));
+    if (const double* work = p.data<Field::plastic_work>()) sums[Energy::plastic].add(work[i]);
     if (gas_) sums[Energy::internal].add(p.data<Field::mass>()[i] * p.data<Field::specific_energy>()[i]);
   }
 }

@@ -32,6 +32,7 @@ void add_liquids_and_solids(Builder& b, const SphModels& m) {
   if (has_wet_bodies(s)) add_bonds(b);
   if (wall_share && early) add_wall_share(b);
   add_kinematics(b);
+  if (has_strength(s.groups)) add_strength(b);
   if (exchange) add_wall_slopes(b);
   if (has_viscosity_law(s)) add_viscosities(b);
   add_exchanges(b, m);

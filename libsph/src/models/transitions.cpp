@@ -38,10 +38,10 @@ struct Transitions {
   static constexpr FieldSet reads =
       FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::failing, Field::wet_pressure, Field::strain_energy};
   static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::group, Field::mass,          Field::density,         Field::stress,
-                                   Field::temperature,     Field::liquid_mass,     Field::waiting_for,
-                                   Field::waiting_time,    Field::released_energy, Field::void_fraction_mean,
-                                   Field::temperature_mean, Field::pressure};
+      Materials::writes | FieldSet{Field::plastic_volume, Field::opening} |
+      FieldSet{Field::group,           Field::density,       Field::mass,         Field::stress,
+               Field::temperature,     Field::liquid_mass,   Field::waiting_for,  Field::waiting_time,
+               Field::released_energy, Field::void_fraction_mean, Field::temperature_mean, Field::pressure};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
   const Materials* materials;
@@ -114,14 +114,17 @@ struct Transitions {
       return;
     }
     if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
+    double* opened = p.get<Field::plastic_volume>();
     if (is_bonded(old)) p.get<Field::pressure>()[i] = p.get<Field::wet_pressure>()[i];
-    if (is_bonded(old) || !same_state(old, now)) {
+    if (is_bonded(old) || !same_state(old, now) || (opened != nullptr && opened[i] != 0)) {
       const double* gas = p.get<Field::gas_content>();
       const double before = rho;
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
       if (row.keeps == Conserved::volume) mass *= rho / before;
     }
     group[i] = to;
+    if (opened != nullptr)
+      opened[i] = p.get<Field::opening>()[i] = 0;  // the density is that of the pressure now
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
     materials->derive(p, i, i + 1);  // as after a restart
     if (double* liquid = p.get<Field::liquid_mass>(); liquid != nullptr && bubbly && !(liquid[i] > 0))

@@ -14,6 +14,10 @@ bool can_become(const std::vector<Group>& groups, int from, int to) {
   return std::ranges::find(reached, to) != reached.end();
 }
 
+bool has_strength(const std::vector<Group>& groups) {
+  return std::ranges::any_of(groups, [](const Group& g) { return g.solid.strength.has_value(); });
+}
+
 bool Scene::has_matter() const { return has_kind(GroupKind::fluid) || has_kind(GroupKind::solid); }
 
 double Scene::largest_diameter() const {

@@ -136,6 +136,9 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   if (auto* mean = particles.data<Field::void_fraction_mean>()) mean[i] = 0;  // until the first step
   if (auto* mean = particles.data<Field::temperature_mean>()) mean[i] = 0;
   if (auto* released = particles.data<Field::released_energy>()) released[i] = 0;
+  for (double* plastic : {particles.data<Field::plastic_volume>(), particles.data<Field::plastic_strain>(),
+                          particles.data<Field::plastic_work>(), particles.data<Field::opening>()})
+    if (plastic != nullptr) plastic[i] = 0;
   if (auto* s = particles.data<Field::stress>())
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
   if (auto* radius = particles.data<Field::radius>()) radius[i] = p.radius;

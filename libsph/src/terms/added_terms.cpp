@@ -1,5 +1,6 @@
 // The terms that are switched on by a number and compiled in. One that is not here, and that the program does
 // not add, is none.
+#include "sph/terms/artificial_stress.hpp"
 #include "sph/terms/xsph.hpp"
 #include "terms/term_registry.hpp"
 
@@ -7,7 +8,7 @@ namespace sph {
 
 Registry<AddedTerm>& term_registry() {
   // Outlives scenes, as that of contact laws does: filled before the first is read, constant after it.
-  static Registry<AddedTerm> terms({&added_term<Xsph>()});
+  static Registry<AddedTerm> terms({&added_term<Xsph>(), &added_term<ArtificialStress>()});
   return terms;
 }
 

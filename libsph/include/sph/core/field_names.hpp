@@ -104,6 +104,10 @@ enum class Field : std::uint8_t {
   crack,
   failing,
   crack_sums,
+  plastic_volume,
+  opening,
+  plastic_strain,
+  plastic_work,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);

@@ -255,6 +255,17 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "over bonds: how many are nearly lost, how many lead to what is further beyond its strength; then n of what has "
      "just failed",
      SumScale::one},
+    {Field::plastic_volume, "plastic_volume", "1", Type::f64, Shape::scalar, true, true,
+     "e of a solid with strength: what its pressure does not feel of its volume, p = K (rho (1 + e) / rho_0 "
+     "- "
+     "1)"},
+    {Field::opening, "opening", "1", Type::f64, Shape::scalar, true, true,
+     "of a solid with strength: part of plastic_volume that tension opened, and that closes again without "
+     "pressure"},
+    {Field::plastic_strain, "plastic_strain", "1", Type::f64, Shape::scalar, true, true,
+     "of a solid with strength: plastic shear strain, largest less smallest, summed up"},
+    {Field::plastic_work, "plastic_work", "J", Type::f64, Shape::scalar, true, false,
+     "of a solid with strength: elastic energy that yielding took since the start"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

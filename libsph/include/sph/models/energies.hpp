@@ -14,8 +14,9 @@
 namespace sph {
 
 /// In the order of columns.
-enum class Energy : std::uint8_t { kinetic, rotational, potential, internal, elastic };
-inline constexpr std::array energy_names{"kinetic", "rotational", "potential", "internal", "elastic"};
+enum class Energy : std::uint8_t { kinetic, rotational, potential, internal, elastic, plastic };
+inline constexpr std::array energy_names{"kinetic",  "rotational", "potential",
+                                         "internal", "elastic",    "plastic"};
 
 class EnergySums {
  public:

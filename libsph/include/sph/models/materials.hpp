@@ -10,7 +10,7 @@ class Materials {
  public:
   static constexpr FieldSet reads{Field::density,         Field::group,    Field::gas_content,
                                   Field::specific_energy, Field::porosity, Field::liquid_density,
-                                  Field::dissolved_gas,   Field::position};
+                                  Field::dissolved_gas,   Field::position, Field::plastic_volume};
   static constexpr FieldSet writes{Field::pressure, Field::sound_speed, Field::void_fraction,
                                    Field::liquid_density};
 

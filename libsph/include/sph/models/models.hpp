@@ -18,6 +18,8 @@ void add_drift(Builder& builder);
 [[nodiscard]] double longest_drift(const GlobalState& global);
 /// Fluids and updated-Lagrangian solids: densities and stresses from the velocities ...
 void add_kinematics(Builder& builder);
+/// Updated-Lagrangian solids yield.
+void add_strength(Builder& builder);
 /// Those of forces, where some have a second viscosity.
 void add_excess_pressures(Builder& builder);
 /// ... and the forces of pairs.

@@ -8,6 +8,7 @@
 //             law, m K/rho_0 (ln(rho/rho_0) + rho_0/rho - 1), which is -int p dV, and V S:S/(4 mu) of the
 //             deviator S of solids (conservative formulation). Walls and bubbly groups do not enter the last.
 //             With ideal gases internal, sum m u, before the last; with heat sum m H
+//             With strength plastic, the work of stress on plastic strain since the start
 //             Of grains: kinetic, rotational  sum m r^2 w^2/5, potential, elastic  the springs of all
 //             contacts that overlap now, with walls and fixed grains too (formulas: contact_records.hpp)
 //   momentum  px, py(, pz)  sum m v

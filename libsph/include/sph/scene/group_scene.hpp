@@ -67,6 +67,9 @@ struct Group {
   return g.kind == GroupKind::solid && g.solid.lagrangian == Lagrangian::total;
 }
 
+/// Some updated-Lagrangian solid yields.
+[[nodiscard]] bool has_strength(const std::vector<Group>& groups);
+
 /// Moves as a fluid or a solid, not as grains.
 [[nodiscard]] inline bool is_matter(const Group& g) {
   return g.kind == GroupKind::fluid || g.kind == GroupKind::solid;

@@ -8,10 +8,25 @@ namespace sph {
 /// updated: stress follows the rate of strain; total: it is a function of the deformation since the start.
 enum class Lagrangian { updated, total };
 
+enum class StrengthLaw { mohr_coulomb, drucker_prager };
+
+/// How much an updated-Lagrangian solid bears (laws/mohr_coulomb.hpp, laws/drucker_prager.hpp).
+struct Strength {
+  StrengthLaw law = StrengthLaw::mohr_coulomb;
+  double cohesion = 0;                     ///< c [Pa]
+  double friction_angle = 0;               ///< phi [degrees]
+  double dilatancy_angle = 0;              ///< psi, at most phi [degrees]
+  std::optional<double> tensile_strength;  ///< [Pa]; without, the tip of the cone
+  std::optional<double> fracture_energy;   ///< G_f, that cohesion takes until it is residual [J/m^2]
+  double residual_cohesion = 0;            ///< [Pa]
+  friend bool operator==(const Strength&, const Strength&) = default;
+};
+
 /// Of a group with kind = "solid".
 struct SolidMaterial {
   double shear_modulus = 0;  ///< mu [Pa]; lambda = K - 2/3 mu
   Lagrangian lagrangian = Lagrangian::updated;
+  std::optional<Strength> strength;
   friend bool operator==(const SolidMaterial&, const SolidMaterial&) = default;
 };
 
