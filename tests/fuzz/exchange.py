@@ -52,14 +52,23 @@ class Exchanges:
     def resets(self, d, scene, matter, warm):
         gas = [g["gas_content"] for g in matter if g.get("eos") == "bubbly"]
         boxes, domain = [], scene["domain"]
-        for k in range(d.weighted("resets", {0: 5, 1: 2, 2: 1}) if warm or gas else 0):
+        presses = (any(g["kind"] == "fluid" for g in matter) and scene.get("terms", {}).get("motion", True)
+                   and d.chance("presses", 0.15))
+        number = d.weighted("resets", {0: 5, 1: 2, 2: 1}) if warm or gas else 0
+        for k in range(max(number, 1) if presses else number):
             b_d, box = d.part("reset", k), {"lower": [], "upper": []}
             for a, (low, high) in enumerate(zip(domain["lower"], domain["upper"])):
                 ends = sorted(b_d.real(f"{a}/{side}", low, high) for side in "lu")
                 box["lower"].append(ends[0]), box["upper"].append(ends[1] + 1e-3 * self.dx)
+            if presses:
+                box["pressure"] = self.rho * self.c**2 * b_d.log("p", 1e-5, 0.1)
+                if b_d.chance("rises", 0.5):
+                    box["rise_time"] = b_d.log("rise", 1, 300) * self.h / self.c
+            if b_d.chance("ends", 0.2):
+                box["until"] = b_d.log("until", 1, 300) * self.h / self.c
             if warm and (not gas or b_d.chance("warm", 0.7)):
                 box["temperature"] = matter[0]["temperature"] * b_d.real("T", 0.7, 1.4)
-            if gas and ("temperature" not in box or b_d.chance("gas", 0.5)):
+            if gas and (not ("temperature" in box or presses) or b_d.chance("gas", 0.5)):
                 box["gas_content"] = gas[0] * b_d.one("m", [0.0, 0.8, 1.1, 1.5])
             boxes.append(box)
         if boxes:

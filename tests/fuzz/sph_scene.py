@@ -70,6 +70,10 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             self.add_grains(scene)
         elif self.family in ("fluid", "solid"):
             self.exchanges(scene)
+        elif self.wet:
+            fluids = [g for g in scene["group"] if g["kind"] == "fluid"]
+            if self.resets(self.d.part("exchanges"), scene, fluids, False) and d.chance("budget", 0.3):
+                scene["monitor"] = [{"kind": "budget"}]
         case = {"scene": scene, "skin": self.box.skin}
         if self.box.centred:
             case |= {"reach": self.box.reach, "radius": self.box.radius}
@@ -230,7 +234,27 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             out.append(group)
         if d.chance("in a fluid", 0.5):
             out.append(self.around(d.part("around")))
+            for k, body in enumerate(out[:-1]):
+                if d.chance(f"fails/{k}", 0.6):
+                    body["becomes"] = [self.failure(d.part("failure", k), body, out[-1])]
         return out
+
+    def failure(self, d, body, fluid):
+        """What a body bears: of next to nothing to so much that it may never fail."""
+        strength = self.rho * self.c**2 * d.log("strength", 1e-5, 0.1)
+        row = {"group": fluid["name"]}
+        kind = d.one("kind", ["toughness", "tensile_strength", "cohesion", "both"])
+        if kind == "toughness":
+            row["toughness"] = strength * self.dx**0.5
+        if kind in ("tensile_strength", "both"):
+            row["tensile_strength"] = strength
+        if kind in ("cohesion", "both"):
+            row["cohesion"] = strength * d.log("cohesion", 0.3, 3)
+            if d.chance("angle", 0.6):
+                row["friction_angle"] = d.one("phi", [0.0, 20.0, 30.0, 60.0])
+        if body["density"] != fluid["density"] or d.chance("of volume", 0.5):
+            row["keeps"] = "volume"
+        return row
 
     def around(self, d):
         """A fluid in which bodies are: one that keeps its gas and has one viscosity."""

@@ -9,6 +9,10 @@ class Terms:
                 out["largest_stretch"] = self.stretch
             if d.chance("hourglass", 0.4):
                 out["hourglass"] = d.real("hourglass value", 0, 1)
+            if d.chance("reach", 0.3):
+                reach = min(d.one("reach value", [1.5, 1.9, 2.4, 3.0]), 0.999 * 3 * self.ratio)
+                if reach >= 1.5:
+                    out["bond_reach"] = reach
             if self.wet:
                 self.wet_terms(out)
             return out

@@ -41,8 +41,8 @@ void PairOracle::load() {
   all_.resize(p.rows());
   for (std::size_t row = 0; row < p.rows(); ++row) {
     PairParticle& q = all_[row];
-    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient, &q.wet_v, &q.frame, &q.shift, &q.crack,
-                   &q.reaction})
+    for (Vec* v : {&q.v, &q.colour, &q.direction, &q.slope, &q.rest_gradient, &q.wet_v, &q.frame, &q.shift,
+                   &q.crack, &q.reaction})
       v->setZero();
     for (Mat* m : {&q.stress, &q.bond_stress, &q.gradient}) m->setZero();
     const std::uint32_t group = p.data<Field::group>()[row];

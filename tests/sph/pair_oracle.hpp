@@ -30,7 +30,7 @@ using Mat = Eigen::Matrix3d;
 struct PairParticle {
   std::array<std::int64_t, 3> x{}, reference{};  ///< [quanta]
   Vec v, colour, direction, slope, rest_gradient, wet_v, shift, reaction;
-  Vec frame;                          ///< acceleration of a body
+  Vec frame;  ///< acceleration of a body
   Vec crack;
   Mat stress, bond_stress, gradient;  ///< stress: the total one
   double mass, density, weight, pressure, wet_pressure, volume, sound, energy, width, correction, curvature,

@@ -173,6 +173,17 @@ const std::vector<Source>& sources() {
        "tests/scenes/box3d_solid.toml",
        {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3",
         "group.rock.strength={cohesion=500, friction_angle=25, dilatancy_angle=10, tensile_strength=400}"}},
+      // ... that crack: what fails becomes fluid
+      {"crack2d", "tests/scenes/crack2d.toml", {}},
+      {"crack3d",
+       "tests/scenes/bodies3d.toml",
+       {"group.light.kind=fluid",
+        "group.light.lagrangian=", "group.light.poisson_ratio=", "group.light.viscosity=500",
+        "group.bar.becomes=[{group=\"light\", tensile_strength=5e4, keeps=\"volume\"}]",
+        "start.region.1={group=\"light\", shape=\"box\", lower=[0, 3, 2], upper=[76, 11, 9]}",
+        "start.region.2={group=\"bar\", shape=\"box\", lower=[0, 5, 2], upper=[76, 9, 5]}",
+        "start.region.3={group=\"clamp\", shape=\"box\", lower=[38, 5, 2], upper=[40, 9, 5]}",
+        "start.region.5={group=\"clamp\", shape=\"box\", lower=[0, 5, 2], upper=[2, 9, 5]}"}},
       // two sets of particles that act on each other, with contacts that remember
       {"mixture", "tests/scenes/grains_in_melt.toml", {}},
       {"linear", "tests/scenes/grains_pour.toml", {}},

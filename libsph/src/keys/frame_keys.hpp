@@ -69,15 +69,19 @@ inline constexpr auto reset_keys = std::to_array<Key>({
             {.least = 0, .most = 1, .below_most = true, .is = "it is a mass per mass of liquid,"}},
      "m of bubbly fluids in it.", at<&Reset::gas_content>, Default{"as it is"}},
     {"pressure", Number{dimension::pressure, not_negative},
-     "Of fluids in it, above that of the surface, at constant volume: as much mass comes in as that takes. Not of ideal "
+     "Of fluids in it, above that of the surface, at constant volume: as much mass comes in as that takes. "
+     "Not of ideal "
      "gases.",
      at<&Reset::pressure>, Default{"as it is"}},
+    {"until", Number{dimension::time, positive}, "Then the box does nothing any more.", at<&Reset::until>,
+     Default{"the end"}},
     {"rise_time", Number{dimension::time, not_negative}, "For so long the pressure grows, from 0.",
      at<&Reset::rise_time>},
 });
 inline constexpr Table<Reset> reset{
     {"reset", true,
-     "A box in which particles have another temperature, gas content or pressure after each step: what flows along a "
+     "A box in which particles have another temperature, gas content or pressure after each step: what flows "
+     "along a "
      "period comes in as new, a chamber feeds what leaves it. Velocity stays; a budget counts what comes in.",
      reset_keys}};
 

@@ -8,11 +8,14 @@ namespace sph::keys {
 
 inline constexpr Range share_of_volume{.least = 0, .most = 1, .above_least = true, .below_most = true};
 inline constexpr auto becomes_keys = std::to_array<Key>({
-    {"group", NameOf{"group"}, "The fluid or updated solid that a particle joins; a total-Lagrangian solid joins fluids, where it fails.",
+    {"group", NameOf{"group"},
+     "The fluid or updated solid that a particle joins; a total-Lagrangian solid joins fluids, where it "
+     "fails.",
      index_at<&Transition::group>, required},
     {"void_fraction_above", Number{dimension::none, share_of_volume},
      "The gas's share of the volume of a bubbly fluid at which it does: it fragments (0.7 to 0.8).",
-     at<&Transition::void_fraction_above>, Default{"one of the four, or of the three of failure, is required"}},
+     at<&Transition::void_fraction_above>,
+     Default{"one of the four, or of the three of failure, is required"}},
     {"void_fraction_below", Number{dimension::none, share_of_volume}, "... or it collapses, or heals.",
      at<&Transition::void_fraction_below>, Default{"none"}},
     {"temperature_above", Number{dimension::temperature, positive}, "Where there is heat: it melts.",
@@ -20,21 +23,27 @@ inline constexpr auto becomes_keys = std::to_array<Key>({
     {"temperature_below", Number{dimension::temperature, positive}, "... or it freezes.",
      at<&Transition::temperature_below>, Default{"none"}},
     {"toughness", Number{dimension::none, positive},
-     "Total-Lagrangian solids: K_Ic [Pa sqrt(m)], whatever the spacing. The particle whose largest tension, with the "
-     "pressure of the fluid beside it, is the furthest beyond 0.68 K_Ic / sqrt(spacing) becomes fluid; bonds across the "
+     "Total-Lagrangian solids: K_Ic [Pa sqrt(m)], whatever the spacing. The particle whose largest tension, "
+     "with the "
+     "pressure of the fluid beside it, is the furthest beyond 0.68 K_Ic / sqrt(spacing) becomes fluid; bonds "
+     "across the "
      "crack are cut.",
      at<&Transition::failure, &FailureLimits::toughness>, Default{"none"}},
-    {"tensile_strength", Number{dimension::pressure, positive}, "... or what a particle bears, at any spacing.",
+    {"tensile_strength", Number{dimension::pressure, positive},
+     "... or what a particle bears, at any spacing.",
      at<&Transition::failure, &FailureLimits::tensile_strength>, Default{"none"}},
     {"cohesion", Number{dimension::pressure, positive},
-     "... and where (sigma_1 - sigma_3)/2 > c cos phi - (sigma_1 + sigma_3)/2 sin phi, of stresses above the pressure of "
+     "... and where (sigma_1 - sigma_3)/2 > c cos phi - (sigma_1 + sigma_3)/2 sin phi, of stresses above the "
+     "pressure of "
      "the fluid beside it.",
      at<&Transition::failure, &FailureLimits::cohesion>, Default{"none"}},
     {"friction_angle",
-     Number{dimension::none, {.least = 0, .most = 90, .below_most = true, .is = "it is an angle in degrees,"}},
+     Number{dimension::none,
+            {.least = 0, .most = 90, .below_most = true, .is = "it is an angle in degrees,"}},
      "phi in degrees.", at<&Transition::failure, &FailureLimits::friction_angle>},
     {"keeps", Words{conserved_words},
-     "Of what fails: its mass, where the fluid is as dense as it was; or its volume, and the budget has what it lost.",
+     "Of what fails: its mass, where the fluid is as dense as it was; or its volume, and the budget has what "
+     "it lost.",
      at<&Transition::keeps>},
     {"hold", Number{dimension::time, not_negative},
      "For so long without a break, against noise. The first row of the table that holds counts alone.",

@@ -124,8 +124,9 @@ void check_failure(const BecomesReader& row, const Transition& change, const Gro
       row.fail("group", "is the second that the solid fails into", "give one row of failure");
   constexpr double alike = 0.02;
   if (change.keeps == Conserved::mass && std::abs(to.density / group.density - 1) > alike)
-    row.fail("group", fmt::format("is of {} kg/m3, and what fails of {}", to.density, group.density),
-             "with its mass it would have another volume at once: give keeps = \"volume\", or a fluid as dense");
+    row.fail(
+        "group", fmt::format("is of {} kg/m3, and what fails of {}", to.density, group.density),
+        "with its mass it would have another volume at once: give keeps = \"volume\", or a fluid as dense");
 }
 
 void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>& groups) {
@@ -145,7 +146,8 @@ void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>
     };
     if (stays(group) || stays(to))
       row.fail("group", fmt::format("leads from \"{}\" to \"{}\"", group.name, to.name),
-               "ideal gases and total-Lagrangian solids stay what they are; where these fail they become fluid: give "
+               "ideal gases and total-Lagrangian solids stay what they are; where these fail they become "
+               "fluid: give "
                "toughness, tensile_strength or cohesion");
     if (change.limits() == 0)
       row.fail_missing("void_fraction_above",

@@ -87,9 +87,11 @@ inline constexpr auto terms_keys = std::to_array<Key>({
      "with the default plates bend as they should.",
      at<&Terms::bonds, &BondTerms::hourglass>, of_total, Default{"1.75 mu over that, at most 1"}},
     {"bond_reach", Number{dimension::none, {.least = 1.5, .most = 6, .is = "it is a number of spacings,"}},
-     "Total-Lagrangian solids: how far the bonds of a particle reach in the reference state, in spacings. 1.9 for bodies "
+     "Total-Lagrangian solids: how far the bonds of a particle reach in the reference state, in spacings. "
+     "1.9 for bodies "
      "on lattices, 2.4 where particles lie at random.",
-     at<&Terms::bonds, &BondTerms::reach>, of_total, Default{"the kernel's radius; of solids that can fail 1.9"}},
+     at<&Terms::bonds, &BondTerms::reach>, of_total,
+     Default{"the kernel's radius; of solids that can fail 1.9"}},
     {"largest_stretch", Number{dimension::none, {.least = 1, .most = 2, .is = "it is a ratio of lengths,"}},
      "Total-Lagrangian solids: how far bonds may be stretched. Lists reach so much further; a "
      "bond that is longer ends the run.",

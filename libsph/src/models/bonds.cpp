@@ -155,7 +155,8 @@ struct Stresses {
   // What a crack has left without bonds that span the space fails next (models/failure.cpp), with 1 for their number. Until
   // then they are as those of a thread, which bears nothing across.
   template <int D>
-  void check_cracked(const View<reads, writes>& p, std::size_t i, BondSums<D>& bonds, const Step& step) const {
+  void check_cracked(const View<reads, writes>& p, std::size_t i, BondSums<D>& bonds,
+                     const Step& step) const {
     std::uint32_t& number = p.get<Field::bonds>()[i];
     const bool loose = !(bonds.shape > least_cracked_shape);
     if (loose && number == 0) find_thin(p, i, bonds.count, step);
@@ -170,9 +171,10 @@ struct Stresses {
 
   void find_thin(const View<reads, writes>& p, std::size_t i, double count, const Step& step) const {
     find_fault(*constants, p, i, step,
-               fmt::format("has its {} neighbours in one line or plane: a total-Lagrangian body must be at least two "
-                           "particles across; refine start.spacing",
-                           static_cast<std::uint32_t>(count)));
+               fmt::format(
+                   "has its {} neighbours in one line or plane: a total-Lagrangian body must be at least two "
+                   "particles across; refine start.spacing",
+                   static_cast<std::uint32_t>(count)));
   }
 };
 

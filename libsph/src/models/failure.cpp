@@ -18,8 +18,8 @@ constexpr double crumbles = 1e30;    ///< overload of what no longer spans the s
 
 /// Of a group, 0 where that criterion is not given.
 struct Limits {
-  double tension = 0;            ///< s [Pa]
-  double shear = 0, sine = 0;    ///< c cos phi [Pa], sin phi
+  double tension = 0;          ///< s [Pa]
+  double shear = 0, sine = 0;  ///< c cos phi [Pa], sin phi
   bool fails = false;
 };
 
@@ -61,8 +61,9 @@ double overload(const Limits& limits, Extremes s, double inside) {
 }
 
 struct Failures {
-  static constexpr FieldSet reads = FaultView::reads | FieldSet{Field::crack_sums, Field::stress,       Field::pressure,
-                                                                Field::bonds,      Field::wet_pressure, Field::group};
+  static constexpr FieldSet reads =
+      FaultView::reads | FieldSet{Field::crack_sums, Field::stress,       Field::pressure,
+                                  Field::bonds,      Field::wet_pressure, Field::group};
   static constexpr FieldSet writes{Field::overload, Field::crack, Field::failing};
   const SphConstants* constants;
   std::vector<Limits> limits;  ///< by group
@@ -80,7 +81,8 @@ struct Failures {
       if (!is_bonded(constants->scene->groups[group[i]])) return;
       if (s[0] > 0)
         find_fault(*constants, p, i, step,
-                   "has bonds nearly as long as lists reach: the body is stretched beyond terms.largest_stretch; raise "
+                   "has bonds nearly as long as lists reach: the body is stretched beyond "
+                   "terms.largest_stretch; raise "
                    "it or reduce time.dt");
       for (std::size_t a = 0; a < d; ++a) p.get<Field::crack>()[i * d + a] += s[2 + a];
       if (!own.fails) return;

@@ -11,6 +11,7 @@
 #include "sph/models/models.hpp"
 #include "sph/models/stress_update.hpp"
 #include "sph/terms/artificial_viscosity.hpp"
+#include "sph/terms/crack.hpp"
 #include "sph/terms/density_diffusion.hpp"
 #include "sph/terms/divergence.hpp"
 #include "sph/terms/pressure.hpp"
@@ -19,7 +20,6 @@
 #include "sph/terms/surface_tension.hpp"
 #include "sph/terms/tension_jump.hpp"
 #include "sph/terms/viscosity.hpp"
-#include "sph/terms/crack.hpp"
 #include "sph/terms/wetted.hpp"
 
 namespace sph {
@@ -140,9 +140,9 @@ namespace {
 
 void add_wet_forces(Builder& b) {
   const Scene& s = b.scene();
-  std::vector<Term> terms{has_failure(s) ? term<CrackedWettedPressure> : term<WettedPressure>, s.terms.viscous.form == ViscosityForm::symmetric
-                                                    ? term<WettedSymmetricViscosity>
-                                                    : term<WettedViscosity>};
+  std::vector<Term> terms{has_failure(s) ? term<CrackedWettedPressure> : term<WettedPressure>,
+                          s.terms.viscous.form == ViscosityForm::symmetric ? term<WettedSymmetricViscosity>
+                                                                           : term<WettedViscosity>};
   if (s.terms.artificial_viscosity > 0) terms.push_back(term<WettedArtificialViscosity>);
   b.add_sums("forces", terms);
 }

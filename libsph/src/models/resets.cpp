@@ -13,8 +13,8 @@ namespace {
 struct Resets {
   static constexpr FieldSet reads = FaultView::reads | Materials::reads;
   static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::density,    Field::mass,         Field::gas_content,
-                                   Field::enthalpy,   Field::temperature,  Field::heat_inflow,
+      Materials::writes | FieldSet{Field::density,    Field::mass,          Field::gas_content,
+                                   Field::enthalpy,   Field::temperature,   Field::heat_inflow,
                                    Field::gas_inflow, Field::dissolved_gas, Field::liquid_mass};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
@@ -23,7 +23,7 @@ struct Resets {
   void operator()(const Rows& p, const Step& step) const {
     for_movers(step.ranges, [&](std::size_t i) {
       for (const Reset& box : constants->scene->domain.resets) {
-        if (!contains(box, p, i)) continue;
+        if ((box.until && step.global.time >= *box.until) || !contains(box, p, i)) continue;
         if (box.gas_content) fill(p, i, *box.gas_content, step);
         if (box.temperature) heat(p, i, *box.temperature);
         if (box.pressure) press(p, i, *box.pressure * risen(box, step.global), step);

@@ -36,12 +36,21 @@ double elastic_energy(const Group& g, const double* s, std::size_t d) {
 
 struct Transitions {
   static constexpr FieldSet reads =
-      FaultView::reads | Materials::reads | FieldSet{Field::enthalpy, Field::failing, Field::wet_pressure, Field::strain_energy};
-  static constexpr FieldSet writes =
-      Materials::writes | FieldSet{Field::plastic_volume, Field::opening} |
-      FieldSet{Field::group,           Field::density,       Field::mass,         Field::stress,
-               Field::temperature,     Field::liquid_mass,   Field::waiting_for,  Field::waiting_time,
-               Field::released_energy, Field::void_fraction_mean, Field::temperature_mean, Field::pressure};
+      FaultView::reads | Materials::reads |
+      FieldSet{Field::enthalpy, Field::failing, Field::wet_pressure, Field::strain_energy};
+  static constexpr FieldSet writes = Materials::writes | FieldSet{Field::plastic_volume, Field::opening} |
+                                     FieldSet{Field::group,
+                                              Field::density,
+                                              Field::mass,
+                                              Field::stress,
+                                              Field::temperature,
+                                              Field::liquid_mass,
+                                              Field::waiting_for,
+                                              Field::waiting_time,
+                                              Field::released_energy,
+                                              Field::void_fraction_mean,
+                                              Field::temperature_mean,
+                                              Field::pressure};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
   const Materials* materials;
@@ -139,7 +148,8 @@ struct Transitions {
                double volume) const {
     const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
     const bool bonded = is_bonded(old);
-    const double before = bonded ? p.get<Field::strain_energy>()[i] / volume : elastic_energy(old, stress + i * n, d);
+    const double before =
+        bonded ? p.get<Field::strain_energy>()[i] / volume : elastic_energy(old, stress + i * n, d);
     if (old.kind == GroupKind::solid && now.kind == GroupKind::fluid) std::fill_n(stress + i * n, n, 0.0);
     if (double* released = p.get<Field::released_energy>())
       released[i] += (before - elastic_energy(now, stress + i * n, d)) * volume;

@@ -33,7 +33,7 @@ double Scene::kernel_radius() const {
 
 double Scene::bond_width() const {
   const double h = kernel.smoothing_length;
-  return terms.bonds.reach ? *terms.bonds.reach * start.spacing * (h / kernel_radius()) : h;
+  return terms.bonds.reach ? std::min(*terms.bonds.reach * start.spacing * (h / kernel_radius()), h) : h;
 }
 
 double Scene::support() const {
@@ -42,7 +42,8 @@ double Scene::support() const {
 
 double Scene::list_range() const {
   if (total_lagrangian())
-    return std::max(support(), bond_width() / kernel.smoothing_length * kernel_radius() * terms.bonds.largest_stretch);
+    return std::max(support(),
+                    bond_width() / kernel.smoothing_length * kernel_radius() * terms.bonds.largest_stretch);
   return support() * kernel.largest_growth;
 }
 

@@ -252,7 +252,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::failing, "failing", "1", Type::u32, Shape::scalar, true, false,
      "1: has become fluid since cracks were last looked at"},
     {Field::crack_sums, "crack_sums", "1", Type::f64, Shape::shifting, false, false,
-     "over bonds: how many are nearly lost, how many lead to what is further beyond its strength; then n of what has "
+     "over bonds: how many are nearly lost, how many lead to what is further beyond its strength; then n of "
+     "what has "
      "just failed",
      SumScale::one},
     {Field::plastic_volume, "plastic_volume", "1", Type::f64, Shape::scalar, true, true,

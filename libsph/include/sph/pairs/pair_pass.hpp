@@ -193,8 +193,7 @@ struct PairPass {
         pair.r = sqrt(pair.r2);
         pair.f = Kernel::template slope<D>(pair.r) / max(pair.r, tiny);
         if constexpr (values.has(Value::width)) look_at_widths(own, other, pair);
-        if constexpr (values.has(Value::reference))
-          look_at_bond(own, other, constants.bonds, pair);
+        if constexpr (values.has(Value::reference)) look_at_bond(own, other, constants.bonds, pair);
         (Terms::template add<Kernel>(pair, constants, sums), ...);
       }
       store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
@@ -282,7 +281,8 @@ struct PairPass {
     c.shock = {static_cast<T>(d.shock.quadratic_viscosity), static_cast<T>(d.shock.conduction)};
     c.jump = {static_cast<T>(d.jump.damping), static_cast<T>(d.jump.background_pressure)};
     c.bonds = {static_cast<T>(d.bonds.range), static_cast<T>(d.bonds.position_unit),
-               static_cast<T>(d.bonds.ratio), static_cast<T>(d.bonds.force), static_cast<T>(d.bonds.viscosity)};
+               static_cast<T>(d.bonds.ratio), static_cast<T>(d.bonds.force),
+               static_cast<T>(d.bonds.viscosity)};
     c.contact = {static_cast<T>(d.contact.range), static_cast<T>(d.contact.force),
                  static_cast<T>(d.contact.energy)};
     return c;

@@ -13,6 +13,7 @@ struct Reset {
   std::optional<double> gas_content;  ///< ... of bubbly fluids [1] ...
   std::optional<double> pressure;     ///< ... and of fluids [Pa]: one of the three at least
   double rise_time = 0;               ///< the pressure grows from 0 to that in so long [s]
+  std::optional<double> until;        ///< then the box does nothing any more [s]
   friend bool operator==(const Reset&, const Reset&) = default;
 };
 

@@ -45,7 +45,7 @@ struct Scene {
   [[nodiscard]] bool has_matter() const;          ///< fluids or solids
   [[nodiscard]] double largest_diameter() const;  ///< of grains, 0 if there are none [m]
   [[nodiscard]] double kernel_radius() const;     ///< 0 if there is no matter [m]
-  [[nodiscard]] double bond_width() const;  ///< smoothing length of the kernel of bonds [m]
+  [[nodiscard]] double bond_width() const;        ///< smoothing length of the kernel of bonds [m]
   /// Range of interaction [m]: the kernel's radius or the largest diameter of the grains, whichever is more; of melts
   /// alone a cell.
   [[nodiscard]] double support() const;

@@ -34,7 +34,7 @@ struct SolidMaterial {
 struct BondTerms {
   std::optional<double> hourglass;  ///< stiffness against hourglass modes / modulus; without, that of plates
   double largest_stretch = 1.2;     ///< of a bond, as far as the lists reach
-  std::optional<double> reach;      ///< of a bond in the reference state / spacing; without, the kernel's radius
+  std::optional<double> reach;  ///< of a bond in the reference state / spacing; without, the kernel's radius
   friend bool operator==(const BondTerms&, const BondTerms&) = default;
 };
 

@@ -22,9 +22,9 @@ struct Transition {
   int group = -1;                                                  ///< index
   std::optional<double> void_fraction_above, void_fraction_below;  ///< one of the four ...
   std::optional<double> temperature_above, temperature_below;      ///< ... [K]
-  FailureLimits failure;  ///< ... of a total-Lagrangian solid
+  FailureLimits failure;                                           ///< ... of a total-Lagrangian solid
   Conserved keeps = Conserved::mass;
-  double hold = 0;                                                 ///< [s]
+  double hold = 0;     ///< [s]
   double average = 0;  ///< the value is a running mean over so long; 0: that of now [s]
 
   [[nodiscard]] int limits() const {

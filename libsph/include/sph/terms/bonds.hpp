@@ -56,8 +56,8 @@ void add_bond_force(const P& p, const C& c, typename P::V share, S& sums) {
     V t = stiffness * p.bond.displacement[a];
     for (int b = 0; b < P::dim; ++b) {
       const int ab = a * P::dim + b;
-      t += (p.template i<Value::bond_stress>(ab) + p.template j<Value::bond_stress>(ab)) *
-           p.bond.reference[b];
+      t +=
+          (p.template i<Value::bond_stress>(ab) + p.template j<Value::bond_stress>(ab)) * p.bond.reference[b];
     }
     sums.template add<Field::force>(a, s * t);
   }

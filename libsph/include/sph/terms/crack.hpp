@@ -103,16 +103,15 @@ struct CrackSums {
 /// As WettedPressure, and between the faces of a crack where both are wet.
 struct CrackedWettedPressure {
   static constexpr std::string_view name = "CrackedWettedPressure";
-  static constexpr ValueSet reads = WettedPressure::reads | ValueSet{Value::reference, Value::reference_cell, Value::body,
-                                                                     Value::crack};
+  static constexpr ValueSet reads =
+      WettedPressure::reads | ValueSet{Value::reference, Value::reference_cell, Value::body, Value::crack};
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;
     const V p_i = p.template i<Value::wet_pressure>(), p_j = p.template j<Value::wet_pressure>();
     V turned = V::zero();
-    for (int a = 0; a < P::dim; ++a)
-      turned += p.template i<Value::crack>(a) * p.template j<Value::crack>(a);
+    for (int a = 0; a < P::dim; ++a) turned += p.template i<Value::crack>(a) * p.template j<Value::crack>(a);
     const V across = where_less(turned, V::zero(), faces(p, 0));
     const V dry = where_equal(p_i, V::zero(), V(1)) + where_equal(p_j, V::zero(), V(1));
     const V wet = is_wet(p);

@@ -48,7 +48,8 @@ struct WettedPressure {
   static constexpr Field writes = Field::force;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
-    add_pressure(p, is_wet(p) * (p.template i<Value::wet_pressure>() + p.template j<Value::wet_pressure>()), sums);
+    add_pressure(p, is_wet(p) * (p.template i<Value::wet_pressure>() + p.template j<Value::wet_pressure>()),
+                 sums);
   }
 };
 
