@@ -65,7 +65,8 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
       const bool excess = scene.domain.background.density > 0;
       rows.surface_pressure = excess ? 0.0 : scene.domain.surface_pressure;
       g.eos.law->derive(g, rows, begin, end);
-      if (g.solid.strength) derive_plastic(p, g, rows, begin, end);
+      if (g.solid.strength && p.template get<Field::plastic_volume>() != nullptr)  // it moves
+        derive_plastic(p, g, rows, begin, end);
       for (std::size_t i = begin; excess && i < end; ++i) rows.pressure[i] -= outer(p, i, g);
     }
   }

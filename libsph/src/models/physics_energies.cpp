@@ -15,7 +15,8 @@ double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
     return strain[row];
   const double m = p.data<Field::mass>()[row], rho = p.data<Field::density>()[row];
   const double* liquid = p.data<Field::liquid_density>();
-  const double opened = g.solid.strength ? 1 + p.data<Field::plastic_volume>()[row] : 1.0;
+  const double* e = p.data<Field::plastic_volume>();
+  const double opened = e != nullptr ? 1 + e[row] : 1.0;
   double energy = m * opened * (g.eos.bulk_modulus / g.density) *
                   g.eos.law->energy(g, (liquid != nullptr ? liquid[row] : rho) * opened);
   if (g.kind != GroupKind::solid || scene.terms.formulation != Formulation::conservative) return energy;
