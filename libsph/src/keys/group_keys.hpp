@@ -25,7 +25,7 @@ inline constexpr auto becomes_keys = std::to_array<Key>({
     {"toughness", Number{dimension::none, positive},
      "Total-Lagrangian solids: K_Ic [Pa sqrt(m)], whatever the spacing. The particle whose largest tension, "
      "with the "
-     "pressure of the fluid beside it, is the furthest beyond 0.68 K_Ic / sqrt(spacing) becomes fluid; bonds "
+     "pressure of the fluid beside it, is the furthest beyond 0.7 K_Ic / sqrt(spacing) becomes fluid; bonds "
      "across the "
      "crack are cut.",
      at<&Transition::failure, &FailureLimits::toughness>, Default{"none"}},

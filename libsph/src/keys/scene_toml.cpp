@@ -173,7 +173,8 @@ void check_total_lagrangian(const Tables& tables, const Scene& scene) {
   if (!scene.total_lagrangian()) return;
   if (scene.terms.formulation == Formulation::ida)
     tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
-  if (tables.terms.has("bond_reach") && *scene.terms.bonds.reach * scene.start.spacing > scene.kernel_radius())
+  if (tables.terms.has("bond_reach") &&
+      *scene.terms.bonds.reach * scene.start.spacing > scene.kernel_radius())
     tables.terms.fail("bond_reach", fmt::format("is {}", *scene.terms.bonds.reach),
                       fmt::format("bonds reach as far as the kernel at most, {:.4g} spacings",
                                   scene.kernel_radius() / scene.start.spacing));

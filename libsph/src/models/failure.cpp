@@ -13,7 +13,7 @@
 namespace sph {
 namespace {
 
-constexpr double tip_stress = 0.68;  ///< C
+constexpr double tip_stress = 0.70;  ///< C
 constexpr double crumbles = 1e30;    ///< overload of what no longer spans the space
 
 /// Of a group, 0 where that criterion is not given.
