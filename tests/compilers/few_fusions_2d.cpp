@@ -25,7 +25,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, CrackedDeformation, BodyContactEnergy, CrackSums>(),
       List::template fuse<Quintic, CrackedBondForce>(),
       List::template fuse<Quintic, CrackedBondForce, BodyContact, CrackedBondViscosity>(),
-      List::template fuse<Quintic, CrackedWettedPressure, WettedSymmetricViscosity, WettedArtificialViscosity>(),
+      List::template fuse<Quintic, CrackedWettedPressure, WettedViscosity>(),
       List::template fuse<Quintic, ClampSums>(),
       List::template fuse<Quintic, ClampReaction>(),
       List::template fuse<Quintic, WettedExtrapolation>(),

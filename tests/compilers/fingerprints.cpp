@@ -35,6 +35,18 @@ const std::vector<std::string> hertz{"contact.law=hertz",
 const std::vector<std::string> wet{
     "group.bar.kind=fluid", "group.bar.lagrangian=", "group.bar.poisson_ratio=", "start.region.0.group=bar"};
 
+/// ... and in which the others break.
+const std::vector<std::string> cracked{
+    "group.bar.kind=fluid",
+    "group.bar.lagrangian=",
+    "group.bar.poisson_ratio=",
+    "start.region.0.group=bar",
+    "group.beam.becomes=[{group=\"bar\", tensile_strength=2e4, keeps=\"volume\"}]",
+    "group.ball.becomes=[{group=\"bar\", cohesion=3e4, friction_angle=30, keeps=\"volume\"}]"};
+
+const std::vector<std::string> weak{
+    "group.rock.strength={cohesion=1e4, friction_angle=30, dilatancy_angle=10, tensile_strength=5e3}"};
+
 std::uint64_t libm_hash() {
   std::uint64_t hash = 0;
   for (int k = 1; k <= 2000; ++k) {
@@ -77,11 +89,11 @@ int main(int argc, char** argv) {
     sph::self_check();
     const decomp::Comm comm(MPI_COMM_WORLD);
     if (comm.rank() == 0) std::printf("libm %016llx\n", static_cast<unsigned long long>(libm_hash()));
-    for (const Case& c :
-         {Case{"fluid", {}}, Case{"fluid", {"formulation=ida", "terms="}},
-          Case{"fluid", {"terms.implicit_viscosity=true"}}, Case{"flow", {}}, Case{"solid", {}},
-          Case{"bodies", {}}, Case{"bodies", wet}, Case{"gas", {}}, Case{"blast", {}}, Case{"box", {}},
-          Case{"grains", {}, true}, Case{"grains", hertz, true}, Case{"melts", {}, true}})
+    for (const Case& c : {Case{"fluid", {}}, Case{"fluid", {"formulation=ida", "terms="}},
+                          Case{"fluid", {"terms.implicit_viscosity=true"}}, Case{"flow", {}},
+                          Case{"solid", {}}, Case{"solid", weak}, Case{"bodies", {}}, Case{"bodies", wet},
+                          Case{"bodies", cracked}, Case{"gas", {}}, Case{"blast", {}}, Case{"box", {}},
+                          Case{"grains", {}, true}, Case{"grains", hertz, true}, Case{"melts", {}, true}})
       run(comm, argv[1], c);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

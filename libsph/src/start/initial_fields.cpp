@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "core/random.hpp"
@@ -106,9 +107,24 @@ void InitialFields::set(NewParticle& p) const {
   p.mass = p.density * volume;
 }
 
+namespace {
+
+/// Most of the state starts as 0: means, counts, inflows, stresses, and what is found once all particles are placed.
+void set_state_to_zero(Particles& particles, std::size_t i) {
+  for (const FieldInfo& info : field_table) {
+    if (!info.state || !particles.has(info.field)) continue;
+    const std::size_t size =
+        static_cast<std::size_t>(components(info.shape, particles.dim())) * bytes(info.type);
+    std::memset(particles.table().column(particles.column(info.field)).data() + i * size, 0, size);
+  }
+}
+
+}  // namespace
+
 void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta, Particles& particles) {
   const std::size_t i = particles.owned(), d = static_cast<std::size_t>(scene.dim);
   particles.table().resize(i + 1, 0);
+  set_state_to_zero(particles, i);
   particles.data<Field::id>()[i] = p.id;
   for (std::size_t a = 0; a < d; ++a) {
     particles.data<Field::position>()[i * d + a] = quanta[a];
@@ -125,48 +141,19 @@ void append(const Scene& scene, const NewParticle& p, const decomp::Int3& quanta
   }
   if (auto* t = particles.data<Field::temperature>())
     t[i] = scene.groups[p.group].heat.temperature.value_or(0);
-  if (auto* h = particles.data<Field::enthalpy>()) h[i] = 0;  // of the temperature, once all are placed
-  if (auto* inflow = particles.data<Field::heat_inflow>()) inflow[i] = 0;
-  if (auto* liquid = particles.data<Field::liquid_mass>())
-    liquid[i] = 0;  // of mass and gas content, then too
-  if (auto* inflow = particles.data<Field::gas_inflow>()) inflow[i] = 0;
-  if (auto* waiting = particles.data<Field::waiting_for>()) waiting[i] = 0;
-  if (auto* time = particles.data<Field::waiting_time>()) time[i] = 0;
-  if (auto* w = particles.data<Field::dissolved_gas>()) w[i] = 0;  // of pressures, once all are placed
-  if (auto* mean = particles.data<Field::void_fraction_mean>()) mean[i] = 0;  // until the first step
-  if (auto* mean = particles.data<Field::temperature_mean>()) mean[i] = 0;
-  if (auto* released = particles.data<Field::released_energy>()) released[i] = 0;
-  for (double* plastic : {particles.data<Field::plastic_volume>(), particles.data<Field::plastic_strain>(),
-                          particles.data<Field::plastic_work>(), particles.data<Field::opening>()})
-    if (plastic != nullptr) plastic[i] = 0;
-  if (auto* s = particles.data<Field::stress>())
-    for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) s[i * d * (d + 1) / 2 + k] = 0;
   if (auto* radius = particles.data<Field::radius>()) radius[i] = p.radius;
   if (auto* spin = particles.data<Field::spin>())
     for (std::size_t a = 0; a < d; ++a) spin[i * d + a] = p.spin[a];
   if (auto* pressure = particles.data<Field::pressure>()) pressure[i] = 0;
-  if (auto* bonds = particles.data<Field::bonds>()) bonds[i] = 0;  // not counted yet
   if (auto* overload = particles.data<Field::overload>()) {
     overload[i] = -1;
     // What is fluid beside a solid at the start is a crack to it.
     particles.data<Field::failing>()[i] = scene.groups[p.group].kind == GroupKind::fluid ? 1 : 0;
-    for (std::size_t a = 0; a < d; ++a) particles.data<Field::crack>()[i * d + a] = 0;
   }
   if (auto* prestress = particles.data<Field::prestress>()) prestress[i] = p.prestress;
-  if (auto* mean = particles.data<Field::acceleration>())
-    for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = 0;
-  if (auto* u = particles.data<Field::displacement>())
-    for (std::size_t a = 0; a < d; ++a) u[i * d + a] = 0;
-  if (auto* mirror = particles.data<Field::wall_mirror>())
-    mirror[i] = 0;  // of walls it is found in the first step
   if (auto* mean = particles.data<Field::velocity_mean>())
     for (std::size_t a = 0; a < d; ++a) mean[i * d + a] = p.velocity[a];
-  if (auto* mean = particles.data<Field::pressure_mean>()) mean[i] = 0;
   if (auto* porosity = particles.data<Field::porosity>()) porosity[i] = 1;  // grains are not looked at yet
-  if (auto* pull = particles.data<Field::grain_pull>())
-    for (std::size_t a = 0; a < d; ++a) pull[i * d + a] = 0;
-  if (auto* drag = particles.data<Field::grain_drag>())
-    for (std::size_t a = 0; a < d; ++a) drag[i * d + a] = 0;
 }
 
 }  // namespace sph
