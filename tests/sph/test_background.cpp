@@ -60,6 +60,30 @@ std::string melt(const std::string& density, const std::string& kind = "fluid") 
          "\nsound_speed = 1\nviscosity = 1\n";
 }
 
+std::string stone(const std::string& density) {
+  return "[[group]]\nname = \"stone\"\nkind = \"solid\"\nlagrangian = \"total\"\ndensity = " + density +
+         "\nsound_speed = 1\npoisson_ratio = 0.25\n";
+}
+const std::string stone_place =
+    "[[start.region]]\ngroup = \"stone\"\nshape = \"box\"\nlower = [3, 6]\nupper = [7, 11]\n";
+
+TEST(Background, BearsBodiesExactly) {
+  for (const char* density : {"2500", "2505"}) {
+    Simulation s(world(), sph::parse_scene(
+                              tank("background_density = 2500\n", melt("2500") + stone(density), stone_place),
+                              "tank", {}));
+    while (s.global().time < 20) s.step();
+    double down = 0;
+    for (std::size_t i = 0; i < s.particles().owned(); ++i)
+      if (s.particles().data<Field::group>()[i] == 1)
+        down = std::max(down, -s.particles().data<Field::velocity>()[2 * i + 1]);
+    if (density == std::string("2500"))
+      EXPECT_EQ(largest(s, speed), 0);
+    else
+      EXPECT_GT(all_max(s.comm(), down), 0.01);
+  }
+}
+
 // sqrt(g H) is 14 m/s, and the sound as slow as 1 m/s. 100 transits of 20 m.
 TEST(Background, BearsWhatIsAsHeavyExactly) {
   for (const char* precision : {"precision=\"double\"", "precision=\"mixed\""})

@@ -75,8 +75,8 @@ inline constexpr auto reset_keys = std::to_array<Key>({
      at<&Reset::pressure>, Default{"as it is"}},
     {"until", Number{dimension::time, positive}, "Then the box does nothing any more.", at<&Reset::until>,
      Default{"the end"}},
-    {"rise_time", Number{dimension::time, not_negative}, "For so long the pressure grows, from 0.",
-     at<&Reset::rise_time>},
+    {"rise_time", Number{dimension::time, not_negative},
+     "For so long the pressure grows from 0, and what has more keeps it.", at<&Reset::rise_time>},
 });
 inline constexpr Table<Reset> reset{
     {"reset", true,

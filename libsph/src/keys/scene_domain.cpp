@@ -85,8 +85,8 @@ void check_background(const DomainReader& domain, const Scene& scene) {
          "that has none: remove it");
   refuse(has_strength(scene.groups), "is given with a solid that has strength",
          "its stress is judged without the background's: remove it");
-  refuse(scene.total_lagrangian(), "is given with total-Lagrangian solids",
-         "they start free of stress: remove it");
+  refuse(has_dry_bodies(scene), "is given with total-Lagrangian solids alone",
+         "without a fluid nothing presses on them: remove it");
   refuse(scene.domain.central_pull > 0, "is given with central_pull", "gravity alone presses on it");
   refuse(scene.start.has_surface, "is given, and there is a free surface",
          "nothing bears the background's pressure there: close the box with walls or periods");

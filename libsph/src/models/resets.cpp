@@ -1,7 +1,6 @@
 #include "sph/models/resets.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
@@ -26,7 +25,7 @@ struct Resets {
         if ((box.until && step.global.time >= *box.until) || !contains(box, p, i)) continue;
         if (box.gas_content) fill(p, i, *box.gas_content, step);
         if (box.temperature) heat(p, i, *box.temperature);
-        if (box.pressure) press(p, i, *box.pressure * risen(box, step.global), step);
+        if (box.pressure) raise(p, i, box, step);
       }
     });
   }
@@ -59,8 +58,12 @@ struct Resets {
     materials->derive(p, i, i + 1);  // as after a restart
   }
 
-  [[nodiscard]] static double risen(const Reset& box, const GlobalState& global) {
-    return box.rise_time > 0 ? std::fmin((global.time + global.dt) / box.rise_time, 1.0) : 1.0;
+  // While it rises only what is below it gets it.
+  void raise(const Rows& p, std::size_t i, const Reset& box, const Step& step) const {
+    const double now = step.global.time + step.global.dt;
+    const bool rises = now < box.rise_time;
+    const double wanted = rises ? *box.pressure * (now / box.rise_time) : *box.pressure;
+    if (!rises || wanted > p.get<Field::pressure>()[i]) press(p, i, wanted, step);
   }
 
   void press(const Rows& p, std::size_t i, double wanted, const Step& step) const {
