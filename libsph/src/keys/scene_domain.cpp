@@ -57,7 +57,8 @@ void read_resets(const TopReader& top, Scene& scene) {
         table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
     if (!box.temperature && !box.gas_content && !box.pressure)
       table.fail_missing("temperature", "give it, gas_content or pressure");
-    table.only_if(box.pressure.has_value(), "rise_time", "it is of a pressure: give that");
+    if (box.rise_time > 0 && !box.pressure)
+      table.fail("rise_time", fmt::format("is {} s", box.rise_time), "it is of a pressure: give that");
     table.only_if(scene.has_kind(GroupKind::fluid) && !has_eos(scene, EosKind::ideal_gas), "pressure",
                   "it is of liquids and bubbly fluids");
     table.only_if(!scene.is_mixture() && scene.terms.exchange.motion, "pressure",

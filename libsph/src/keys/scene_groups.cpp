@@ -114,9 +114,17 @@ void check_failure(const BecomesReader& row, const Transition& change, const Gro
   row.only_if(total, "toughness", "only solids with lagrangian = \"total\" fail so");
   row.only_if(total, "tensile_strength", "only solids with lagrangian = \"total\" fail so");
   row.only_if(total, "cohesion", "only solids with lagrangian = \"total\" fail so");
-  row.only_if(total, "keeps", "only solids with lagrangian = \"total\" have it");
-  row.only_if(change.failure.cohesion.has_value(), "friction_angle", "it is of cohesion: give that");
-  if (!change.of_failure()) return;
+  if (change.failure.friction_angle != 0 && !change.failure.cohesion)
+    row.fail("friction_angle", "is given without cohesion", "give that too");
+  if (!change.of_failure()) {
+    if (change.keeps == Conserved::volume)
+      row.fail("keeps", "is \"volume\"", "what does not fail keeps its mass: remove it");
+    return;
+  }
+  if (change.hold > 0)
+    row.fail("hold", fmt::format("is {} s", change.hold), "what fails does so at once: remove it");
+  if (change.average > 0)
+    row.fail("average", fmt::format("is {} s", change.average), "failure knows no mean: remove it");
   if (change.failure.toughness && change.failure.tensile_strength)
     row.fail("tensile_strength", "is given with toughness", "give one of them");
   for (const Transition& other : group.becomes)

@@ -77,7 +77,8 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
     table.fail("kind", "is of melts, and the scene has none", "give another");
   if (scene.has_melt() && !grains && *kind != MonitorKind::melt && *kind != MonitorKind::particle)
     table.fail("kind", "is not of melts", "give \"melt\", or \"particle\" for a cell");
-  if (*kind == MonitorKind::budget && !scene.has_exchange() && scene.domain.resets.empty())
+  if (*kind == MonitorKind::budget && !scene.has_exchange() && scene.domain.resets.empty() &&
+      !has_failure(scene))
     table.fail("kind", "is of what particles exchange, and the scene has no heat, gas flow or diffusion",
                "give another, group.heat, group.permeability or group.water_diffusivity");
   Monitor monitor;

@@ -174,7 +174,7 @@ void check_total_lagrangian(const Tables& tables, const Scene& scene) {
   if (scene.terms.formulation == Formulation::ida)
     tables.top.fail("formulation", "is \"ida\"", "it has no solids with lagrangian = \"total\"");
   if (tables.terms.has("bond_reach") &&
-      *scene.terms.bonds.reach * scene.start.spacing > scene.kernel_radius())
+      *scene.terms.bonds.reach * scene.start.spacing > scene.kernel_radius() * (1 + 1e-12))
     tables.terms.fail("bond_reach", fmt::format("is {}", *scene.terms.bonds.reach),
                       fmt::format("bonds reach as far as the kernel at most, {:.4g} spacings",
                                   scene.kernel_radius() / scene.start.spacing));
@@ -209,6 +209,8 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   fit_growth(tables.kernel, scene, least_periodic_cells);
   check_melt_grid(tables.start, scene);
   check_periods(tables, scene);
+  if (scene.terms.bonds.reach && !tables.terms.has("bond_reach"))
+    scene.terms.bonds.reach = std::min(*scene.terms.bonds.reach, scene.kernel_radius() / scene.start.spacing);
   check_total_lagrangian(tables, scene);
   check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
   check_implicit_viscosity(tables.terms, scene);

@@ -107,7 +107,7 @@ struct Stresses {
         continue;
       }
       BondSums<D> bonds(p.get<Field::deformation>() + i * sums, constants->bond_factor);
-      if (crack == nullptr)
+      if (crack == nullptr || std::ranges::none_of(own.becomes, &Transition::of_failure))
         check(p, i, bonds.count, bonds.shape, step);
       else
         check_cracked(p, i, bonds, step);

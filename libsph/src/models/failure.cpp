@@ -13,6 +13,8 @@
 namespace sph {
 namespace {
 
+static_assert(CrackSums::nearly == nearly_lost, "of how far lists reach");
+
 constexpr double tip_stress = 0.70;  ///< C
 constexpr double crumbles = 1e30;    ///< overload of what no longer spans the space
 
@@ -50,9 +52,37 @@ Extremes principal(const double* deviator, double pressure, int dim) {
   return {mean + radius, mean - radius};
 }
 
-double overload(const Limits& limits, Extremes s, double inside) {
+/// The largest tension across planes that a crack would follow from `n`, which is where others have failed; across any if
+/// none have.
+double opening_stress(const double* deviator, double pressure, const double* n, int dim, double most) {
+  double square = 0;
+  for (int a = 0; a < dim; ++a) square += n[a] * n[a];
+  if (square == 0) return most;
+  if (dim == 2) {
+    const double across =
+        deviator[0] * (n[1] * n[1]) - 2 * (deviator[2] * (n[0] * n[1])) + deviator[1] * (n[0] * n[0]);
+    return across / square - pressure;
+  }
+  // P s P less so much of n n that it comes last, P = 1 - n n.
+  SymmetricTensor projected{};
+  double along[3] = {}, twice = 0, size = 0;
+  const auto s = [&](int a, int b) { return deviator[symmetric_index(std::min(a, b), std::max(a, b), 3)]; };
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      along[a] += s(a, b) * n[b] / square;
+      size += std::fabs(s(a, b));
+    }
+  for (int a = 0; a < 3; ++a) twice += along[a] * n[a] / square;
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b)
+      projected[static_cast<std::size_t>(symmetric_index(a, b, 3))] =
+          s(a, b) - along[a] * n[b] - along[b] * n[a] + (twice - 2 * size / square) * (n[a] * n[b]);
+  return principal_axes(projected).values[0] - pressure;
+}
+
+double overload(const Limits& limits, Extremes s, double tension, double inside) {
   double most = -1;
-  if (limits.tension > 0) most = std::max(most, (s.most + inside) / limits.tension - 1);
+  if (limits.tension > 0) most = std::max(most, (tension + inside) / limits.tension - 1);
   if (limits.shear > 0) {
     const double shear = 0.5 * (s.most - s.least), mean = 0.5 * (s.most + s.least) + inside;
     most = std::max(most, (shear + mean * limits.sine) / limits.shear - 1);
@@ -69,8 +99,8 @@ struct Failures {
   std::vector<Limits> limits;  ///< by group
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
-    const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
-    const double *sums = p.get<Field::crack_sums>(), *stress = p.get<Field::stress>();
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double* sums = p.get<Field::crack_sums>();
     const auto* group = p.get<Field::group>();
     for_movers(step.ranges, [&](std::size_t i) {
       const double* s = sums + i * (2 + d);
@@ -84,13 +114,19 @@ struct Failures {
                    "has bonds nearly as long as lists reach: the body is stretched beyond "
                    "terms.largest_stretch; raise "
                    "it or reduce time.dt");
-      for (std::size_t a = 0; a < d; ++a) p.get<Field::crack>()[i * d + a] += s[2 + a];
       if (!own.fails) return;
-      beyond = p.get<Field::bonds>()[i] == 1
-                   ? crumbles
-                   : overload(own, principal(stress + i * n, p.get<Field::pressure>()[i], p.dim()),
-                              p.get<Field::wet_pressure>()[i]);
+      for (std::size_t a = 0; a < d; ++a) p.get<Field::crack>()[i * d + a] += s[2 + a];
+      beyond = p.get<Field::bonds>()[i] == 1 ? crumbles : overload_of(p, i, own);
     });
+  }
+
+  static double overload_of(const View<reads, writes>& p, std::size_t i, const Limits& own) {
+    const auto d = static_cast<std::size_t>(p.dim());
+    const double* stress = p.get<Field::stress>() + i * d * (d + 1) / 2;
+    const double pressure = p.get<Field::pressure>()[i];
+    const Extremes all = principal(stress, pressure, p.dim());
+    const double tension = opening_stress(stress, pressure, p.get<Field::crack>() + i * d, p.dim(), all.most);
+    return overload(own, all, tension, p.get<Field::wet_pressure>()[i]);
   }
 };
 

@@ -97,8 +97,9 @@ struct Resets {
 }  // namespace
 
 bool resets_gas(const Scene& scene) {
-  return std::ranges::any_of(scene.domain.resets,
-                             [](const Reset& box) { return box.gas_content.has_value(); });
+  return has_eos(scene, EosKind::bubbly) && std::ranges::any_of(scene.domain.resets, [](const Reset& box) {
+           return box.gas_content.has_value() || box.pressure.has_value();
+         });
 }
 
 void add_resets(Builder& b) {

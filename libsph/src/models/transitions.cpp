@@ -38,7 +38,8 @@ struct Transitions {
   static constexpr FieldSet reads =
       FaultView::reads | Materials::reads |
       FieldSet{Field::enthalpy, Field::failing, Field::wet_pressure, Field::strain_energy};
-  static constexpr FieldSet writes = Materials::writes | FieldSet{Field::plastic_volume, Field::opening} |
+  static constexpr FieldSet writes = Materials::writes |
+                                     FieldSet{Field::plastic_volume, Field::plastic_strain, Field::opening} |
                                      FieldSet{Field::group,
                                               Field::density,
                                               Field::mass,
@@ -124,7 +125,12 @@ struct Transitions {
     }
     if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
     double* opened = p.get<Field::plastic_volume>();
-    if (is_bonded(old)) p.get<Field::pressure>()[i] = p.get<Field::wet_pressure>()[i];
+    // What fails has the pressure of the fluid beside it, or that it was under itself.
+    if (is_bonded(old)) {
+      double& pressure = p.get<Field::pressure>()[i];
+      const double wet = p.get<Field::wet_pressure>()[i];
+      pressure = wet != 0 ? wet : std::fmax(pressure, 0.0);
+    }
     if (is_bonded(old) || !same_state(old, now) || (opened != nullptr && opened[i] != 0)) {
       const double* gas = p.get<Field::gas_content>();
       const double before = rho;
@@ -133,7 +139,8 @@ struct Transitions {
     }
     group[i] = to;
     if (opened != nullptr)
-      opened[i] = p.get<Field::opening>()[i] = 0;  // the density is that of the pressure now
+      opened[i] = p.get<Field::opening>()[i] = p.get<Field::plastic_strain>()[i] =
+          0;  // the density is that of the pressure now, and nothing is left of shear bands
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
     materials->derive(p, i, i + 1);  // as after a restart
     if (double* liquid = p.get<Field::liquid_mass>(); liquid != nullptr && bubbly && !(liquid[i] > 0))

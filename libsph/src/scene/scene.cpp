@@ -41,9 +41,11 @@ double Scene::support() const {
 }
 
 double Scene::list_range() const {
-  if (total_lagrangian())
-    return std::max(support(),
-                    bond_width() / kernel.smoothing_length * kernel_radius() * terms.bonds.largest_stretch);
+  if (total_lagrangian()) {
+    const double bonds =
+        bond_width() / kernel.smoothing_length * kernel_radius() * terms.bonds.largest_stretch;
+    return std::max(support(), has_failure(*this) ? bonds / nearly_lost : bonds);
+  }
   return support() * kernel.largest_growth;
 }
 

@@ -30,6 +30,9 @@ struct SolidMaterial {
   friend bool operator==(const SolidMaterial&, const SolidMaterial&) = default;
 };
 
+/// Of how far lists reach: bonds of what can fail are lost there, seen before lists lose them.
+inline constexpr double nearly_lost = 0.95;
+
 /// Between the particles of a total-Lagrangian solid.
 struct BondTerms {
   std::optional<double> hourglass;  ///< stiffness against hourglass modes / modulus; without, that of plates
