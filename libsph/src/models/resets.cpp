@@ -10,7 +10,7 @@ namespace sph {
 namespace {
 
 struct Resets {
-  static constexpr FieldSet reads = FaultView::reads | Materials::reads;
+  static constexpr FieldSet reads = FaultView::reads | RangeView::reads | Materials::reads;
   static constexpr FieldSet writes =
       Materials::writes | FieldSet{Field::density,    Field::mass,          Field::gas_content,
                                    Field::enthalpy,   Field::temperature,   Field::heat_inflow,
@@ -56,6 +56,7 @@ struct Resets {
       w[i] = dissolved_gas(g, m, p.get<Field::pressure>()[i] + materials->outer(p, i, g));
     p.get<Field::density>()[i] = materials->density_of(p, i, g, content, step);
     materials->derive(p, i, i + 1);  // as after a restart
+    find_out_of_range(*constants, p, i, i + 1, step);
   }
 
   // While it rises only what is below it gets it.
@@ -81,6 +82,7 @@ struct Resets {
     mass *= more;
     rho = now;
     materials->derive(p, i, i + 1);  // as after a restart
+    find_out_of_range(*constants, p, i, i + 1, step);
   }
 
   void heat(const Rows& p, std::size_t i, double wanted) const {

@@ -36,7 +36,7 @@ double elastic_energy(const Group& g, const double* s, std::size_t d) {
 
 struct Transitions {
   static constexpr FieldSet reads =
-      FaultView::reads | Materials::reads |
+      FaultView::reads | RangeView::reads | Materials::reads |
       FieldSet{Field::enthalpy, Field::failing, Field::wet_pressure, Field::strain_energy};
   static constexpr FieldSet writes = Materials::writes |
                                      FieldSet{Field::plastic_volume, Field::plastic_strain, Field::opening} |
@@ -143,6 +143,8 @@ struct Transitions {
           0;  // the density is that of the pressure now, and nothing is left of shear bands
     if (double* psi = p.get<Field::void_fraction>()) psi[i] = 0;
     materials->derive(p, i, i + 1);  // as after a restart
+    // Here, or pairs spread what is no number as far as lists reach, and messages name whom they find.
+    find_out_of_range(*constants, p, i, i + 1, step);
     if (double* liquid = p.get<Field::liquid_mass>(); liquid != nullptr && bubbly && !(liquid[i] > 0))
       liquid[i] = mass / (1 + p.get<Field::gas_content>()[i]);
     if (const double* h = p.get<Field::enthalpy>())
