@@ -221,6 +221,7 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   numbers(Field::clamp_reaction, 0, 20, still);
   numbers(Field::wet_pressure, 1000, 4000);
   numbers(Field::wet_velocity, 0, fastest);
+  numbers(Field::flux, 0, 1);
   numbers(Field::acceleration, 0, 20);
   numbers(Field::direction, 0, fastest);
   numbers(Field::wall_slope, 0, uniform(number, Field::wall_slope, 9) > 0 ? 1 : 0,

@@ -125,6 +125,20 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       vector(Field::wall_sums, 2, part * j.v);
       return vector(Field::wall_sums, 2 + dim_, part * x / h_);
     }
+    case key("BorneByFluid"): {
+      if (i.shears && j.shears && !presses_across(pair)) return;
+      const double pressure = 0.5 * j.volume * (i.wet_pressure + j.wet_pressure) * slope / r / h_;
+      for (int a = 0; a < dim_; ++a)
+        for (int b = a; b < dim_; ++b)
+          one(Field::borne_by_fluid, symmetric_index(a, b, dim_), pressure * x(a) * x(b));
+      return;
+    }
+    case key("FlowOntoSolids"):
+      if (j.shears) return;
+      one(Field::flux_sums, 0, bare(w_ij));
+      return one(Field::flux_sums, 1, bare(j.volume / lattice_volume * h_ * dv.dot(grad)));
+    case key("FlowFromSolids"):
+      return one(Field::divergence, 0, j.flux * w_ij * lattice_volume / (i.volume / lattice_volume) / h_);
     case key("WallShare"):
       if (j.mover) return;
       vector(Field::wall_share, 0, j.volume * grad);

@@ -24,7 +24,7 @@ PairOracle::PairOracle(const PairCase& of)
   fourth_ = moment(3);
   looks_back_ = std::ranges::any_of(of.fusion().terms, [](Term t) {
     return t.name == "Divergence" || t.name == "WeightedDivergence" || t.name == "VelocityGradient" ||
-           t.name == "SlippingGradient";
+           t.name == "SlippingGradient" || t.name == "FlowOntoSolids";
   });
   load();
 }
@@ -74,6 +74,7 @@ void PairOracle::load() {
       }
     }
     q.wet_pressure = is_bonded(g) ? get(Field::wet_pressure, row, 0) : q.pressure;
+    q.flux = get(Field::flux, row, 0);
     q.mass = get(Field::mass, row, 0);
     q.density = get(Field::density, row, 0);
     q.weight = q.density * (1 - scene_.domain.background.density / g.density);
@@ -191,6 +192,7 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("ClampSums"):
       return !p.mover;
     case key("WettedExtrapolation"):
+    case key("FlowOntoSolids"):
       return p.shears;
     case key("Deformation"):
     case key("CrackedDeformation"):

@@ -33,8 +33,8 @@ struct PairParticle {
   Vec frame;  ///< acceleration of a body
   Vec crack;
   Mat stress, bond_stress, gradient;  ///< stress: the total one
-  double mass, density, weight, pressure, wet_pressure, volume, sound, energy, width, correction, curvature,
-      viscosity;
+  double mass, density, weight, pressure, wet_pressure, flux, volume, sound, energy, width, correction,
+      curvature, viscosity;
   double rest_volume, modulus, hourglass;
   double temperature, trial, conductivity, sensible_heat;
   double permeability, gas_mobility, gas_pressure, gas_density;

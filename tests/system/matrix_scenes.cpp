@@ -51,7 +51,7 @@ const std::vector<Source>& sources() {
        "apps/buoyant_cylinder/solid.toml",
        {"domain.lower=[-12, -4]", "domain.upper=[60, 76]",
         "group.melt.bulk_modulus=", "group.melt.sound_speed=160", "group.cylinder.bulk_modulus=5e7",
-        "time.dt=2e-3", "start.jitter=0.1", "start.velocity=[3, -1]"}},
+        "group.cylinder.lagrangian=updated", "time.dt=2e-3", "start.jitter=0.1", "start.velocity=[3, -1]"}},
       {"gas2d", "apps/buoyant_cylinder/gas.toml", thrown},
       {"ida2d",
        "apps/buoyant_cylinder/fluid.toml",

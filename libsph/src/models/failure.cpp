@@ -92,8 +92,8 @@ double overload(const Limits& limits, Extremes s, double tension, double inside)
 
 struct Failures {
   static constexpr FieldSet reads =
-      FaultView::reads | FieldSet{Field::crack_sums, Field::stress,       Field::pressure,
-                                  Field::bonds,      Field::wet_pressure, Field::group};
+      FaultView::reads | FieldSet{Field::crack_sums,   Field::stress, Field::pressure,      Field::bonds,
+                                  Field::wet_pressure, Field::group,  Field::borne_by_fluid};
   static constexpr FieldSet writes{Field::overload, Field::crack, Field::failing};
   const SphConstants* constants;
   std::vector<Limits> limits;  ///< by group
@@ -120,12 +120,16 @@ struct Failures {
     });
   }
 
-  static double overload_of(const View<reads, writes>& p, std::size_t i, const Limits& own) {
-    const auto d = static_cast<std::size_t>(p.dim());
-    const double* stress = p.get<Field::stress>() + i * d * (d + 1) / 2;
+  [[nodiscard]] double overload_of(const View<reads, writes>& p, std::size_t i, const Limits& own) const {
+    const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
     const double pressure = p.get<Field::pressure>()[i];
-    const Extremes all = principal(stress, pressure, p.dim());
-    const double tension = opening_stress(stress, pressure, p.get<Field::crack>() + i * d, p.dim(), all.most);
+    SymmetricTensor stress{};  // and pressure
+    for (std::size_t k = 0; k < n; ++k)
+      stress[k] = p.get<Field::stress>()[i * n + k] +
+                  constants->scene->kernel.smoothing_length * p.get<Field::borne_by_fluid>()[i * n + k];
+    const Extremes all = principal(stress.data(), pressure, p.dim());
+    const double tension =
+        opening_stress(stress.data(), pressure, p.get<Field::crack>() + i * d, p.dim(), all.most);
     return overload(own, all, tension, p.get<Field::wet_pressure>()[i]);
   }
 };

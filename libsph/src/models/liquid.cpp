@@ -127,6 +127,10 @@ void add_kinematics(Builder& b) {
                           : s.domain.central_pull > 0        ? term<PulledDensityDiffusion>
                           : single && !solid && !weighted(s) ? term<UniformDensityDiffusion>
                                                              : term<DensityDiffusion>};
+  if (has_wet_bodies(s)) {
+    add_flow_onto_solids(b);
+    terms.push_back(term<FlowFromSolids>);
+  }
   if (s.terms.shifting || has_escape(s)) terms.push_back(term<Concentration>);
   if (tension(s)) terms.push_back(term<ColourGradient>);
   b.add_sums("kinematics", terms);
@@ -140,9 +144,10 @@ namespace {
 
 void add_wet_forces(Builder& b) {
   const Scene& s = b.scene();
-  std::vector<Term> terms{has_failure(s) ? term<CrackedWettedPressure> : term<WettedPressure>,
-                          s.terms.viscous.form == ViscosityForm::symmetric ? term<WettedSymmetricViscosity>
-                                                                           : term<WettedViscosity>};
+  std::vector<Term> terms{has_failure(s) ? term<CrackedWettedPressure> : term<WettedPressure>};
+  if (has_failure(s)) terms.push_back(term<BorneByFluid>);
+  terms.push_back(s.terms.viscous.form == ViscosityForm::symmetric ? term<WettedSymmetricViscosity>
+                                                                   : term<WettedViscosity>);
   if (s.terms.artificial_viscosity > 0) terms.push_back(term<WettedArtificialViscosity>);
   b.add_sums("forces", terms);
 }

@@ -38,6 +38,27 @@ struct WetSides {
   }
 };
 
+/// In the units of the sums, with volumes in spacings.
+struct Fluxes {
+  static constexpr FieldSet reads{Field::flux_sums, Field::mass, Field::density, Field::group};
+  static constexpr FieldSet writes{Field::flux};
+  const Scene* scene;
+  double inverse_volume;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const double *sums = p.get<Field::flux_sums>(), *mass = p.get<Field::mass>(),
+                 *rho = p.get<Field::density>();
+    const auto* group = p.get<Field::group>();
+    const auto update = [&](std::size_t i) {
+      const double* s = sums + 2 * i;
+      const bool wet = s[0] > 0 && scene->groups[group[i]].kind != GroupKind::fluid;
+      p.get<Field::flux>()[i] = wet ? mass[i] / rho[i] * inverse_volume * s[1] / s[0] : 0.0;
+    };
+    for_walls(step.ranges, update);
+    for_movers(step.ranges, update);
+  }
+};
+
 struct BondForces {
   static constexpr FieldSet reads =
       BodyForces::reads | FieldSet{Field::bond_force, Field::mass, Field::group};
@@ -65,6 +86,12 @@ struct BondForces {
 };
 
 }  // namespace
+
+void add_flow_onto_solids(Builder& b) {
+  b.add_fields({Field::flux});
+  b.add_sums("flow onto solids", {term<FlowOntoSolids>}, Builder::Rows::all);
+  b.add_update("fluxes", Fluxes{&b.scene(), b.constants().row_scale.inverse_volume});
+}
 
 void add_wet_sides(Builder& b) {
   b.add_fields({Field::wet_pressure, Field::wet_velocity});

@@ -101,6 +101,7 @@ struct FusionList {
              fuse<Quintic, CrackedDeformation, CrackSums>(),
              fuse<Quintic, CrackedDeformation, BodyContactEnergy, CrackSums>(),
              fuse<Quintic, WettedExtrapolation>(),
+             fuse<Quintic, FlowOntoSolids>(),
              fuse<Quintic, ClampSums>(),
              fuse<Quintic, ClampReaction>(),
              fuse<Quintic, BondForce>(),
@@ -114,7 +115,8 @@ struct FusionList {
          })
       list.push_back(std::move(f));
     for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>(), wetted<WettedViscosity>(),
-                       wetted<WettedSymmetricViscosity>()})
+                       wetted<WettedSymmetricViscosity>(), wetted_kinematics<DensityDiffusion>(),
+                       wetted_kinematics<PulledDensityDiffusion>()})
       list.insert(list.end(), more.begin(), more.end());
     return list;
   }
@@ -133,14 +135,22 @@ struct FusionList {
     return {};
   }
 
+  template <class Diffusion>
+  static std::vector<Fusion> wetted_kinematics() {
+    return {
+        fuse<Quintic, Divergence, Diffusion, FlowFromSolids>(),
+        fuse<Quintic, Divergence, Diffusion, FlowFromSolids, Concentration>(),
+    };
+  }
+
   /// Total-Lagrangian solids in a fluid.
   template <class Viscous>
   static std::vector<Fusion> wetted() {
     return {
         fuse<Quintic, WettedPressure, Viscous>(),
         fuse<Quintic, WettedPressure, Viscous, WettedArtificialViscosity>(),
-        fuse<Quintic, CrackedWettedPressure, Viscous>(),
-        fuse<Quintic, CrackedWettedPressure, Viscous, WettedArtificialViscosity>(),
+        fuse<Quintic, CrackedWettedPressure, BorneByFluid, Viscous>(),
+        fuse<Quintic, CrackedWettedPressure, BorneByFluid, Viscous, WettedArtificialViscosity>(),
     };
   }
 

@@ -235,6 +235,11 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of total-Lagrangian solids: the pressure of the fluid beside them, 0 where there is none"},
     {Field::wet_velocity, "wet_velocity", "m/s", Type::f64, Shape::vector, false, false,
      "... and the velocity with which they seem to continue its flow"},
+    {Field::flux_sums, "flux_sums", "1", Type::f64, Shape::two, false, false,
+     "of solids and walls beside a fluid: kernel sum over it, sum for the divergence of its flow",
+     SumScale::one},
+    {Field::flux, "flux", "1", Type::f64, Shape::scalar, false, false,
+     "... volume times the second over the first, in units of the sums (terms/wetted.hpp); 0 of fluids"},
     {Field::clamp_sums, "clamp_sums", "1", Type::f64, Shape::clamp, false, false,
      "kernel sums over what is bonded to a clamp's particle: weight, displacement / h, reference distance / "
      "h",
@@ -256,6 +261,9 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "what has "
      "just failed",
      SumScale::one},
+    {Field::borne_by_fluid, "borne_by_fluid", "Pa/m", Type::f64, Shape::symmetric, false, false,
+     "of solids that can fail: what of their stress the fluid's pressure bears, over h (terms/crack.hpp)",
+     SumScale::gradient},
     {Field::plastic_volume, "plastic_volume", "1", Type::f64, Shape::scalar, true, true,
      "e of a solid with strength: what its pressure does not feel of its volume, p = K (rho (1 + e) / rho_0 "
      "- "

@@ -27,6 +27,7 @@ void add_forces(Builder& builder);
 /// Walls take their pressure and velocity from what is beside them; `weighted`: by density.
 void add_walls(Builder& builder, bool weighted);
 /// Walls and total-Lagrangian solids take theirs from the fluid beside them.
+void add_flow_onto_solids(Builder& builder);
 void add_wet_sides(Builder& builder);
 /// Where torn fluid flies, walls stop it.
 void add_walls_that_hold(Builder& builder);

@@ -232,8 +232,9 @@ struct WetColumns {
         velocity(p.data<Field::velocity>()),
         wet_pressure(p.data<Field::wet_pressure>()),
         wet_velocity(p.data<Field::wet_velocity>()),
-        acceleration(p.data<Field::acceleration>()) {}
-  const double *pressure, *velocity, *wet_pressure, *wet_velocity, *acceleration;
+        acceleration(p.data<Field::acceleration>()),
+        flux(p.data<Field::flux>()) {}
+  const double *pressure, *velocity, *wet_pressure, *wet_velocity, *acceleration, *flux;
 
   template <class Row>
   [[gnu::always_inline]] void pack(const Row& row) const {
@@ -249,6 +250,7 @@ struct WetColumns {
     if constexpr (S.has(Value::own_head))
       for (int k = 0; k < D; ++k)
         row.put(Value::own_head, k, bonded() ? -acceleration[i * D + k] / row.scale.inverse_h : 0.0);
+    if constexpr (S.has(Value::flux)) row.put(Value::flux, 0, flux[i]);
   }
 };
 

@@ -84,6 +84,7 @@ enum class Value : std::uint8_t {
   crack,     ///< n over its length, 0 without a crack
   overload,  ///< how far beyond its strength, over it
   failing,   ///< 1 where it has just become fluid, else 0
+  flux,      ///< of solids and walls: what flows onto them, for the fluid beside them (terms/wetted.hpp)
   count_
 };
 
@@ -155,6 +156,7 @@ class ValueSet {
   if (values.has(Value::crack)) f |= FieldSet{Field::crack};
   if (values.has(Value::overload)) f |= FieldSet{Field::overload};
   if (values.has(Value::failing)) f |= FieldSet{Field::failing};
+  if (values.has(Value::flux)) f |= FieldSet{Field::flux};
   if (values.has(Value::velocity_gradient)) f |= FieldSet{Field::velocity_gradient};
   if (values.has(Value::shears)) f |= FieldSet{Field::group};
   if (values.has(Value::temperature)) f |= FieldSet{Field::temperature};

@@ -106,8 +106,9 @@ struct CrackedWettedPressure {
   static constexpr ValueSet reads =
       WettedPressure::reads | ValueSet{Value::reference, Value::reference_cell, Value::body, Value::crack};
   static constexpr Field writes = Field::force;
-  template <class Kernel, class P, class C, class S>
-  static void add(const P& p, const C&, S& sums) {
+  /// The sum of the pressures where they push, else 0.
+  template <class P>
+  static typename P::V both(const P& p) {
     using V = typename P::V;
     const V p_i = p.template i<Value::wet_pressure>(), p_j = p.template j<Value::wet_pressure>();
     V turned = V::zero();
@@ -116,7 +117,29 @@ struct CrackedWettedPressure {
     const V dry = where_equal(p_i, V::zero(), V(1)) + where_equal(p_j, V::zero(), V(1));
     const V wet = is_wet(p);
     const V faced = where_equal(dry, V::zero(), (V(1) - wet) * (V(1) - p.bond.intact * uncut(p)) * across);
-    add_pressure(p, (wet + faced) * (p_i + p_j), sums);
+    return (wet + faced) * (p_i + p_j);
+  }
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    add_pressure(p, both(p), sums);
+  }
+};
+
+/// What of the stress in a particle these forces bear, which its bonds then do not: half of the moment of each,
+///   s_ab = 1/2 sum V_j (p_i + p_j) x_a x_b W'/r,
+/// over h. Of a body under the pressure p of the fluid around it bonds bear 0.45 p in the outermost row, with this 0.9 p.
+struct BorneByFluid {
+  static constexpr std::string_view name = "BorneByFluid";
+  static constexpr ValueSet reads = CrackedWettedPressure::reads;
+  static constexpr Field writes = Field::borne_by_fluid;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    const V s = V(static_cast<typename P::Scalar>(0.5)) * p.template j<Value::volume>() *
+                CrackedWettedPressure::both(p) * p.f;
+    for (int a = 0; a < P::dim; ++a)
+      for (int b = a; b < P::dim; ++b)
+        sums.template add<Field::borne_by_fluid>(symmetric_index(a, b, P::dim), s * p.e[a] * p.e[b]);
   }
 };
 

@@ -3,6 +3,13 @@
 // grad p = rho (g - a) with a the body's acceleration (eq. 27; models/wetted.cpp). What the fluid feels the body feels in
 // the opposite sense, pair by pair. Pairs without a fluid have no such force: bodies have bonds and contacts
 // (terms/bonds.hpp, body_contact.hpp).
+//
+// The pressure of a body's particle b is a mean over the fluid's, p_b = sum_k a_bk p_k + head, a_bk = W_bk / sum W, and the
+// work that it does must be that of compression. The fluid's continuity sees of a flow that ends at a wall only as much as
+// fluid fills its kernel. What is missing is what the sums at the wall's particles see, and the fluid whose pressure they
+// have gets it, in the same shares:
+//   div v_k += 1/V_k sum_b a_bk V_b div v_b,   div v_b = sum_i V_i (v_i - v_b).grad_b W.
+// Without it a light cylinder that rises for a second gains 12 % of its energy.
 #pragma once
 
 #include "sph/terms/artificial_viscosity.hpp"
@@ -32,6 +39,41 @@ struct WettedExtrapolation {
     for (int k = 0; k < P::dim; ++k) push += p.template i<Value::own_head>(k) * p.e[k];
     const V rise = p.template j<Value::weight>() * head(p, c) + p.template j<Value::density>() * push;
     extrapolate<Kernel>(p, V(1) - p.template j<Value::shears>(), rise, sums);
+  }
+};
+
+/// What flows onto a body or wall, div v_b, and the sum of W.
+struct FlowOntoSolids {
+  static constexpr std::string_view name = "FlowOntoSolids";
+  static constexpr ValueSet reads{Value::velocity, Value::volume, Value::shears};
+  static constexpr Field writes = Field::flux_sums;
+  static constexpr Value nothing_without = Value::shears;
+  static constexpr bool half_step_back = true;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    const V fluid = V(1) - p.template j<Value::shears>();
+    V t = V::zero();
+    for (int k = 0; k < P::dim; ++k)
+      t += (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)) * p.e[k];
+    sums.template add<Field::flux_sums>(0, fluid * Kernel::template value<P::dim>(p.r));
+    sums.template add<Field::flux_sums>(1, fluid * p.template j<Value::volume>() * p.f * t);
+  }
+};
+
+/// The fluid's share of that; beside Divergence.
+struct FlowFromSolids {
+  static constexpr std::string_view name = "FlowFromSolids";
+  static constexpr ValueSet reads{Value::velocity, Value::volume, Value::flux};
+  static constexpr Field writes = Field::divergence;
+  static constexpr bool half_step_back = true;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    using V = typename P::V;
+    // Lists are padded with the particle itself, which may be a solid's.
+    const V share = where_less(V::zero(), p.r, Kernel::template value<P::dim>(p.r));
+    sums.template add<Field::divergence>(0,
+                                         p.template j<Value::flux>() * share / p.template i<Value::volume>());
   }
 };
 
