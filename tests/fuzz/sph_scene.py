@@ -127,9 +127,10 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             out.append(self.wall(out))
         self.clamp = None
         if self.family == "total" and d.chance("clamp", 0.5):
-            bodies = [m for m in self.movers if m != "melt"]
-            self.clamp = {"name": "clamp", "kind": "wall", "clamps": d.one("clamped", bodies)}
-            out.append(self.clamp)
+            bodies = [g["name"] for g in out if "lagrangian" in g and not g.get("rigid")]
+            if bodies:
+                self.clamp = {"name": "clamp", "kind": "wall", "clamps": d.one("clamped", bodies)}
+                out.append(self.clamp)
         return out
 
     def fluids(self):
@@ -232,11 +233,32 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             if nu := self.viscosity(d.part("body", k)):
                 group["viscosity"] = min(nu, 0.1 * self.c * self.h * self.rho)
             out.append(group)
+        for k in range(len(out)):
+            if d.chance(f"rigid/{k}", 0.3):
+                out[k] = self.rigid(d.part("rigid", k), out[k], [g for g in out[:k] if g.get("rigid")])
         if d.chance("in a fluid", 0.5):
             out.append(self.around(d.part("around")))
             for k, body in enumerate(out[:-1]):
-                if d.chance(f"fails/{k}", 0.6):
+                if not body.get("rigid") and d.chance(f"fails/{k}", 0.6):
                     body["becomes"] = [self.failure(d.part("failure", k), body, out[-1])]
+        return out
+
+    def rigid(self, d, like, others):
+        """What does not deform; the sums of its forces, which ranks share, move it."""
+        out = {key: like[key] for key in ("name", "kind", "density", "bulk_modulus", "sound_speed") if key in like}
+        out["rigid"] = True
+        if d.chance("say total", 0.2):
+            out["lagrangian"] = "total"
+        whole = [g["name"] for g in others if "part_of" not in g]
+        if whole and d.chance("part", 0.4):
+            return out | {"part_of": d.one("of", whole)}
+        if d.chance("velocity", 0.4):
+            out["start_velocity"] = d.vector("its velocity", 0.1 * self.c, self.dim)
+        if d.chance("spin", 0.5):
+            spin = d.vector("its spin", 0.05 * self.c / self.dx, 3)
+            out["start_spin"] = spin if self.dim == 3 else spin[2]
+        if d.chance("held", 0.3):
+            out["held"] = [m for m in ["x", "y", "z"][: self.dim] + ["rotation"] if d.chance(f"held/{m}", 0.4)]
         return out
 
     def failure(self, d, body, fluid):

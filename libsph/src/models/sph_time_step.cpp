@@ -31,12 +31,12 @@ double SphTimeStep::longest(const StepMaxima& maxima) const {
     // Of a gas that of now counts.
     if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_->groups.sound_speed[g]);
     const bool wall = constants_->is_wall(static_cast<std::uint32_t>(g));
-    if (wall && (scene.total_lagrangian() || law)) continue;
+    if ((wall && (scene.total_lagrangian() || law)) || is_rigid(scene.groups[g])) continue;
     if ((maxima.viscosity > 0 || maxima.bulk > 0) && viscosity_follows(scene.groups[g])) continue;
     viscous = std::max(viscous, constants_->groups.viscosity[g] / scene.groups[g].density);
     bulk = std::max(bulk, scene.groups[g].viscosity_law.bulk / scene.groups[g].density);
   }
-  const bool bonds = scene.total_lagrangian();
+  const bool bonds = has_bonds(scene);
   if (bonds || scene.terms.viscous.form == ViscosityForm::symmetric)
     viscous *= 3;  // nu (lap v + 2 grad div v)
   if (scene.terms.viscous.implicit) viscous = 0;

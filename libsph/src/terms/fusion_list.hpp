@@ -103,6 +103,7 @@ struct FusionList {
              fuse<Quintic, WettedExtrapolation>(),
              fuse<Quintic, ClampSums>(),
              fuse<Quintic, ClampReaction>(),
+             fuse<Quintic, BodyContact, BodyContactEnergy>(),
              fuse<Quintic, BondForce>(),
              fuse<Quintic, BondForce, BondViscosity>(),
              fuse<Quintic, BondForce, BodyContact>(),
