@@ -155,7 +155,7 @@ TEST(Rigid, BrickTumbles) {
   EXPECT_LT(fine.momentum, 1e-13);
   EXPECT_LT(fine.shape, 2);
   EXPECT_NEAR(PINNED(std::log2(coarse.off / fine.off)), 2, 0.1);
-  EXPECT_LT(PINNED(fine.off), 0.01);
+  EXPECT_LT(PINNED(fine.off), 1e-4);
 }
 
 TEST(Rigid, BarSpins) {
@@ -163,7 +163,7 @@ TEST(Rigid, BarSpins) {
   sph::Simulation s(comm, sph::parse_scene(R"(
 dimension = 2
 kernel = { h_over_dx = 1 }
-domain = { lower = [0, 0], upper = [20, 20], periodic = [true, true] }
+domain = { lower = [0, 0], upper = [90, 90], periodic = [true, true] }
 [[group]]
 name = "bar"
 kind = "solid"
@@ -174,7 +174,7 @@ start_spin = 2
 start_velocity = [0.3, 0.2]
 [start]
 spacing = 0.5
-region = [{ group = "none" }, { group = "bar", shape = "box", lower = [15, 15], upper = [19, 16] }]
+region = [{ group = "none" }, { group = "bar", shape = "box", lower = [45, 87], upper = [85, 88] }]
 [time]
 dt = 0.01
 until = 50
@@ -186,7 +186,7 @@ until = 50
   const BodyState& body = s.global().bodies.front();
   EXPECT_NEAR(body.motion.angle, 2 * s.global().time, 1e-10);
   EXPECT_NEAR(energy_of(s) / energy, 1, 1e-12);
-  EXPECT_LT(distortion(s, start), 2);
+  EXPECT_LT(distortion(s, start) * s.scale().quantum, 1e-13);  // as doubles have it, 85 m away
 }
 
 struct Risen {
@@ -223,18 +223,10 @@ Risen rise(double dx, bool rigid) {
 TEST(Rigid, IsTheLimitOfAStiffCylinder) {
   const Risen coarse = rise(1, true), fine = rise(0.5, true);
   EXPECT_NEAR(PINNED(coarse.way), 1.2176, 0.015);
-  EXPECT_NEAR(PINNED(fine.way), 1.2176, 0.012);
+  EXPECT_NEAR(PINNED(fine.way), 1.2176, 0.003);
 }
 
-// A cylinder that is let go in the middle of a round tank, full and closed: what it drags along is, without viscosity,
-// rho pi R^2 (b^2 + R^2) / (b^2 - R^2), with b the radius of the tank (Lamb, art. 71).
-struct LetGo {
-  double over;   ///< acceleration over the exact one, less 1
-  double alone;  ///< ... over that in water without end
-};
-
-LetGo let_go(double ratio, double density, double wide) {
-  const std::string scene = R"(
+constexpr const char* round_tank = R"(
 dimension = 2
 kernel = { h_over_dx = 1.2 }
 [domain]
@@ -276,11 +268,16 @@ radius = 1
 [time]
 until = 10
 )";
-  const double b = wide * ratio, g = 9.81, sound = 60 * std::sqrt(g * 2 * b);
+
+// A cylinder that is let go in the middle of a round tank, full and closed: what it drags along is, without viscosity,
+// rho pi R^2 (b^2 + R^2) / (b^2 - R^2), with b the radius of the tank (Lamb, art. 71).
+/// Its acceleration over the exact one, less 1; lengths are in spacings, `wide` in radii.
+double let_go(double ratio, double density, double wide) {
+  const double b = wide * ratio, g = 9.81, sound = 240 * std::sqrt(g * 2 * b);
   const decomp::Comm comm(MPI_COMM_SELF);
   sph::Simulation s(
       comm, sph::parse_scene(
-                scene, "tank.toml",
+                round_tank, "tank.toml",
                 {text("group.water.sound_speed", sound), text("group.cylinder.density", density * 1000),
                  text("start.region.1.radius", b + 4), text("start.region.2.radius", b),
                  text("start.region.3.radius", ratio), text("start.surface_height", b),
@@ -289,121 +286,25 @@ until = 10
   // Of the particles, as they are painted.
   const double area = body.shape.mass / (density * 1000), r2 = area / std::numbers::pi;
   const double added = (b * b + r2) / (b * b - r2);
-  const double exact = (1 - density) / (density + added) * g, alone = (1 - density) / (density + 1) * g;
-  const double end = std::sqrt(0.2 * ratio / exact);
+  const double exact = (1 - density) / (density + added) * g;
+  const double end = std::sqrt(0.02 * ratio / std::abs(exact));
   // Velocity against time, where waves of sound are weighed down.
   double tt = 0, tv = 0;
   run_until(s, end, [&] {
-    const double t = s.global().time - 0.5 * s.global().dt;
+    const double t = s.global().time;
     const double w = 1 - std::cos(2 * std::numbers::pi * s.global().time / end);
     tt += w * t * t;
     tv += w * t * body.motion.velocity[1];
   });
-  std::printf(
-      "cylinder of %.1f let go, R = %.1f dx, tank %.0f R: acceleration %+.2f %% (water without end %+.2f "
-      "%%), %ld steps\n",
-      density, ratio, wide, 100 * (tv / tt / exact - 1), 100 * (tv / tt / alone - 1),
-      static_cast<long>(s.global().step));
-  return {tv / tt / exact - 1, tv / tt / alone - 1};
+  const double over = tv / tt / exact - 1;
+  std::printf("cylinder of %.1f let go, R = %.1f dx, tank %.0f R: acceleration %+.2f %%, %ld steps\n",
+              density, ratio, wide, 100 * over, static_cast<long>(s.global().step));
+  return over;
 }
 
 TEST(Rigid, DragsTheMassOfTheWater) {
-  EXPECT_NEAR(PINNED(let_go(7.5, 0.5, 4).over), 0, 0.02);
-  EXPECT_NEAR(PINNED(let_go(7.5, 2, 4).over), 0, 0.02);
-}
-
-// Of fluid, elastic and rigid bodies that push each other, in a closed period.
-TEST(Rigid, MomentumStays) {
-  const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(
-      comm,
-      sph::read_scene(PEPERITE_TEST_DIR "/scenes/rigid2d.toml",
-                      {"domain.gravity=[0, 0]", "start.pressure=uniform", "start.uniform_pressure=2e5",
-                       "start.surface_height=", "domain.lower=[0, 0]", "domain.upper=[76, 16]",
-                       "domain.periodic=[true, true]", "start.region.1.group=melt", "group.wheel.held=[]"}));
-  const auto momentum = [&] {
-    std::array<double, 2> sum{};
-    for (const Sample& q : samples(s))
-      for (std::size_t a = 0; a < 2; ++a) sum[a] += q.mass * q.v[a];
-    return sum;
-  };
-  const std::array<double, 2> before = momentum();
-  const BodyState first = s.global().bodies.front();
-  double size = 0;
-  for (const Sample& q : samples(s)) size += q.mass * std::hypot(q.v[0], q.v[1]);
-  run_until(s, 2);
-  EXPECT_GT(std::abs(s.global().bodies.front().motion.velocity[1] - first.motion.velocity[1]), 0.005);
-  for (std::size_t a = 0; a < 2; ++a) EXPECT_NEAR(momentum()[a], before[a], 1e-12 * size);
-}
-
-constexpr const char* dropped = R"(
-dimension = 2
-kernel = { h_over_dx = 1 }
-domain = { lower = [-5, -5], upper = [30, 30] }
-[[group]]
-name = "block"
-kind = "solid"
-rigid = true
-density = 1000
-sound_speed = 100
-[[group]]
-name = "floor"
-kind = "wall"
-density = 1000
-sound_speed = 100
-[start]
-spacing = 1
-velocity = [0.3, -2]
-region = [{ group = "none" }, { group = "floor", shape = "box", lower = [-5, -5], upper = [30, 0] },
-          { group = "block", shape = "box", lower = [4, 4], upper = [12, 8] }]
-[time]
-cfl = 0.5
-until = 10
-)";
-
-TEST(Rigid, ABlockBouncesWithItsEnergy) {
-  const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(comm, sph::parse_scene(dropped, "dropped.toml", {}));
-  const double before = energy_of(s);
-  double least = 1;
-  run_until(s, 6, [&] { least = std::min(least, energy_of(s) / before); });
-  EXPECT_GT(s.global().bodies.front().motion.velocity[1], 1.5);  // it has come back
-  EXPECT_NEAR(PINNED(energy_of(s) / before), 1, 0.01);
-}
-
-// What is held keeps its motion whatever falls on it; the rest follows.
-TEST(Rigid, HeldMotionsStay) {
-  const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(comm, sph::parse_scene(dropped, "held.toml",
-                                           {"group.block.held=[\"x\", \"rotation\"]",
-                                            "group.block.start_spin=0.2", "domain.gravity=[1, -1]"}));
-  run_until(s, 5);
-  const sph::BodyMotion& now = s.global().bodies.front().motion;
-  EXPECT_EQ(now.velocity[0], 0.3);
-  EXPECT_EQ(now.spin[2], 0.2);
-  EXPECT_NE(now.velocity[1], -2);
-  EXPECT_NEAR(now.angle, 0.2 * s.global().time, 1e-12);
-}
-
-// What is found once particles are placed.
-TEST(Rigid, BadStartsAreRefused) {
-  const decomp::Comm comm(MPI_COMM_SELF);
-  const auto says = [&](const std::vector<std::string>& overrides) -> std::string {
-    try {
-      sph::Simulation s(comm, sph::parse_scene(dropped, "bad.toml", overrides));
-    } catch (const sph::InputError& error) {
-      return error.what();
-    }
-    return "(accepted)";
-  };
-  const auto expect = [&](const std::vector<std::string>& overrides, const std::string& text) {
-    EXPECT_NE(says(overrides).find("group.block.rigid: " + text), std::string::npos) << says(overrides);
-  };
-  expect({"start.region.2.upper=[12, 5]"}, "the particles of the body lie in one line");
-  expect({"start.region.2.group=none"}, "the start has no particle of it");
-  expect({"domain.periodic=[true, false]", "start.region.2.upper=[22, 8]"},
-         "the body is half a period long in x or longer");
-  EXPECT_EQ(says({"start.region.2.upper=[12, 5]", "group.block.held=[\"rotation\"]"}), "(accepted)");
+  EXPECT_NEAR(PINNED(let_go(7.5, 0.5, 4)), 0, 0.02);
+  EXPECT_NEAR(PINNED(let_go(7.5, 2, 4)), 0, 0.02);
 }
 
 }  // namespace

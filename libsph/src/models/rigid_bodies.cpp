@@ -7,7 +7,6 @@
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/error.hpp"
-#include "sph/core/fixed_point.hpp"
 #include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/rigid_motion.hpp"
@@ -61,7 +60,7 @@ struct Placement {
   Now move(BodyState& body, bool held, double dt) const {
     const Turning t = turning(body, constants->scene->dim, held, dt);
     for (std::size_t a = 0; a < 3; ++a)
-      body.motion.centre[a] += round_to_quanta(body.motion.velocity[a] * dt / constants->scale.quantum);
+      body.motion.centre[a] += constants->scale.quanta(body.motion.velocity[a] * dt);
     body.motion.turn = t.whole;
     body.motion.angle = t.angle;
     settle_spin(body, held);
@@ -80,8 +79,7 @@ struct Placement {
                            now.spin.cross(now.spin.cross(there));
     for (std::size_t a = 0; a < d; ++a) {
       const auto axis = static_cast<Eigen::Index>(a);
-      std::int64_t way =
-          body.motion.centre[a] + round_to_quanta(there[axis] / constants->scale.quantum) - x[a];
+      std::int64_t way = body.motion.centre[a] + constants->scale.quanta(there[axis]) - x[a];
       if (const std::int64_t period = constants->wrap.period[a]; period > 0) {
         way %= period;
         if (way > period / 2) way -= period;
@@ -117,11 +115,7 @@ void RigidBodies::add_to(Builder& b) const {
   b.add_fields({Field::arm});
   // What drift has done to these particles counts for nothing: where they end is what lists have to know of.
   b.add_drift("bodies", Placement{constants_, body_of_, kind_}, [this](const GlobalState& global) {
-    double way = 0;
-    for (std::size_t k = 0; k < global.bodies.size(); ++k)
-      way = std::fmax(
-          way, longest_path(global.bodies[k], constants_->scene->dim, kind_[k]->held[rotation], global.dt));
-    return std::fmax(0.0, way - longest_drift(global));
+    return std::fmax(0.0, longest_way(global) - longest_drift(global));
   });
 }
 
@@ -259,12 +253,15 @@ void RigidBodies::guard_step(const Reduction&, const GlobalState& global) const 
   }
 }
 
-double RigidBodies::longest_look_back(const GlobalState& global) const {
+double RigidBodies::longest_look_back(const GlobalState& global) const { return 0.5 * longest_way(global); }
+
+// What a place is rounded by comes on top.
+double RigidBodies::longest_way(const GlobalState& global) const {
   double way = 0;
   for (std::size_t k = 0; k < global.bodies.size(); ++k)
     way = std::fmax(
         way, longest_path(global.bodies[k], constants_->scene->dim, kind_[k]->held[rotation], global.dt));
-  return 0.5 * way;
+  return way + constants_->scale.metres(2);
 }
 
 }  // namespace sph

@@ -8,7 +8,6 @@
 
 #include "decomp/exact_sum.hpp"
 #include "sph/core/error.hpp"
-#include "sph/core/fixed_point.hpp"
 #include "sph/models/rigid_bodies.hpp"
 #include "sph/models/rigid_motion.hpp"
 
@@ -78,20 +77,17 @@ class RigidStart {
     comm_.sum(std::span<std::int64_t>(origin_));
   }
 
-  [[nodiscard]] std::int64_t from_origin(std::size_t i, std::size_t b, std::size_t axis) const {
-    std::int64_t way = p_.data<Field::position>()[i * d_ + axis] - origin_[3 * b + axis];
-    if (const std::int64_t period = constants_.wrap.period[axis]; period > 0) {
-      way %= period;
-      if (way > period / 2) way -= period;
-      if (way < -(period / 2)) way += period;
-    }
-    return way;
-  }
-
   [[nodiscard]] Vector3 from_origin(std::size_t i, std::size_t b) const {
     Vector3 out = Vector3::Zero();
-    for (std::size_t a = 0; a < d_; ++a)
-      out[static_cast<Eigen::Index>(a)] = constants_.scale.metres(from_origin(i, b, a));
+    for (std::size_t a = 0; a < d_; ++a) {
+      std::int64_t way = p_.data<Field::position>()[i * d_ + a] - origin_[3 * b + a];
+      if (const std::int64_t period = constants_.wrap.period[a]; period > 0) {
+        way %= period;
+        if (way > period / 2) way -= period;
+        if (way < -(period / 2)) way += period;
+      }
+      out[static_cast<Eigen::Index>(a)] = constants_.scale.metres(way);
+    }
     return out;
   }
 
@@ -139,8 +135,9 @@ class RigidStart {
       for (std::size_t a = 0; a < 3; ++a) {
         const double mean = s[Sums::moment + a].value() / out[b].shape.mass;
         mean_[b][static_cast<Eigen::Index>(a)] = mean;
-        out[b].motion.centre[a] = origin_[3 * b + a] + round_to_quanta(mean / constants_.scale.quantum);
+        out[b].motion.centre[a] = origin_[3 * b + a] + constants_.scale.quanta(mean);
         out[b].motion.velocity[a] = s[Sums::momentum + a].value() / out[b].shape.mass;
+        out[b].load.force[a] = out[b].shape.heaviness * constants_.scene->domain.gravity[a];  // not known yet
       }
     }
   }
@@ -151,13 +148,8 @@ class RigidStart {
     const double *mass = p_.data<Field::mass>(), *v = p_.data<Field::velocity>();
     for_rows([&](std::size_t i, std::size_t b) {
       const Vector3 arm = from_origin(i, b) - mean_[b];
-      for (std::size_t a = 0; a < d_; ++a) {
-        const double part = p_.data<Field::arm>()[i * d_ + a] = arm[static_cast<Eigen::Index>(a)];
-        // Where the first step will look for it, which is a quantum off at most.
-        p_.data<Field::position>()[i * d_ + a] += out[b].motion.centre[a] - origin_[3 * b + a] +
-                                                  round_to_quanta(part / constants_.scale.quantum) -
-                                                  from_origin(i, b, a);
-      }
+      for (std::size_t a = 0; a < d_; ++a)
+        p_.data<Field::arm>()[i * d_ + a] = arm[static_cast<Eigen::Index>(a)];
       radius[b] = std::fmax(radius[b], arm.norm());
       add_inertia(mass[i], arm, {v[i * d_], v[i * d_ + 1], d_ == 3 ? v[i * d_ + 2] : 0.0},
                   sums.data() + Sums::count_about * b);
@@ -193,13 +185,22 @@ class RigidStart {
       refuse(
           *constants_.scene, name_[b],
           "the particles of the body lie in one line: it must be two across at least, or hold \"rotation\"");
+    if (!thin) settle_spin(body, false);
+    round_motion(body);
     if (kind.velocity) body.motion.velocity = *kind.velocity;
-    if (kind.spin) {
-      body.motion.spin = *kind.spin;
-      settle_spin(body, true);
-    } else if (!thin) {
-      settle_spin(body, false);
-    }
+    if (kind.spin) body.motion.spin = *kind.spin;
+    settle_spin(body, true);
+  }
+
+  // Far above the rounding of the sums: the particles, which then have this motion, start the same body again.
+  static void round_motion(BodyState& body) {
+    const double r = body.shape.radius,
+                 most = vector_of(body.motion.velocity).norm() + vector_of(body.motion.spin).norm() * r;
+    if (!(most > 0 && std::isfinite(most))) return;
+    const double unit = std::ldexp(1.0, std::ilogb(most) - 40);
+    const double unit_of_spin = r > 0 ? std::ldexp(unit, -std::ilogb(r)) : unit;
+    for (double& v : body.motion.velocity) v = unit * std::nearbyint(v / unit);
+    for (double& w : body.motion.spin) w = unit_of_spin * std::nearbyint(w / unit_of_spin);
   }
 
   const decomp::Comm& comm_;

@@ -28,7 +28,8 @@ double SphTimeStep::longest(const StepMaxima& maxima) const {
   double fastest = maxima.sound, viscous = maxima.viscosity, bulk = maxima.bulk;
   const bool law = has_viscosity_law(scene);
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
-    // Of a gas that of now counts.
+    // Of a gas that of now counts, of a rigid body that of its contacts.
+    if (is_quiet(scene, scene.groups[g])) continue;
     if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_->groups.sound_speed[g]);
     const bool wall = constants_->is_wall(static_cast<std::uint32_t>(g));
     if ((wall && (scene.total_lagrangian() || law)) || is_rigid(scene.groups[g])) continue;
