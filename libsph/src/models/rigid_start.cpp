@@ -186,21 +186,24 @@ class RigidStart {
           *constants_.scene, name_[b],
           "the particles of the body lie in one line: it must be two across at least, or hold \"rotation\"");
     if (!thin) settle_spin(body, false);
-    round_motion(body);
     if (kind.velocity) body.motion.velocity = *kind.velocity;
     if (kind.spin) body.motion.spin = *kind.spin;
+    round_motion(body, !kind.velocity, !kind.spin);
     settle_spin(body, true);
   }
 
   // Far above the rounding of the sums: the particles, which then have this motion, start the same body again.
-  static void round_motion(BodyState& body) {
+  static void round_motion(BodyState& body, bool velocity, bool spin) {
     const double r = body.shape.radius,
                  most = vector_of(body.motion.velocity).norm() + vector_of(body.motion.spin).norm() * r;
-    if (!(most > 0 && std::isfinite(most))) return;
-    const double unit = std::ldexp(1.0, std::ilogb(most) - 40);
+    if (!std::isfinite(most)) return;
+    const double unit = most > 0 ? std::ldexp(1.0, std::ilogb(most) - 40) : 1.0;
     const double unit_of_spin = r > 0 ? std::ldexp(unit, -std::ilogb(r)) : unit;
-    for (double& v : body.motion.velocity) v = unit * std::nearbyint(v / unit);
-    for (double& w : body.motion.spin) w = unit_of_spin * std::nearbyint(w / unit_of_spin);
+    // Of zeros the sign would be that of what was rounded away.
+    for (double& v : body.motion.velocity)
+      if (velocity) v = unit * std::nearbyint(v / unit) + 0.0;
+    for (double& w : body.motion.spin)
+      if (spin) w = unit_of_spin * std::nearbyint(w / unit_of_spin) + 0.0;
   }
 
   const decomp::Comm& comm_;

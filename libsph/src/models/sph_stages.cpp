@@ -114,7 +114,6 @@ std::vector<Model*> SphModels::all() {
   if (degassing) out.push_back(&*degassing);
   if (water) out.push_back(&*water);
   if (heat) out.push_back(&*heat);
-  if (rigid) out.push_back(&*rigid);
   return out;
 }
 
