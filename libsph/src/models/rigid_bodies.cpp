@@ -115,7 +115,7 @@ void RigidBodies::add_to(Builder& b) const {
   b.add_fields({Field::arm});
   // What drift has done to these particles counts for nothing: where they end is what lists have to know of.
   b.add_drift("bodies", Placement{constants_, body_of_, kind_}, [this](const GlobalState& global) {
-    return std::fmax(0.0, longest_way(global) - longest_drift(global));
+    return std::fmax(0.0, farthest_move(global) - longest_drift(global));
   });
 }
 
@@ -253,10 +253,10 @@ void RigidBodies::guard_step(const Reduction&, const GlobalState& global) const 
   }
 }
 
-double RigidBodies::longest_look_back(const GlobalState& global) const { return 0.5 * longest_way(global); }
+double RigidBodies::longest_look_back(const GlobalState& global) const { return 0.5 * farthest_move(global); }
 
 // What a place is rounded by comes on top.
-double RigidBodies::longest_way(const GlobalState& global) const {
+double RigidBodies::farthest_move(const GlobalState& global) const {
   double way = 0;
   for (std::size_t k = 0; k < global.bodies.size(); ++k)
     way = std::fmax(

@@ -34,7 +34,7 @@ class RigidBodies final : public Model {
   [[nodiscard]] std::size_t components() const;  ///< of a force and a torque
   void kick(std::size_t body, BodyState& state, double dt) const;
   void note_maxima(const GlobalState& global);
-  [[nodiscard]] double longest_way(const GlobalState& global) const;  ///< of a particle in a step [m]
+  [[nodiscard]] double farthest_move(const GlobalState& global) const;  ///< of a particle in a step [m]
   [[nodiscard]] std::string name_of(std::size_t body) const;
 
   const SphConstants* constants_;
