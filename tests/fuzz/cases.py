@@ -106,6 +106,8 @@ def add_output(d, case, kind):
         monitors.append({"kind": "contacts"})
         if scene.get("wall") and scene["wall"][0].get("shape") != "box":
             monitors.append({"kind": "wall", "wall": scene["wall"][0]["name"]})
+    if rigid := [g["name"] for g in scene["group"] if g.get("rigid")]:
+        monitors.append({"kind": "body", "group": rigid[0]})
     scene["monitor"] = [m for k, m in enumerate(monitors) if d.chance(f"monitor/{k}", 0.3)]
 
 

@@ -5,6 +5,7 @@ import math
 import boxes
 from exchange import Exchanges
 from mixture import Mixture
+from sph_bodies import TotalBodies
 from sph_rows import FromFile
 from sph_terms import Terms
 
@@ -16,7 +17,7 @@ def make(d):
     return Maker(d, family).scene()
 
 
-class Maker(Terms, FromFile, Mixture, Exchanges):
+class Maker(Terms, TotalBodies, FromFile, Mixture, Exchanges):
     def __init__(self, d, family):
         self.d, self.mixed = d, family == "mixture"
         self.family = "fluid" if self.mixed else family
@@ -127,9 +128,10 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
             out.append(self.wall(out))
         self.clamp = None
         if self.family == "total" and d.chance("clamp", 0.5):
-            bodies = [m for m in self.movers if m != "melt"]
-            self.clamp = {"name": "clamp", "kind": "wall", "clamps": d.one("clamped", bodies)}
-            out.append(self.clamp)
+            bodies = [g["name"] for g in out if "lagrangian" in g and not g.get("rigid")]
+            if bodies:
+                self.clamp = {"name": "clamp", "kind": "wall", "clamps": d.one("clamped", bodies)}
+                out.append(self.clamp)
         return out
 
     def fluids(self):
@@ -223,50 +225,6 @@ class Maker(Terms, FromFile, Mixture, Exchanges):
                 group["lagrangian"] = "updated"
             out.append(group)
         return out
-
-    def bodies(self):
-        d, out = self.d, []
-        for k in range(d.weighted("bodies", {1: 2, 2: 3, 3: 1})):
-            group = self.solid(d.part("body", k), ["beam", "ball", "bar"][k])
-            group["lagrangian"] = "total"
-            if nu := self.viscosity(d.part("body", k)):
-                group["viscosity"] = min(nu, 0.1 * self.c * self.h * self.rho)
-            out.append(group)
-        if d.chance("in a fluid", 0.5):
-            out.append(self.around(d.part("around")))
-            for k, body in enumerate(out[:-1]):
-                if d.chance(f"fails/{k}", 0.6):
-                    body["becomes"] = [self.failure(d.part("failure", k), body, out[-1])]
-        return out
-
-    def failure(self, d, body, fluid):
-        """What a body bears: of next to nothing to so much that it may never fail."""
-        strength = self.rho * self.c**2 * d.log("strength", 1e-5, 0.1)
-        row = {"group": fluid["name"]}
-        kind = d.one("kind", ["toughness", "tensile_strength", "cohesion", "both"])
-        if kind == "toughness":
-            row["toughness"] = strength * self.dx**0.5
-        if kind in ("tensile_strength", "both"):
-            row["tensile_strength"] = strength
-        if kind in ("cohesion", "both"):
-            row["cohesion"] = strength * d.log("cohesion", 0.3, 3)
-            if d.chance("angle", 0.6):
-                row["friction_angle"] = d.one("phi", [0.0, 20.0, 30.0, 60.0])
-        if body["density"] != fluid["density"] or d.chance("of volume", 0.5):
-            row["keeps"] = "volume"
-        return row
-
-    def around(self, d):
-        """A fluid in which bodies are: one that keeps its gas and has one viscosity."""
-        group = {"name": "melt", "kind": "fluid", "density": self.rho * d.one("density", [1.0, 0.5, 1.7])}
-        group |= self.stiffness(d, group["density"])
-        self.viscosities(d, group)
-        return group
-
-    @property
-    def wet(self):
-        """Bodies in a fluid."""
-        return self.family == "total" and "melt" in self.movers
 
     def gases(self):
         d, out = self.d, []

@@ -56,11 +56,11 @@ void PairOracle::load() {
       q.colour(e) = get(Field::colour_gradient, row, a);
       q.direction(e) = get(Field::direction, row, a);
       q.slope(e) = get(Field::wall_slope, row, a);
-      q.wet_v(e) = is_bonded(g) ? get(Field::wet_velocity, row, a) : q.v(e);
+      q.wet_v(e) = is_body(g) ? get(Field::wet_velocity, row, a) : q.v(e);
       q.crack(e) = get(Field::crack, row, a);
       q.shift(e) = get(Field::clamp_shift, row, a);
       q.reaction(e) = g.kind == GroupKind::wall ? get(Field::clamp_reaction, row, a) : 0.0;
-      q.frame(e) = is_bonded(g) ? get(Field::acceleration, row, a) : 0.0;
+      q.frame(e) = is_body(g) ? get(Field::acceleration, row, a) : 0.0;
       if (g.kind != GroupKind::wall)
         q.rest_gradient(e) =
             get(Field::liquid_density, row, 0) * (scene_.domain.gravity[a] + get(Field::grain_drag, row, a));
@@ -73,7 +73,7 @@ void PairOracle::load() {
         q.gradient(e, f) = g.kind == GroupKind::wall ? 0.0 : get(Field::velocity_gradient, row, a * d + b);
       }
     }
-    q.wet_pressure = is_bonded(g) ? get(Field::wet_pressure, row, 0) : q.pressure;
+    q.wet_pressure = is_body(g) ? get(Field::wet_pressure, row, 0) : q.pressure;
     q.flux = get(Field::flux, row, 0);
     q.mass = get(Field::mass, row, 0);
     q.density = get(Field::density, row, 0);

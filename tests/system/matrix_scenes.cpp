@@ -167,6 +167,9 @@ const std::vector<Source>& sources() {
         "start.region.2={group=\"bar\", shape=\"box\", lower=[0, 5, 2], upper=[76, 9, 5]}",
         "start.region.3={group=\"clamp\", shape=\"box\", lower=[38, 5, 2], upper=[40, 9, 5]}",
         "start.region.5={group=\"clamp\", shape=\"box\", lower=[0, 5, 2], upper=[2, 9, 5]}"}},
+      // rigid bodies in a fluid: sums of forces, parts of two materials, contacts, through periodic faces
+      {"rigid2d", "tests/scenes/rigid2d.toml", {}},
+      {"rigid3d", "tests/scenes/rigid3d.toml", {}},
       // updated-Lagrangian solids that yield, alone and in melt
       {"slope2d", "tests/scenes/slope2d.toml", {}},
       {"rock3d",
@@ -265,8 +268,9 @@ Liveliness liveliness(const sph::Simulation& simulation) {
         if (row.group == static_cast<int>(group[i])) ++out.spray;
     if (plastic != nullptr) out.yielded += plastic[i] > 0 ? 1 : 0;
     if (psi != nullptr) out.void_fraction = std::max(out.void_fraction, psi[i]);
-    if (strain != nullptr && simulation.scene().groups[group[i]].kind == sph::GroupKind::solid)
-      out.unstrained += strain[i] == 0 ? 1 : 0;
+    if (strain == nullptr) continue;
+    if (is_bonded(simulation.scene().groups[group[i]])) out.unstrained += strain[i] == 0 ? 1 : 0;
+    if (is_rigid(simulation.scene().groups[group[i]])) out.touched += strain[i] > 0 ? 1 : 0;
   }
   return out;
 }
@@ -291,6 +295,7 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     return;
   }
   if (end.unstrained > 0) quiet("a body meets no other");
+  if (sph::has_rigid_bodies(scene) && start.touched + end.touched == 0) quiet("rigid bodies touch nothing");
   if (sph::has_strength(scene.groups) && end.yielded < some) quiet("little rock has yielded");
   if (!has_eos(scene, sph::EosKind::bubbly)) return;
   if (end.void_fraction <= 0) quiet("no gas came out of solution");

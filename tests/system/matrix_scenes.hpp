@@ -20,6 +20,7 @@ struct Liveliness {
   double void_fraction = 0;     ///< the largest
   std::int64_t yielded = 0;     ///< particles of solids with strength that have flown
   std::int64_t unstrained = 0;  ///< particles of total-Lagrangian bodies that nothing has touched yet
+  std::int64_t touched = 0;     ///< particles of rigid bodies that another one or a wall pushes
   std::int64_t contacts = 0, contacts_begun = 0, contacts_ended = 0;
   std::int64_t histories_kept = 0;  ///< over rebuilds, once each
   bool walls_moved = false;         ///< up or down

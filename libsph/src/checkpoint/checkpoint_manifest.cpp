@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* format = "peperite checkpoint 7";
+constexpr const char* format = "peperite checkpoint 8";
 
 /// The bits are what counts; the value is for readers with eyes.
 Json exact(double x) { return {{"bits", to_hex(std::bit_cast<std::uint64_t>(x))}, {"value", x}}; }
@@ -67,6 +67,30 @@ WallState wall_of(const Json& json) {
   return wall;
 }
 
+/// Its numbers in their order: integers as they are.
+Json json_of(const BodyState& body) {
+  Json numbers = Json::array();
+  for_each_number(body, [&]<class T>(const char*, std::size_t, const T& number) {
+    if constexpr (std::is_same_v<T, double>)
+      numbers.push_back(exact(number));
+    else
+      numbers.push_back(number);
+  });
+  return numbers;
+}
+
+BodyState body_of(const Json& json) {
+  BodyState body;
+  std::size_t at = 0;
+  for_each_number(body, [&]<class T>(const char*, std::size_t, T& number) {
+    if constexpr (std::is_same_v<T, double>)
+      number = exact(json.at(at++));
+    else
+      number = json.at(at++).get<T>();
+  });
+  return body;
+}
+
 Field field_named(const std::string& name) {
   for (const FieldInfo& i : field_table)
     if (i.name == name) return i.field;
@@ -94,6 +118,8 @@ std::string to_text(const Manifest& m) {
   motion.push_back(exact(g.motion.largest));
   Json walls = Json::array();
   for (const WallState& wall : g.walls) walls.push_back(json_of(wall));
+  Json bodies = Json::array();
+  for (const BodyState& body : g.bodies) bodies.push_back(json_of(body));
   Json parts = Json::array();
   for (const Part& part : m.parts) parts.push_back(json_of(part));
   const Json json{{"format", format},
@@ -103,6 +129,7 @@ std::string to_text(const Manifest& m) {
                   {"max_speed", exact(g.max_speed)},
                   {"max_acceleration", exact(g.max_acceleration)},
                   {"walls", walls},
+                  {"bodies", bodies},
                   {"fluid_volume", {g.fluid_volume.start, g.fluid_volume.now}},
                   {"motion", motion},
                   {"flow", {exact(g.flow.interval), g.flow.left, g.flow.iterations, exact(g.flow.residual)}},
@@ -144,8 +171,10 @@ Manifest manifest_from_text(const std::string& text) {
        exact(json.at("motion").at(3)),
        exact(json.at("motion").at(4))},
       {exact(json.at("flow").at(0)), json.at("flow").at(1), json.at("flow").at(2),
-       exact(json.at("flow").at(3))}};
+       exact(json.at("flow").at(3))},
+      {}};
   for (const Json& wall : json.at("walls")) m.record.global.walls.push_back(wall_of(wall));
+  for (const Json& body : json.at("bodies")) m.record.global.bodies.push_back(body_of(body));
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();
   m.record.scene_toml = json.at("scene").get<std::string>();

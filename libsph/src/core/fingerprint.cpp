@@ -114,6 +114,10 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
       words.push_back(std::bit_cast<std::uint64_t>(wall.velocity[a]));
       words.push_back(std::bit_cast<std::uint64_t>(wall.force[a]));
     }
+  for (const BodyState& body : global.bodies)
+    for_each_number(body, [&](const char*, std::size_t, const auto& number) {
+      words.push_back(std::bit_cast<std::uint64_t>(number));
+    });
   return XXH3_128bits(words.data(), words.size() * sizeof words[0]);
 }
 

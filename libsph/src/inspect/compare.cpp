@@ -160,6 +160,8 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
   }
   if (a.kind == b.kind)  // a snapshot does not have the walls
     if (std::string text = wall_difference(g.walls, h.walls); !text.empty()) return text;
+  if (a.kind == b.kind)
+    if (std::string text = body_difference(g.bodies, h.bodies); !text.empty()) return text;
   if (a.fingerprint != b.fingerprint)
     return fmt::format("fingerprint: {} != {}, yet all state in the files agrees", a.fingerprint,
                        b.fingerprint);

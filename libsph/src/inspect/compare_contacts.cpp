@@ -117,4 +117,22 @@ std::string wall_difference(const std::vector<WallState>& a, const std::vector<W
   return {};
 }
 
+std::string body_difference(const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
+  if (a.size() != b.size()) return unequal("bodies", a.size(), b.size());
+  std::string first;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    std::vector<std::uint64_t> bits;
+    for_each_number(b[k], [&](const char*, std::size_t, const auto& number) {
+      bits.push_back(std::bit_cast<std::uint64_t>(number));
+    });
+    std::size_t at = 0;
+    for_each_number(a[k], [&]<class T>(const char* name, std::size_t c, const T& number) {
+      const std::uint64_t other = bits[at++];
+      if (!first.empty() || std::bit_cast<std::uint64_t>(number) == other) return;
+      first = unequal(fmt::format("body {}: {}[{}]", k, name, c), number, std::bit_cast<T>(other));
+    });
+  }
+  return first;
+}
+
 }  // namespace sph

@@ -32,6 +32,8 @@ class ContactComparison {
 };
 
 [[nodiscard]] std::string wall_difference(const std::vector<WallState>& a, const std::vector<WallState>& b);
+/// The same of rigid bodies.
+[[nodiscard]] std::string body_difference(const std::vector<BodyState>& a, const std::vector<BodyState>& b);
 
 /// "name: a != b"; doubles with all their bits.
 [[nodiscard]] std::string unequal(const std::string& name, double a, double b);

@@ -68,7 +68,8 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
     {"name", Text{}, "Letters, digits, _ and -.", at<&Monitor::name>, Default{"the kind"}},
     {"kind", Words{monitor_kind_words},
      "\"group\": averages over it. Of grains: \"wall\": its place, its velocity and the force of the "
-     "grains on it; \"contacts\": their number and largest overlap. Of melts \"melt\". Of heat \"budget\": "
+     "grains on it; \"body\": the same of a rigid solid, with its rotation and torque; \"contacts\": their "
+     "number and largest overlap. Of melts \"melt\". Of heat \"budget\": "
      "what there is and "
      "what walls gave.",
      at<&Monitor::kind>, required},
@@ -77,8 +78,8 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
     {"nearest_to", Vector{dimension::length},
      "The particle nearest to this point at the start, lowest id on ties.", at<&Monitor::nearest_to>,
      where("kind", "particle"), Default{"required of a particle, or id"}},
-    {"group", NameOf{"group"}, "The group that is averaged.", index_at<&Monitor::group>,
-     where("kind", "group"), required},
+    {"group", NameOf{"group"}, "The group that is averaged, or the rigid body that is watched.",
+     index_at<&Monitor::group>, Where{"kind", "group", {}, {}, "body"}, required},
     {"wall", NameOf{"wall"}, "The wall that is watched.", index_at<&Monitor::wall>, where("kind", "wall"),
      required},
 });

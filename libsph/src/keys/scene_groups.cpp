@@ -15,7 +15,7 @@ namespace sph {
 namespace {
 
 /// Elastic constants: K from the sound speed, mu from Poisson's ratio, as the paper's readers know them.
-void read_stiffness(const GroupReader& table, Group& group) {
+void read_stiffness(const GroupReader& table, Group& group, const std::vector<Group>& groups) {
   using Name = GroupReader::Name<>;
   table.not_both("bulk_modulus", "sound_speed");
   table.not_both("poisson_ratio", "shear_modulus");
@@ -23,6 +23,9 @@ void read_stiffness(const GroupReader& table, Group& group) {
     group.eos.bulk_modulus = group.eos.gas.heat_ratio * group.eos.gas.start_pressure;
   const std::optional<double> speed = table.number("sound_speed");
   if (speed) group.eos.bulk_modulus = group.density * *speed * *speed;
+  const bool rigid = group.kind == GroupKind::solid && group.solid.body.rigid;
+  if (group.eos.bulk_modulus == 0 && !speed && rigid)
+    group.eos.bulk_modulus = stiffness_of_rigid(table, group, groups);
   if (group.eos.bulk_modulus == 0 && !speed && group.eos.law->kind != EosKind::ideal_gas)
     table.fail_missing("bulk_modulus", "give it in Pa, or sound_speed in m/s");
   const std::string_view beyond = "makes a modulus beyond the range of numbers";
@@ -34,7 +37,7 @@ void read_stiffness(const GroupReader& table, Group& group) {
 
   const bool solid = group.kind == GroupKind::solid;
   table.only_if(solid, "poisson_ratio", "only groups with kind = \"solid\" have it");
-  if (!solid || table.has("shear_modulus")) return;
+  if (!solid || rigid || table.has("shear_modulus")) return;
   const std::optional<double> nu = table.number("poisson_ratio");
   if (!nu) table.fail_missing("poisson_ratio", "give it, or shear_modulus in Pa");
   if (!(*nu > -1 && *nu < 0.5))
@@ -45,7 +48,8 @@ void read_stiffness(const GroupReader& table, Group& group) {
 }
 
 /// `like` supplies what a wall does not say itself; nullptr for groups that must say everything.
-void read_material(const GroupReader& table, Group& group, const Group* like) {
+void read_material(const GroupReader& table, Group& group, const Group* like,
+                   const std::vector<Group>& groups) {
   if (like != nullptr) {
     group.density = like->density;
     group.eos.bulk_modulus = like->eos.bulk_modulus;
@@ -60,7 +64,7 @@ void read_material(const GroupReader& table, Group& group, const Group* like) {
                "only groups with kind = \"fluid\" have another than the linear law");
   table.read(group);
   if (like == nullptr) table.require("density");
-  read_stiffness(table, group);
+  read_stiffness(table, group, groups);
   std::vector<LawWord> laws;
   for (const EquationOfState* law : equations_of_state()) laws.push_back({law->word, law->keys});
   group.eos.constants = read_law_constants(table, "eos", {group.eos.law->word, group.eos.law->keys}, laws);
@@ -78,7 +82,11 @@ int read_clamps(const GroupReader& table, const Group& group, const std::vector<
   const int solid = *table.index("clamps");
   table.only_if(false, "velocity", "a clamp holds its solid at rest");
   table.only_if(false, "slip", "a clamp holds its solid at rest");
-  if (const Group& g = groups[static_cast<std::size_t>(solid)]; g.solid.lagrangian != Lagrangian::total)
+  const Group& g = groups[static_cast<std::size_t>(solid)];
+  if (is_rigid(g))
+    table.fail("clamps", fmt::format("names \"{}\", which is rigid", g.name),
+               "what holds a rigid body is its key held");
+  if (g.solid.lagrangian != Lagrangian::total)
     table.fail("clamps", fmt::format("names \"{}\"", g.name),
                "it must name a solid with lagrangian = \"total\"");
   return solid;
@@ -86,7 +94,7 @@ int read_clamps(const GroupReader& table, const Group& group, const std::vector<
 
 /// Total-Lagrangian solids have passes of their own, in which not all else takes part yet.
 void check_total_lagrangian(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
-  if (std::ranges::none_of(groups, is_bonded)) return;
+  if (std::ranges::none_of(groups, is_body)) return;
   const bool wet = std::ranges::any_of(groups, [](const Group& g) { return g.kind == GroupKind::fluid; });
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const Group& g = groups[k];
@@ -150,7 +158,7 @@ void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>
                "only these can be joined");
     const auto stays = [&](const Group& g) {
       return g.eos.law->kind == EosKind::ideal_gas ||
-             (is_bonded(g) && !(&g == &group && change.of_failure() && to.kind == GroupKind::fluid));
+             (is_body(g) && !(&g == &group && change.of_failure() && to.kind == GroupKind::fluid));
     };
     if (stays(group) || stays(to))
       row.fail("group", fmt::format("leads from \"{}\" to \"{}\"", group.name, to.name),
@@ -237,7 +245,8 @@ void read_groups(const TopReader& top, Scene& scene) {
       const Group* like = clamped >= 0              ? &groups[static_cast<std::size_t>(clamped)]
                           : pass == GroupKind::wall ? first_fluid
                                                     : nullptr;
-      read_material(tables[k], group, like);
+      read_material(tables[k], group, like, groups);
+      if (pass == GroupKind::solid) read_rigid(tables[k], group, scene.dim);
       read_exchange(tables[k], group);
       read_strength(tables[k], group, scene);
       if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &group;
@@ -249,6 +258,7 @@ void read_groups(const TopReader& top, Scene& scene) {
     read_becomes(tables[k], k, groups);
     tables[k].finish();
   }
+  check_rigid(tables, groups);
 }
 
 std::string read_name(const TableReader& table, std::string_view what,

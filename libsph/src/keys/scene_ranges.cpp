@@ -82,8 +82,9 @@ void check_group(const Ranges& ranges, const GroupReader& table, const Scene& sc
     ranges.check(table, stiff, specific_energy,
                  g.eos.gas.start_pressure / ((g.eos.gas.heat_ratio - 1) * g.density));
   if (g.kind != GroupKind::solid) return;
-  ranges.check(table, table.has("shear_modulus") ? Name("shear_modulus") : Name("poisson_ratio"),
-               shear_modulus, g.solid.shear_modulus);
+  if (!is_rigid(g))
+    ranges.check(table, table.has("shear_modulus") ? Name("shear_modulus") : Name("poisson_ratio"),
+                 shear_modulus, g.solid.shear_modulus);
   if (g.solid.lagrangian != Lagrangian::total) return;
   double energy = g.eos.bulk_modulus + 4.0 / 3 * g.solid.shear_modulus;
   for (int a = 0; a < scene.dim; ++a) energy *= scene.start.spacing;

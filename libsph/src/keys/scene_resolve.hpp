@@ -34,6 +34,12 @@ void read_exchange(const GroupReader& table, Group& group);
 void check_exchange(const std::vector<GroupReader>& tables, const std::vector<Group>& groups);
 /// [group.strength] of one whose moduli are known.
 void read_strength(const GroupReader& table, Group& group, const Scene& scene);
+/// What a solid that may be rigid has of its own, ...
+void read_rigid(const GroupReader& table, Group& group, int dim);
+void check_rigid(const std::vector<GroupReader>& tables, const std::vector<Group>& groups);
+/// ... and its bulk modulus [Pa] where it gives none: it is as fast as the fastest fluid.
+[[nodiscard]] double stiffness_of_rigid(const GroupReader& table, const Group& group,
+                                        const std::vector<Group>& groups);
 /// Those of grains, which depend on the contact law.
 void read_grain_groups(const TopReader& top, Scene& scene);
 

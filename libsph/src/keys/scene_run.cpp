@@ -73,6 +73,9 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
   if (!grains && (*kind == MonitorKind::wall || *kind == MonitorKind::contacts))
     table.fail("kind", "is of grains, and the scene has none",
                "give \"particle\", \"group\", \"energy\" or \"momentum\"");
+  if (*kind == MonitorKind::body && !has_rigid_bodies(scene))
+    table.fail("kind", "is of rigid bodies, and the scene has none",
+               "give a [[group]] of kind = \"solid\" rigid = true, or another monitor");
   if (*kind == MonitorKind::melt && !scene.has_melt())
     table.fail("kind", "is of melts, and the scene has none", "give another");
   if (scene.has_melt() && !grains && *kind != MonitorKind::melt && *kind != MonitorKind::particle)
@@ -85,6 +88,10 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
   table.read(monitor);
   if (!table.has("name")) monitor.name = *table.text("kind");
   check_monitor_name(table, monitor.name, earlier);
+  if (*kind == MonitorKind::body && !is_rigid(scene.groups[static_cast<std::size_t>(monitor.group)]))
+    table.fail("group",
+               fmt::format("names \"{}\"", scene.groups[static_cast<std::size_t>(monitor.group)].name),
+               "it must name a rigid solid");
   if (*kind == MonitorKind::particle) {
     table.not_both("id", "nearest_to");
     if (!monitor.id && !monitor.nearest_to)

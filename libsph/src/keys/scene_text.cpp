@@ -10,8 +10,20 @@
 namespace sph {
 namespace {
 
-void write_group(SceneWriter& out, const Group& g) {
+void write_motion(SceneWriter& out, const RigidMaterial& body, int dim) {
+  std::vector<std::string> held;
+  for (std::size_t k = 0; k < body.held.size(); ++k)
+    if (body.held[k]) held.push_back(SceneWriter::quoted(keys::motion_names[k]));
+  if (!held.empty()) out.raw("held", fmt::format("[{}]", fmt::join(held, ", ")));
+  if (body.spin && dim == 2)
+    out.number("start_spin", (*body.spin)[2]);
+  else if (body.spin)
+    out.vector("start_spin", *body.spin);
+}
+
+void write_group(SceneWriter& out, const Group& g, int dim) {
   out.table(keys::group, g);
+  write_motion(out, g.solid.body, dim);
   for (std::size_t k = 0; k < g.eos.law->keys.size(); ++k)
     out.number(g.eos.law->keys[k].name, g.eos.constants[k]);
   if (g.kind == GroupKind::wall && g.wall.slip)
@@ -79,7 +91,7 @@ std::string to_toml(const Scene& scene) {
     if (g.kind == GroupKind::grain)
       write_material(out, g, *scene.grains.contact.law);
     else
-      write_group(out, g);
+      write_group(out, g, scene.dim);
   if (scene.has_grains()) write_walls(out, scene);
   if (scene.has_melt()) write_melt(out, scene.domain.melt);
   for (const Reset& box : scene.domain.resets) out.table(keys::reset, box);

@@ -80,6 +80,8 @@ inline constexpr auto group_kind_words = std::to_array<Word>({{"fluid", GroupKin
                                                               {"melt", GroupKind::melt}});
 inline constexpr auto lagrangian_words =
     std::to_array<Word>({{"updated", Lagrangian::updated}, {"total", Lagrangian::total}});
+/// What of a rigid body's motion can be held.
+inline constexpr std::array<std::string_view, 4> motion_names{"x", "y", "z", "rotation"};
 inline constexpr auto strength_law_words = std::to_array<Word>(
     {{"mohr_coulomb", StrengthLaw::mohr_coulomb}, {"drucker_prager", StrengthLaw::drucker_prager}});
 inline constexpr auto region_shape_words = std::to_array<Word>(
@@ -106,7 +108,8 @@ inline constexpr auto monitor_kind_words = std::to_array<Word>({{"particle", Mon
                                                                 {"wall", MonitorKind::wall},
                                                                 {"contacts", MonitorKind::contacts},
                                                                 {"melt", MonitorKind::melt},
-                                                                {"budget", MonitorKind::budget}});
+                                                                {"budget", MonitorKind::budget},
+                                                                {"body", MonitorKind::body}});
 inline constexpr auto melt_side_words = std::to_array<Word>({{"x0", MeltFace::x0},
                                                              {"x1", MeltFace::x1},
                                                              {"y0", MeltFace::y0},

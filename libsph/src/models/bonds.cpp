@@ -102,6 +102,7 @@ struct Stresses {
       double& energy = p.get<Field::strain_energy>()[i];
       const Group& own = constants->scene->groups[group[i]];
       energy = contact != nullptr && own.kind != GroupKind::fluid ? contact[i] : 0.0;
+      if (is_rigid(own)) p.get<Field::pressure>()[i] = 0;
       if (!is_bonded(own)) {
         bond_stress.setZero();
         continue;
@@ -196,8 +197,46 @@ struct KeepBondForces {
 
 }  // namespace
 
-void add_bonds(Builder& b) {
+namespace {
+
+/// Of bodies of which none deforms: they touch each other and walls.
+struct Contacts {
+  static constexpr FieldSet reads{Field::contact_energy, Field::group};
+  static constexpr FieldSet writes{Field::strain_energy, Field::pressure};
+  const Scene* scene;
+
+  void operator()(const View<reads, writes>& p, const Step& step) const {
+    const double* contact = p.get<Field::contact_energy>();
+    const auto* group = p.get<Field::group>();
+    for (const RowRange& r : step.ranges)
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const Group& g = scene->groups[group[i]];
+        p.get<Field::strain_energy>()[i] =
+            contact != nullptr && g.kind != GroupKind::fluid ? contact[i] : 0.0;
+        if (is_rigid(g)) p.get<Field::pressure>()[i] = 0;
+      }
+  }
+};
+
+void add_contacts(Builder& b) {
   const Scene& s = b.scene();
+  const bool wet = has_wet_bodies(s), touch = has_body_contacts(s);
+  b.add_fields({Field::strain_energy});
+  // Dry bodies that touch nothing have forces too, of 0.
+  if (touch || !wet)
+    b.add_sums(wet ? "contacts" : "forces", {term<BodyContact>, term<BodyContactEnergy>}, Builder::Rows::all);
+  b.add_update("energies of contacts", Contacts{&s});
+  b.begin_with_these();
+  if (!wet || !touch) return;
+  b.add_fields({Field::bond_force});
+  b.add_update("contacts' part of the forces", KeepBondForces{});
+}
+
+}  // namespace
+
+void add_bodies(Builder& b) {
+  const Scene& s = b.scene();
+  if (!has_bonds(s)) return add_contacts(b);
   const SphConstants& k = b.constants();
   const bool cracks = has_failure(s);
   std::vector<Term> deformation{cracks ? term<CrackedDeformation> : term<Deformation>};

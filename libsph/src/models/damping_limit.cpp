@@ -165,8 +165,7 @@ std::vector<Rates> rates_of(const Scene& scene, const std::vector<double>& sound
   const bool ida = scene.terms.formulation == Formulation::ida;
   for (std::size_t k = 0; k < scene.groups.size(); ++k) {
     const Group& g = scene.groups[k];
-    if ((g.kind == GroupKind::wall && !ida) || is_bonded(g))
-      continue;  // it has sums of its own, or of others
+    if ((g.kind == GroupKind::wall && !ida) || is_body(g)) continue;  // it has sums of its own, or of others
     const bool solid = g.kind == GroupKind::solid;
     const double eta = g.viscosity_law.varies() ? viscosity_at_start(g) : g.viscosity;
     const double nu = scene.terms.viscous.implicit ? 0 : eta / g.density;

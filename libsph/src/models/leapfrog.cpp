@@ -38,6 +38,7 @@ struct Kick {
   static constexpr FieldSet writes{Field::velocity};
   const SphConstants* constants;
   const BodyForces* body_forces;
+  bool rigid;  ///< there are rigid bodies, which move as a whole
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     const std::size_t d = static_cast<std::size_t>(p.dim());
@@ -47,7 +48,9 @@ struct Kick {
     const double* mass = p.get<Field::mass>();
     const double* h = p.get<Field::smoothing_length>();
     double speed2 = 0, acceleration2 = 0;
+    const auto* group = p.get<Field::group>();
     for_movers(step.ranges, [&](std::size_t i) {
+      if (rigid && is_rigid(constants->scene->groups[group[i]])) return;
       const double inverse_mass = 1 / mass[i];
       const Double3 body = (*body_forces)(p, i);
       double v2 = 0, a2 = 0;
@@ -134,7 +137,7 @@ double longest_drift(const GlobalState& global) { return 1.0001 * global.max_spe
 void add_drift(Builder& b) { b.add_drift("drift", Drift{b.constants().scale}, longest_drift); }
 
 void add_kick(Builder& b) {
-  b.add_kick("kick", Kick{&b.constants(), &b.body_forces()});
+  b.add_kick("kick", Kick{&b.constants(), &b.body_forces(), has_rigid_bodies(b.scene())});
   if (b.has_walls()) b.add_kick("walls' own velocity", WallVelocities{&b.scene()});
 }
 

@@ -61,7 +61,7 @@ struct Densities {
     const std::size_t d = static_cast<std::size_t>(p.dim()), components_of_stress = d * (d + 1) / 2;
     for (std::size_t i = first; i < last; ++i) {
       const Group& g = scene->groups[group[i]];
-      if (is_bonded(g)) continue;
+      if (is_body(g)) continue;
       double div = 0;
       if (divergence != nullptr) {
         div = divergence[i];

@@ -58,7 +58,7 @@ void Materials::derive_into(const V& p, std::size_t first, std::size_t last) con
       rows.sound_speed = nullptr;
     }
     if (is_bonded(g)) continue;  // of its stress
-    if (wall) {                  // until it is extrapolated from the fluid; a checkpoint does not have it
+    if (wall || is_rigid(g)) {   // until it is extrapolated from the fluid; a checkpoint does not have it
       std::fill(rows.pressure + begin, rows.pressure + end, 0.0);
       if (rows.void_fraction != nullptr) std::fill(rows.void_fraction + begin, rows.void_fraction + end, 0.0);
     } else {

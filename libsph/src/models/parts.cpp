@@ -14,6 +14,8 @@ Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
     physics.emplace(sets.size(), scene, scale);
     sph_pairs.emplace(sets.size(), *physics);
     sets.push_back({physics->built().fields(), stays});
+    // How fast bodies start is looked at once they have one motion.
+    if (physics->models().rigid) models.push_back(&*physics->models().rigid);
     models.push_back(&*physics);
     for (Model* m : physics->models().all()) models.push_back(m);
     pairs.push_back(&*sph_pairs);

@@ -29,9 +29,11 @@ Physics::Physics(std::size_t set, const Scene& scene, const PositionScale& scale
   if (gas_) builder_.add_fields({Field::sound_speed, Field::specific_energy});
   stiffens_ = std::ranges::any_of(scene.groups, stiffens);
   if (stiffens_) builder_.add_fields({Field::sound_speed});
-  if (scene.has_kind(GroupKind::solid) || scene.terms.formulation == Formulation::ida)
+  const auto is_strained = [](const Group& g) { return g.kind == GroupKind::solid && !is_rigid(g); };
+  if (std::ranges::any_of(scene.groups, is_strained) || scene.terms.formulation == Formulation::ida)
     builder_.add_fields({Field::stress});
-  if (has_wet_bodies(scene)) builder_.add_fields({Field::prestress, Field::acceleration});
+  if (has_wet_bodies(scene)) builder_.add_fields({Field::acceleration});
+  if (has_wet_bodies(scene) && has_bonds(scene)) builder_.add_fields({Field::prestress});
   if (gas_) reach_.emplace(scene);
   add_stages(builder_, models_);
 }

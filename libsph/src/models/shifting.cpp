@@ -191,7 +191,7 @@ void Shifting::shift(const View<reads, writes>& p, const Step& step) const {
   const double rest = at_rest * at_rest * constants_->scene->kernel.smoothing_length * std::sqrt(pull);
   const auto* group = p.get<Field::group>();
   for_movers(step.ranges, [&](std::size_t i) {
-    if (is_bonded(constants_->scene->groups[group[i]])) return;
+    if (is_body(constants_->scene->groups[group[i]])) return;
     const double reach = speed_of(p, i, step.global, rest) * step.global.dt;
     if (!(reach > 0)) return;
     const double scale = -2 * constants_->scene->kernel.smoothing_length * reach;

@@ -126,8 +126,8 @@ GroupTable group_table(const Scene& of) {
     const bool bubbly = g.kind != GroupKind::grain && g.eos.law->kind == EosKind::bubbly;
     groups.weight.share.push_back(bubbly || borne == 0 ? 1.0 : 1 - borne / g.density);
     groups.weight.borne.push_back(bubbly ? borne : 0.0);
-    const std::size_t body =
-        g.wall.clamps < 0 ? groups.bodies.number.size() : static_cast<std::size_t>(g.wall.clamps);
+    const int of_other = is_rigid(g) ? g.solid.body.part_of : g.wall.clamps;
+    const std::size_t body = of_other < 0 ? groups.bodies.number.size() : static_cast<std::size_t>(of_other);
     groups.bodies.number.push_back(static_cast<double>(body));
     groups.bodies.modulus.push_back(g.kind == GroupKind::fluid
                                         ? 0.0
@@ -135,7 +135,7 @@ GroupTable group_table(const Scene& of) {
                                               4.0 / 3.0 * of.groups[body].solid.shear_modulus);
     groups.bodies.hourglass.push_back(
         is_bonded(g) ? hourglass_stiffness(of, groups.bodies.modulus.back(), g.solid.shear_modulus) : 0.0);
-    groups.bodies.bonded.push_back(is_bonded(g) ? 1.0 : 0.0);
+    groups.bodies.bonded.push_back(is_body(g) ? 1.0 : 0.0);
     groups.heat.conductivity.push_back(g.kind == GroupKind::wall ? 0.0 : g.heat.material.conductivity);
     groups.heat.specific_heat.push_back(g.heat.material.specific_heat);
     groups.heat.wall_warmth.push_back(g.kind == GroupKind::wall && g.heat.temperature ? 1.0 : 0.0);

@@ -14,7 +14,9 @@ SphPairs::SphPairs(std::size_t set, Physics& physics)
 // Stages take pairs where they were half a step ago, and shifting moves particles after the sums.
 double SphPairs::least_skin(const GlobalState& global) const {
   const std::optional<Shifting>& shifting = physics_->models().shifting;
-  return 2 * std::max(physics_->longest_look_back(global), shifting ? shifting->longest(global) : 0.0);
+  const std::optional<RigidBodies>& rigid = physics_->models().rigid;
+  return 2 * std::max({physics_->longest_look_back(global), shifting ? shifting->longest(global) : 0.0,
+                       rigid ? rigid->longest_look_back(global) : 0.0});
 }
 
 void SphPairs::rebuild(const Particles& p, const ListSetting& s, const decomp::Payload&,

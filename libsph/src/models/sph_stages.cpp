@@ -29,7 +29,7 @@ void add_liquids_and_solids(Builder& b, const SphModels& m) {
   const bool early = has_drag(s) || exchange;
   const bool wall_share =
       exchange || (walls && fluid && (s.terms.viscous.implicit || s.start.has_surface || has_drag(s)));
-  if (has_wet_bodies(s)) add_bonds(b);
+  if (has_wet_bodies(s)) add_bodies(b);
   if (wall_share && early) add_wall_share(b);
   add_kinematics(b);
   if (has_strength(s.groups)) add_strength(b);
@@ -72,12 +72,13 @@ void add_end_of_step(Builder& b, const SphModels& m) {
 
 void add_motion(Builder& b, const SphModels& m) {
   add_drift(b);
+  if (m.rigid) m.rigid->add_to(b);
   if (b.scene().terms.formulation == Formulation::ida)
     add_ida(b);
   else if (has_eos(b.scene(), EosKind::ideal_gas))
     add_gas(b);
   else if (has_dry_bodies(b.scene()))
-    add_bonds(b);
+    add_bodies(b);
   else
     add_liquids_and_solids(b, m);
   add_end_of_step(b, m);
@@ -104,6 +105,7 @@ SphModels::SphModels(std::size_t set, const Builder& b) {
   if (s.has_gas_flow()) degassing.emplace(set, b.constants(), b.materials());
   if (s.has_water_diffusion()) water.emplace(set, b.constants(), b.materials());
   if (s.has_heat()) heat.emplace(set, b.constants());
+  if (has_rigid_bodies(s) && s.terms.exchange.motion) rigid.emplace(set, b.constants(), b.body_forces());
 }
 
 std::vector<Model*> SphModels::all() {

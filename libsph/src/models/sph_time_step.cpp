@@ -28,15 +28,16 @@ double SphTimeStep::longest(const StepMaxima& maxima) const {
   double fastest = maxima.sound, viscous = maxima.viscosity, bulk = maxima.bulk;
   const bool law = has_viscosity_law(scene);
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
-    // Of a gas that of now counts.
+    // Of a gas that of now counts, of a rigid body that of its contacts.
+    if (is_quiet(scene, scene.groups[g])) continue;
     if (maxima.sound == 0 || !gas_) fastest = std::max(fastest, constants_->groups.sound_speed[g]);
     const bool wall = constants_->is_wall(static_cast<std::uint32_t>(g));
-    if (wall && (scene.total_lagrangian() || law)) continue;
+    if ((wall && (scene.total_lagrangian() || law)) || is_rigid(scene.groups[g])) continue;
     if ((maxima.viscosity > 0 || maxima.bulk > 0) && viscosity_follows(scene.groups[g])) continue;
     viscous = std::max(viscous, constants_->groups.viscosity[g] / scene.groups[g].density);
     bulk = std::max(bulk, scene.groups[g].viscosity_law.bulk / scene.groups[g].density);
   }
-  const bool bonds = scene.total_lagrangian();
+  const bool bonds = has_bonds(scene);
   if (bonds || scene.terms.viscous.form == ViscosityForm::symmetric)
     viscous *= 3;  // nu (lap v + 2 grad div v)
   if (scene.terms.viscous.implicit) viscous = 0;

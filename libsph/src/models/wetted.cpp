@@ -26,12 +26,14 @@ struct WetSides {
     const auto d = static_cast<std::size_t>(p.dim());
     const double *sums = p.get<Field::wall_sums>(), *v = p.get<Field::velocity>();
     double *pressure = p.get<Field::wet_pressure>(), *velocity = p.get<Field::wet_velocity>();
+    double* own = p.get<Field::pressure>();
     const auto* group = p.get<Field::group>();
     for_walls(step.ranges, [&](std::size_t i) { pressure[i] = 0; });
     for_movers(step.ranges, [&](std::size_t i) {
       const double* s = sums + i * (2 + 2 * d);
-      const bool wet = s[0] > 0 && is_bonded(scene->groups[group[i]]);
+      const bool wet = s[0] > 0 && is_body(scene->groups[group[i]]);
       pressure[i] = wet ? s[1] / s[0] : 0.0;
+      if (is_rigid(scene->groups[group[i]])) own[i] = pressure[i];
       for (std::size_t a = 0; a < d; ++a)
         velocity[i * d + a] = wet ? 2 * v[i * d + a] - s[2 + a] / s[0] : v[i * d + a];
     });
@@ -74,11 +76,13 @@ struct BondForces {
     const auto* group = p.get<Field::group>();
     const double share = std::fmin(rate * step.global.dt, 1.0);
     for_movers(step.ranges, [&](std::size_t i) {
-      if (!is_bonded(scene->groups[group[i]])) return;
+      const Group& g = scene->groups[group[i]];
+      if (!is_body(g)) return;
+      for (std::size_t a = 0; bonds != nullptr && a < d; ++a) force[i * d + a] += bonds[i * d + a];
+      if (is_rigid(g)) return;  // accelerated by the sum of all its forces (models/rigid_bodies.cpp)
       const Double3 body = (*body_forces)(p, i);
       for (std::size_t a = 0; a < d; ++a) {
-        double& f = force[i * d + a];
-        f += bonds[i * d + a];
+        const double f = force[i * d + a];
         mean[i * d + a] += share * (f / mass[i] + body[a] - mean[i * d + a]);
       }
     });

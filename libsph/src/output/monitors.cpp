@@ -39,6 +39,7 @@ std::size_t sums_of(const Monitor& monitor, const State& s) {
       return 3;  // contacts of grains, with what is held, number of grains
     case MonitorKind::particle:
     case MonitorKind::wall:
+    case MonitorKind::body:
     case MonitorKind::melt:
       break;
   }
@@ -99,6 +100,40 @@ std::array<double, 9> values_of_wall(const Simulation& s, int wall) {
   return out;
 }
 
+std::vector<std::string> names_of_body(int dim) {
+  if (dim == 2) return {"x", "y", "vx", "vy", "angle", "w", "fx", "fy", "torque"};
+  return {"x",  "y",  "z",  "vx", "vy", "vz", "qw", "qx", "qy", "qz",
+          "wx", "wy", "wz", "fx", "fy", "fz", "tx", "ty", "tz"};
+}
+
+/// The same on all ranks without a message, as those of walls.
+std::vector<double> values_of_body(const Simulation& s, int group) {
+  const auto index = rigid_bodies_of(s.scene())[static_cast<std::size_t>(group)];
+  const BodyState& body = s.global().bodies[static_cast<std::size_t>(index)];
+  const int dim = s.scene().dim;
+  const auto d = static_cast<std::size_t>(dim);
+  std::vector<double> out;
+  const auto add = [&](const std::array<double, 3>& x) { out.insert(out.end(), x.begin(), x.begin() + dim); };
+  std::array<double, 3> place{}, force = body.load.force;
+  for (std::size_t a = 0; a < d; ++a) {
+    place[a] = s.scale().metres(s.wrap()(static_cast<int>(a), body.motion.centre[a]));
+    force[a] -= body.shape.heaviness * s.scene().domain.gravity[a];
+  }
+  add(place);
+  add(body.motion.velocity);
+  if (dim == 2) {
+    out.insert(out.end(), {body.motion.angle, body.motion.spin[2]});
+    add(force);
+    out.push_back(body.load.torque[2]);
+    return out;
+  }
+  out.insert(out.end(), body.motion.turn.begin(), body.motion.turn.end());
+  add(body.motion.spin);
+  add(force);
+  add(body.load.torque);
+  return out;
+}
+
 /// The values of the chosen particles, one after the other. Bits travel unchanged: all but the owner have
 /// zeros.
 std::vector<double> values_of(const Simulation& s, const ParticleValues& of,
@@ -152,6 +187,7 @@ void Monitors::make_names(const Simulation& s) {
       for (Energy e : energies_of(s)) quantities.emplace_back(energy_names[static_cast<std::size_t>(e)]);
     }
     if (m.kind == MonitorKind::wall) quantities = {"x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz"};
+    if (m.kind == MonitorKind::body) quantities = names_of_body(s.scene().dim);
     if (m.kind == MonitorKind::contacts) quantities = {"n", "walls", "z"};
     if (m.kind == MonitorKind::momentum) {
       quantities = {"px", "py", "pz"};
@@ -206,6 +242,9 @@ std::vector<double> Monitors::values(Simulation& s) const {
         break;
       case MonitorKind::wall:
         for (double value : values_of_wall(s, monitors[k].wall)) out.push_back(value);
+        break;
+      case MonitorKind::body:
+        for (double value : values_of_body(s, monitors[k].group)) out.push_back(value);
         break;
       case MonitorKind::melt:
         for (double value : s.melt()->values(s.particles(s.melt()->set()), s.global())) out.push_back(value);

@@ -33,7 +33,9 @@ double Scene::kernel_radius() const {
 
 double Scene::bond_width() const {
   const double h = kernel.smoothing_length;
-  return terms.bonds.reach ? std::min(*terms.bonds.reach * start.spacing * (h / kernel_radius()), h) : h;
+  return terms.bonds.reach && has_bonds(*this)
+             ? std::min(*terms.bonds.reach * start.spacing * (h / kernel_radius()), h)
+             : h;
 }
 
 double Scene::support() const {
@@ -41,7 +43,7 @@ double Scene::support() const {
 }
 
 double Scene::list_range() const {
-  if (total_lagrangian()) {
+  if (has_bonds(*this)) {
     const double bonds =
         bond_width() / kernel.smoothing_length * kernel_radius() * terms.bonds.largest_stretch;
     return std::max(support(), has_failure(*this) ? bonds / nearly_lost : bonds);
@@ -78,6 +80,23 @@ bool has_wet_bodies(const Scene& scene) {
 }
 bool has_dry_bodies(const Scene& scene) {
   return scene.total_lagrangian() && !scene.has_kind(GroupKind::fluid);
+}
+bool has_bonds(const Scene& scene) { return std::ranges::any_of(scene.groups, is_bonded); }
+bool has_rigid_bodies(const Scene& scene) { return std::ranges::any_of(scene.groups, is_rigid); }
+bool has_body_contacts(const Scene& scene) {
+  return scene.has_kind(GroupKind::wall) || std::ranges::count_if(scene.groups, [](const Group& g) {
+                                              return is_body(g) && g.solid.body.part_of < 0;
+                                            }) > 1;
+}
+std::vector<int> rigid_bodies_of(const Scene& scene) {
+  std::vector<int> bodies(scene.groups.size(), -1);
+  int count = 0;
+  for (std::size_t g = 0; g < bodies.size(); ++g)
+    if (is_rigid(scene.groups[g]) && scene.groups[g].solid.body.part_of < 0) bodies[g] = count++;
+  for (std::size_t g = 0; g < bodies.size(); ++g)
+    if (const int whole = scene.groups[g].solid.body.part_of; is_rigid(scene.groups[g]) && whole >= 0)
+      bodies[g] = bodies[static_cast<std::size_t>(whole)];
+  return bodies;
 }
 bool has_failure(const Scene& scene) {
   return std::ranges::any_of(scene.groups, [](const Group& g) {

@@ -23,7 +23,7 @@ HydrostaticColumn::HydrostaticColumn(const Scene& scene)
     const Group& fluid = scene.groups[static_cast<std::size_t>(layers[k].group)];
     const double bottom = k + 1 < layers.size() ? layers[k + 1].top : lowest;
     Part part{&fluid, layers[k].top, pressure};
-    if (fluid.eos.law->pressure_below == nullptr && !is_bonded(fluid)) {
+    if (fluid.eos.law->pressure_below == nullptr && !is_body(fluid)) {
       part.below.push_back(pressure + outer(part, 0));
       if (fluid.eos.law->needs_pressure && !(part.below.back() > 0))
         throw InputError(scene.file + ": start.pressure: the layer \"" + fluid.name +
@@ -53,7 +53,7 @@ double HydrostaticColumn::operator()(const Double3& x) const {
 double HydrostaticColumn::at_depth(const Part& part, double depth) const {
   const Group& fluid = *part.fluid;
   // A body is as dense as its group in its reference state, whatever presses on it there.
-  if (is_bonded(fluid)) return part.pressure + fluid.density * pull_on(fluid) * depth;
+  if (is_body(fluid)) return part.pressure + fluid.density * pull_on(fluid) * depth;
   if (fluid.eos.law->pressure_below == nullptr) {
     const double nodes = static_cast<double>(part.below.size() - 1);
     const double node = std::clamp(std::floor(depth / step_), 0.0, nodes);

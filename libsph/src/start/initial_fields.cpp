@@ -89,7 +89,7 @@ void InitialFields::set(NewParticle& p) const {
   } else {
     // A body is as dense as its group in its reference state, whatever presses on it there.
     if (is_bonded(g)) p.prestress = pressure_in_place(x);
-    const EosStart start = g.eos.law->start(g, is_bonded(g) ? 0.0 : pressure(x), outer_pressure(scene, g, x));
+    const EosStart start = g.eos.law->start(g, is_body(g) ? 0.0 : pressure(x), outer_pressure(scene, g, x));
     p.density = start.density;
     p.energy = start.specific_energy;
     if (g.kind == GroupKind::wall) {

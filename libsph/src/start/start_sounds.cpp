@@ -37,9 +37,14 @@ bool stiffens(const Group& g) {
   return g.kind != GroupKind::grain && g.eos.law->kind == EosKind::barotropic && !g.eos.law->constant_sound;
 }
 
+bool is_quiet(const Scene& scene, const Group& group) {
+  return is_rigid(group) && scene.has_kind(GroupKind::fluid) && !has_body_contacts(scene);
+}
+
 std::vector<double> sounds_at_rest(const Scene& scene) {
   std::vector<double> sounds;
-  for (const Group& g : scene.groups) sounds.push_back(g.kind == GroupKind::grain ? 0.0 : sound_at_rest(g));
+  for (const Group& g : scene.groups)
+    sounds.push_back(g.kind == GroupKind::grain || is_quiet(scene, g) ? 0.0 : sound_at_rest(g));
   return sounds;
 }
 

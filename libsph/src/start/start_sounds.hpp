@@ -23,6 +23,9 @@ namespace sph {
 /// where that is not known.
 [[nodiscard]] std::vector<double> fastest_sounds(const Scene& scene, const std::vector<Height>& heights);
 
+/// A rigid body in a fluid that can touch nothing: no sound of it limits the time step.
+[[nodiscard]] bool is_quiet(const Scene& scene, const Group& group);
+
 /// True where the sound of a group depends on its density.
 [[nodiscard]] bool stiffens(const Group& group);
 

@@ -143,6 +143,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   if (parts_.reduction[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
   age_.add_paths(parts_.reduction[Reduction::speed]);
   for (Model* m : parts_.models) m->act(parts_.reduction, global_);
+  for (const Model* m : parts_.models) sets_[m->set()].changed(m->follow(sets_[m->set()].particles, global_));
   ++global_.step;
   global_.time += global_.dt;
   take_maxima(parts_.reduction, global_);

@@ -104,6 +104,7 @@ struct FusionList {
              fuse<Quintic, FlowOntoSolids>(),
              fuse<Quintic, ClampSums>(),
              fuse<Quintic, ClampReaction>(),
+             fuse<Quintic, BodyContact, BodyContactEnergy>(),
              fuse<Quintic, BondForce>(),
              fuse<Quintic, BondForce, BondViscosity>(),
              fuse<Quintic, BondForce, BodyContact>(),

@@ -111,6 +111,7 @@ enum class Field : std::uint8_t {
   opening,
   plastic_strain,
   plastic_work,
+  arm,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);

@@ -275,6 +275,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of a solid with strength: plastic shear strain, largest less smallest, summed up"},
     {Field::plastic_work, "plastic_work", "J", Type::f64, Shape::scalar, true, false,
      "of a solid with strength: elastic energy that yielding took since the start"},
+    {Field::arm, "arm", "m", Type::f64, Shape::vector, true, false,
+     "of a rigid body: from its centre of mass at the start"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

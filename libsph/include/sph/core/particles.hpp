@@ -102,6 +102,59 @@ struct FlowClock {
   friend bool operator==(const FlowClock&, const FlowClock&) = default;
 };
 
+/// A rigid body (models/rigid_bodies.hpp): what it is, where it is, what acts on it.
+struct BodyShape {
+  double mass = 0;       ///< [kg], in 2D per metre
+  double heaviness = 0;  ///< mass that gravity acts on, less what a background bears [kg]
+  double radius = 0;     ///< of the particle that is the furthest from the centre of mass [m]
+  std::array<double, 6>
+      inertia{};  ///< about that at the start: xx yy zz xy xz yz; in 2D zz is all three [kg m^2]
+  friend bool operator==(const BodyShape&, const BodyShape&) = default;
+};
+struct BodyMotion {
+  std::array<std::int64_t, 3> centre{};      ///< of mass, through periods without a jump [quanta of position]
+  std::array<double, 3> velocity{};          ///< of the centre, half a step after it [m/s]
+  std::array<double, 4> turn{1, 0, 0, 0};    ///< since the start: a unit quaternion, its scalar first
+  double angle = 0;                          ///< ... in 2D, all turns counted
+  std::array<double, 3> angular_momentum{};  ///< about the centre, half a step after it [kg m^2/s]
+  std::array<double, 3> spin{};  ///< that of this momentum where the body is turned to now [rad/s]
+  friend bool operator==(const BodyMotion&, const BodyMotion&) = default;
+};
+struct BodyLoad {
+  std::array<double, 3> force{}, torque{};  ///< in the last step, torque about the centre [N], [N m]
+  /// Means of what that accelerates it by, over h / c of the fluid; 0 without one.
+  std::array<double, 3> acceleration{}, angular_acceleration{};
+  friend bool operator==(const BodyLoad&, const BodyLoad&) = default;
+};
+struct BodyState {
+  BodyShape shape;
+  BodyMotion motion;
+  BodyLoad load;
+  friend bool operator==(const BodyState&, const BodyState&) = default;
+};
+
+/// All numbers of a body in their order, with what they are called: `see(name, index, number)`.
+template <class Body, class See>
+void for_each_number(Body& body, See&& see) {
+  const auto all = [&](const char* name, auto& numbers) {
+    for (std::size_t k = 0; k < numbers.size(); ++k) see(name, k, numbers[k]);
+  };
+  see("mass", std::size_t{0}, body.shape.mass);
+  see("heaviness", std::size_t{0}, body.shape.heaviness);
+  see("radius", std::size_t{0}, body.shape.radius);
+  all("inertia", body.shape.inertia);
+  all("centre", body.motion.centre);
+  all("velocity", body.motion.velocity);
+  all("turn", body.motion.turn);
+  see("angle", std::size_t{0}, body.motion.angle);
+  all("angular_momentum", body.motion.angular_momentum);
+  all("spin", body.motion.spin);
+  all("force", body.load.force);
+  all("torque", body.load.torque);
+  all("acceleration", body.load.acceleration);
+  all("angular_acceleration", body.load.angular_acceleration);
+}
+
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {
   std::int64_t step = 0;
@@ -113,6 +166,7 @@ struct GlobalState {
   FluidVolume fluid_volume;
   CommonMotion motion;
   FlowClock flow;
+  std::vector<BodyState> bodies{};  ///< rigid ones, in the order of their groups
   friend bool operator==(const GlobalState&, const GlobalState&) = default;
 };
 

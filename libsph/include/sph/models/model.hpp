@@ -42,6 +42,8 @@ class Model {
   virtual void guard(const decomp::Comm&, const StepState&, const Reduction&) const {}
   /// What the reduction changes in the state, with the clock as it was in the step.
   virtual void act(const Reduction&, GlobalState&) {}
+  /// What of its particles follows from that: sets these fields of them.
+  [[nodiscard]] virtual FieldSet follow(Particles&, const GlobalState&) const { return {}; }
   /// How long the step to come may be [s].
   [[nodiscard]] virtual double longest_step(const Reduction&) const { return any_step; }
   /// Throws GuardError where that cannot be stable.

@@ -41,8 +41,8 @@ void add_curvature(Builder& builder);
 void add_implicit_viscosity(Builder& builder);
 /// The literal formulation of Ida's paper.
 void add_ida(Builder& builder);
-/// Total-Lagrangian solids.
-void add_bonds(Builder& builder);
+/// Total-Lagrangian solids: bonds of what deforms, contacts.
+void add_bodies(Builder& builder);
 /// ... in a fluid, whose forces are known.
 void add_bond_forces(Builder& builder);
 /// v += (F/m + g) dt for particles that move; walls get their own velocity back.

@@ -9,6 +9,7 @@
 #include "sph/models/gas_flow.hpp"
 #include "sph/models/heat.hpp"
 #include "sph/models/model.hpp"
+#include "sph/models/rigid_bodies.hpp"
 #include "sph/models/shifting.hpp"
 #include "sph/models/water.hpp"
 
@@ -23,6 +24,7 @@ struct SphModels {
   std::optional<Degassing> degassing;
   std::optional<Water> water;
   std::optional<Heat> heat;
+  std::optional<RigidBodies> rigid;
 };
 
 void add_stages(Builder& builder, const SphModels& models);

@@ -16,6 +16,9 @@
 //             gas  sum M m, and gas_in, what came from walls less what escaped: where gas flows
 //   wall      x, y, z, vx, vy, vz, fx, fy, fz: the plane's point now, its velocity, and the force of the
 //             grains on it in the last step [N]
+//   body      of a rigid one: x, y, vx, vy, angle [rad], w, fx, fy, torque; in 3D x, y, z, vx, vy, vz, qw, qx, qy, qz,
+//             wx, wy, wz, fx, fy, fz, tx, ty, tz: its centre of mass, how it is turned (a unit quaternion), and the force
+//             of the last step, gravity left out, with its torque about the centre
 //   contacts  n  contacts between grains, each once;  walls  those of a grain with a wall or a fixed grain;
 //             z  mean coordination, (2 n + walls) / number of grains
 // Positions [m] are those within the periodic domain; p is the pressure above the surface pressure [Pa].

@@ -62,10 +62,13 @@ struct Group {
 /// `to` is the group `from`, an index or -1, or what that turns into by and by.
 [[nodiscard]] bool can_become(const std::vector<Group>& groups, int from, int to);
 
-/// A total-Lagrangian solid.
-[[nodiscard]] inline bool is_bonded(const Group& g) {
+/// A total-Lagrangian solid: to a fluid a wall that moves.
+[[nodiscard]] inline bool is_body(const Group& g) {
   return g.kind == GroupKind::solid && g.solid.lagrangian == Lagrangian::total;
 }
+/// ... that deforms, or does not.
+[[nodiscard]] inline bool is_bonded(const Group& g) { return is_body(g) && !g.solid.body.rigid; }
+[[nodiscard]] inline bool is_rigid(const Group& g) { return is_body(g) && g.solid.body.rigid; }
 
 /// Some updated-Lagrangian solid yields.
 [[nodiscard]] bool has_strength(const std::vector<Group>& groups);

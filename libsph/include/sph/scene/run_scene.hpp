@@ -30,7 +30,7 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-enum class MonitorKind { particle, group, energy, momentum, wall, contacts, melt, budget };
+enum class MonitorKind { particle, group, energy, momentum, wall, contacts, melt, budget, body };
 
 struct Monitor {
   std::string name;
@@ -38,7 +38,7 @@ struct Monitor {
   std::optional<std::uint64_t> id;  ///< particle: this id ...
   std::optional<Double3>
       nearest_to;  ///< ... or the one nearest this point at the start, lowest id on ties [m]
-  int group = -1;  ///< group: averages over it
+  int group = -1;  ///< group: averages over it; body: the rigid one
   int wall = -1;   ///< wall: its place, velocity and the force of the grains on it
   friend bool operator==(const Monitor&, const Monitor&) = default;
 };

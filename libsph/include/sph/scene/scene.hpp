@@ -64,6 +64,13 @@ struct Scene {
 /// There are total-Lagrangian solids in a fluid, or alone.
 [[nodiscard]] bool has_wet_bodies(const Scene& scene);
 [[nodiscard]] bool has_dry_bodies(const Scene& scene);
+/// Some of them deform; some do not.
+[[nodiscard]] bool has_bonds(const Scene& scene);
+[[nodiscard]] bool has_rigid_bodies(const Scene& scene);
+/// Bodies, or bodies and walls, can touch each other.
+[[nodiscard]] bool has_body_contacts(const Scene& scene);
+/// Of each group the index of the rigid body that its particles belong to, -1 if to none.
+[[nodiscard]] std::vector<int> rigid_bodies_of(const Scene& scene);
 /// Some of them can fail.
 [[nodiscard]] bool has_failure(const Scene& scene);
 

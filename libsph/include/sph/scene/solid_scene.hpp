@@ -1,7 +1,10 @@
 // What a scene of solids says beyond what every scene says.
 #pragma once
 
+#include <array>
 #include <optional>
+
+#include "sph/scene/grain_scene.hpp"
 
 namespace sph {
 
@@ -22,11 +25,22 @@ struct Strength {
   friend bool operator==(const Strength&, const Strength&) = default;
 };
 
+/// A total-Lagrangian solid that does not deform (models/rigid_bodies.hpp).
+struct RigidMaterial {
+  bool rigid = false;
+  int part_of = -1;                 ///< group whose body its particles belong to, -1: one of its own
+  std::array<bool, 4> held{};       ///< x, y, z, rotation: no force changes that motion
+  std::optional<Double3> velocity;  ///< of the start; without, that of its particles [m/s]
+  std::optional<Double3> spin;      ///< ... in 2D about z [rad/s]
+  friend bool operator==(const RigidMaterial&, const RigidMaterial&) = default;
+};
+
 /// Of a group with kind = "solid".
 struct SolidMaterial {
   double shear_modulus = 0;  ///< mu [Pa]; lambda = K - 2/3 mu
   Lagrangian lagrangian = Lagrangian::updated;
   std::optional<Strength> strength;
+  RigidMaterial body;
   friend bool operator==(const SolidMaterial&, const SolidMaterial&) = default;
 };
 
