@@ -67,6 +67,15 @@ bool Scene::total_lagrangian() const {
   return false;
 }
 
+bool Scene::has_openings() const {
+  return !domain.inlets.empty() || !domain.outlets.empty() ||
+         std::ranges::find(domain.deletes, true) != domain.deletes.end();
+}
+bool Scene::has_buffers() const {
+  return !domain.inlets.empty() ||
+         std::ranges::any_of(domain.outlets, [](const Outlet& outlet) { return !outlet.pressure.empty(); });
+}
+
 bool Scene::has_kind(GroupKind k) const {
   for (const Group& g : groups)
     if (g.kind == k) return true;
@@ -89,6 +98,16 @@ int Scene::group_index(const std::string& group_name) const {
   for (std::size_t k = 0; k < groups.size(); ++k)
     if (groups[k].name == group_name) return static_cast<int>(k);
   return -1;
+}
+
+double value_at(const TimeCurve& curve, double time) {
+  std::size_t k = 0;
+  while (k < curve.size() && curve[k][0] <= time) ++k;
+  if (k == 0) return curve.front()[1];
+  if (k == curve.size()) return curve.back()[1];
+  const auto& [t0, a] = curve[k - 1];
+  const auto& [t1, b] = curve[k];
+  return a + (b - a) * ((time - t0) / (t1 - t0));
 }
 
 }  // namespace sph

@@ -108,6 +108,7 @@ enum class Field : std::uint8_t {
   opening,
   plastic_strain,
   plastic_work,
+  buffer,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);

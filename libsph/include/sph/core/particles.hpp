@@ -102,6 +102,26 @@ struct FlowClock {
   friend bool operator==(const FlowClock&, const FlowClock&) = default;
 };
 
+/// What has come in through an inlet, or left through an outlet or a face, since the start.
+struct Passage {
+  std::int64_t count = 0;            ///< of particles
+  std::array<double, 6> amounts{};   ///< as core/budget.hpp counts them [kg, J, J, kg, kg, J]
+  std::array<double, 3> momentum{};  ///< [kg m/s]
+  double kinetic_energy = 0;         ///< [J]
+  /// Of an inlet with a pressure: mean speed of what flows in [m/s]; of other boxes: how the pressure beside them grows
+  /// along the axis, but for weight, a mean over time [Pa/m].
+  double beside = 0;
+  friend bool operator==(const Passage&, const Passage&) = default;
+};
+
+/// How particles come and go, in scenes where they do: of each inlet, then of each outlet, then of the faces.
+struct Throughput {
+  std::vector<Passage> passages;
+  std::uint64_t id_stride =
+      0;  ///< above all ids of the start: the particle that follows on id has id + id_stride
+  friend bool operator==(const Throughput&, const Throughput&) = default;
+};
+
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {
   std::int64_t step = 0;
@@ -113,6 +133,7 @@ struct GlobalState {
   FluidVolume fluid_volume;
   CommonMotion motion;
   FlowClock flow;
+  Throughput throughput;
   friend bool operator==(const GlobalState&, const GlobalState&) = default;
 };
 

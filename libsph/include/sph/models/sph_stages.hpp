@@ -9,6 +9,7 @@
 #include "sph/models/gas_flow.hpp"
 #include "sph/models/heat.hpp"
 #include "sph/models/model.hpp"
+#include "sph/models/openings.hpp"
 #include "sph/models/shifting.hpp"
 #include "sph/models/water.hpp"
 
@@ -23,8 +24,9 @@ struct SphModels {
   std::optional<Degassing> degassing;
   std::optional<Water> water;
   std::optional<Heat> heat;
+  std::optional<Openings> openings;  ///< that begins before all others
 };
 
-void add_stages(Builder& builder, const SphModels& models);
+void add_stages(Builder& builder, SphModels& models);
 
 }  // namespace sph

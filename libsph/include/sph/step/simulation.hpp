@@ -46,6 +46,7 @@ class Simulation : public State {
   void approach(Settling& settling, std::size_t set);
   void kick_half_a_step();
   void rebuild();
+  void turn_over();
   [[nodiscard]] ListSetting list_setting(const SetPair& pair);
   void reduce(std::int64_t request, bool left);
   std::int64_t finish_step(std::int64_t request);
@@ -56,6 +57,7 @@ class Simulation : public State {
   decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
   bool stale_ = true;        ///< lists must be made anew before they are looked at
   std::int64_t rebuilds_ = 0;
+  bool rows_changed_ = false;  ///< lists are not of the rows that there are
 };
 
 }  // namespace sph

@@ -1,0 +1,271 @@
+// Openings at the start of a run, and in a step: who is led, and at which pressure.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pairs/for_rows.hpp"
+#include "sph/core/fixed_point.hpp"
+#include "sph/core/kernels.hpp"
+#include "sph/models/openings.hpp"
+#include "sph/scene/positions.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::uint64_t largest_first_id = std::uint64_t{1} << 48;
+
+double kernel_at(KernelShape shape, int dim, double q) {
+  switch (shape) {
+    case KernelShape::wendland_c2:
+      return dim == 2 ? WendlandC2::value<2>(q) : WendlandC2::value<3>(q);
+    case KernelShape::wendland_c4:
+      return dim == 2 ? WendlandC4::value<2>(q) : WendlandC4::value<3>(q);
+    case KernelShape::quintic:
+      break;
+  }
+  return dim == 2 ? Quintic::value<2>(q) : Quintic::value<3>(q);
+}
+
+}  // namespace
+
+void Openings::add_to(Builder& b) {
+  if (!b.scene().has_buffers()) return;
+  const FieldSet near{Field::position, Field::velocity, Field::density,
+                      Field::pressure, Field::group,    Field::buffer};
+  b.add_loop({{{"boxes of openings", decomp::Region::update, near,
+                Materials::writes | FieldSet{Field::density, Field::mass, Field::velocity},
+                [this](StepState& s, Side side) { pass_pressures(s, side); }}},
+              nullptr,
+              {}});
+}
+
+double Openings::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
+  const Scene& scene = *constants_->scene;
+  global.throughput.passages.assign(inlets_.size() + outlets_.size() + 1, {});
+  const std::uint64_t* id = particles.data<Field::id>();
+  std::int64_t largest = 0;
+  for (std::size_t i = 0; i < particles.owned(); ++i)
+    largest = std::max(largest, static_cast<std::int64_t>(id[i]));
+  global.throughput.id_stride = static_cast<std::uint64_t>(comm.max(largest)) + 1;
+  if (!scene.has_buffers()) return any_step;
+  if (global.throughput.id_stride > largest_first_id)
+    throw InputError(
+        fmt::format("{}: start: the largest id is {}; beside an [[inlet]] ids must be below 2^48", scene.file,
+                    global.throughput.id_stride - 1));
+  const auto d = static_cast<std::size_t>(particles.dim());
+  const Rows p(particles);
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    std::uint32_t& buffer = p.get<Field::buffer>()[i];
+    buffer = 0;
+    const std::uint32_t group = p.get<Field::group>()[i];
+    if (scene.groups[group].kind != GroupKind::fluid) continue;
+    const Double3 x = place(p, i);
+    for (std::size_t k = 0; k < inlets_.size(); ++k) {
+      const Inlet& inlet = scene.domain.inlets[k];
+      if (static_cast<int>(group) != inlet.group || !contains(inlet.lower, inlet.upper, x, d)) continue;
+      buffer = static_cast<std::uint32_t>(k + 1);
+      double* v = p.get<Field::velocity>() + i * d;
+      std::fill_n(v, d, 0.0);
+      v[inlets_[k].axis] = inlets_[k].sign * speed(inlet, k, x, 0, global);
+    }
+    for (std::size_t k = 0; k < outlets_.size() && buffer == 0; ++k)
+      if (const Outlet& outlet = scene.domain.outlets[k];
+          !outlet.pressure.empty() && contains(outlet.lower, outlet.upper, x, d))
+        buffer = static_cast<std::uint32_t>(inlets_.size() + k + 1);
+  }
+  check_inlets(comm, particles);
+  return any_step;
+}
+
+// Where a layer has fewer particles than another, gaps would come in again and again.
+void Openings::check_inlets(const decomp::Comm& comm, const Particles& particles) const {
+  const Scene& scene = *constants_->scene;
+  const auto d = static_cast<std::size_t>(particles.dim());
+  const std::int64_t* x = particles.data<Field::position>();
+  for (std::size_t k = 0; k < inlets_.size(); ++k) {
+    const Box& box = inlets_[k];
+    const double length = constants_->scale.metres(box.length);
+    std::vector<std::int64_t> layers(static_cast<std::size_t>(std::llround(length / scene.start.spacing)), 0);
+    const double lower = scene.domain.inlets[k].lower[box.axis];
+    for (std::size_t i = 0; i < particles.owned(); ++i) {
+      if (particles.data<Field::buffer>()[i] != k + 1) continue;
+      const double along = constants_->scale.metres(x[i * d + box.axis]) - lower;
+      const auto layer = static_cast<std::int64_t>(std::floor(along / scene.start.spacing));
+      ++layers[static_cast<std::size_t>(
+          std::clamp<std::int64_t>(layer, 0, static_cast<std::int64_t>(layers.size()) - 1))];
+    }
+    comm.sum(std::span<std::int64_t>(layers));
+    const auto [least, most] = std::ranges::minmax(layers);
+    if (least == most && most > 0) continue;
+    throw InputError(
+        fmt::format("{}: inlet.{}: its box has layers of {} to {} particles of \"{}\" at the start; paint "
+                    "all of it with a "
+                    "start.region, whose particles are as many in each layer of one spacing",
+                    scene.file, k, least, most,
+                    scene.groups[static_cast<std::size_t>(scene.domain.inlets[k].group)].name));
+  }
+}
+
+// Along a period a body force drives a flow: no pressure balances it.
+double Openings::head(const Double3& from, const Double3& to, std::uint32_t group, double density) const {
+  const Domain& domain = constants_->scene->domain;
+  const GroupTable::Weight& of = constants_->groups.weight;
+  double along = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!domain.periodic[a]) along += domain.gravity[a] * (to[a] - from[a]);
+  return (density * of.share[group] - of.borne[group]) * along;
+}
+
+double Openings::speed(const Inlet& inlet, std::size_t number, const Double3& at, double time,
+                       const GlobalState& global) const {
+  double v =
+      inlet.velocity.empty() ? global.throughput.passages[number].beside : value_at(inlet.velocity, time);
+  if (inlet.profile == InletProfile::uniform) return v;
+  const Scene& scene = *constants_->scene;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    if (a == axis_of(inlet.direction) || scene.domain.periodic[a]) continue;
+    const double s = (at[a] - inlet.lower[a]) / (inlet.upper[a] - inlet.lower[a]);
+    v *= std::fmax(0.0, 6 * s * (1 - s));
+  }
+  return v;
+}
+
+bool Openings::is_pressed(std::size_t number) const {
+  return number < inlets_.size() && !constants_->scene->domain.inlets[number].pressure.empty();
+}
+
+template <class Function>
+void Openings::for_buffers(const StepState& s, Side side, Function function) const {
+  const std::uint32_t* buffer = s.particles.data<Field::buffer>();
+  const auto lanes = static_cast<std::size_t>(s.lists->lanes());
+  const auto look = [&](RowClass c) {
+    const RowRange& r = range_of(s.ranges, c);
+    for (std::size_t i = r.first; i < r.last; ++i)
+      if (buffer[i] != 0) function(i, r.first_block + (i - r.first) / lanes, (i - r.first) % lanes);
+  };
+  if (side != Side::boundary) look(RowClass::interior_movers);
+  if (side != Side::interior) look(RowClass::boundary_movers);
+}
+
+// Lists are in the order of ids: so are the sums.
+Openings::Near Openings::near(const StepState& s, std::size_t i, std::size_t block, std::size_t lane) const {
+  const Scene& scene = *constants_->scene;
+  const Particles& p = s.particles;
+  const auto d = static_cast<std::size_t>(p.dim());
+  const std::int64_t* x = p.data<Field::position>();
+  const auto* group = p.data<Field::group>();
+  const double quantum_over_h = constants_->scale.quantum / scene.kernel.smoothing_length;
+  const std::size_t axis = box(p.data<Field::buffer>()[i] - 1).axis;
+  Near sums;
+  const std::span<const std::uint32_t> entries = s.lists->block(block);
+  for (std::size_t e = lane; e < entries.size(); e += static_cast<std::size_t>(s.lists->lanes())) {
+    const std::size_t j = entries[e];
+    if (j == i || p.data<Field::buffer>()[j] != 0 || scene.groups[group[j]].kind != GroupKind::fluid)
+      continue;
+    Double3 away{};
+    double square = 0;
+    for (std::size_t a = 0; a < d; ++a) {
+      const auto quanta = static_cast<double>(x[i * d + a] - x[j * d + a]);
+      away[a] = quanta * constants_->scale.quantum;
+      square += quanta * quanta;
+    }
+    const double w = kernel_at(scene.kernel.shape, scene.dim, std::sqrt(square) * quantum_over_h);
+    if (!(w > 0)) continue;
+    sums.weight += w;
+    const double q = p.data<Field::pressure>()[j] + head({}, away, group[j], p.data<Field::density>()[j]);
+    sums.pressure += w * q;
+    for (std::size_t a = 0; a < d; ++a) sums.velocity[a] += w * p.data<Field::velocity>()[j * d + a];
+    const double ahead = -away[axis];
+    sums.along += w * ahead;
+    sums.square += w * (ahead * ahead);
+    sums.slope += w * (ahead * q);
+  }
+  return sums;
+}
+
+// The mean of what a kernel reaches is that of a place some way off: the pressure has grown in between. One row alone
+// would not know how much.
+double Openings::pressure_of(const Near& near, std::size_t number, const GlobalState& global) const {
+  return (near.pressure - global.throughput.passages[number].beside * near.along) / near.weight;
+}
+
+void Openings::sum_up(const Near& near, std::size_t number) {
+  constexpr double whole = 0x1p32;
+  const double h = constants_->scene->kernel.smoothing_length;
+  std::int64_t& of = sums_[2 * number];
+  std::int64_t& sum = sums_[2 * number + 1];
+  if (is_pressed(number)) {
+    const Box& b = box(number);
+    of += round_to_quanta(whole);
+    sum += round_to_quanta(whole * (b.sign * (near.velocity[b.axis] / near.weight) / sound_));
+    return;
+  }
+  const double mean = near.along / near.weight;
+  of += round_to_quanta(whole * ((near.square - mean * near.along) / (h * h)));
+  sum += round_to_quanta(whole * ((near.slope - mean * near.pressure) / (h * impedance_ * sound_)));
+}
+
+void Openings::pass_pressures(StepState& s, Side side) {
+  const Domain& domain = constants_->scene->domain;
+  if (side != Side::boundary) std::ranges::fill(sums_, 0);
+  const Rows p(s.particles);
+  for_buffers(s, side, [&](std::size_t i, std::size_t block, std::size_t lane) {
+    const Near beside = near(s, i, block, lane);
+    const std::size_t number = p.get<Field::buffer>()[i] - 1;
+    if (beside.weight > 0) sum_up(beside, number);
+    if (number >= inlets_.size()) return let_out(s, i, beside);
+    const Inlet& inlet = domain.inlets[number];
+    if (is_pressed(number))
+      press(s, i, wanted(inlet.pressure, inlet.lower, inlet.upper, p, i, s), false);
+    else if (beside.weight > 0)
+      press(s, i, pressure_of(beside, number, s.global), false);
+  });
+}
+
+/// The pressure that is given for the middle of a box, where particle i is.
+double Openings::wanted(const TimeCurve& pressure, const Double3& lower, const Double3& upper, const Rows& p,
+                        std::size_t i, const Step& step) const {
+  Double3 middle{};
+  const Double3 at = place(p, i);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(p.dim()); ++a) middle[a] = 0.5 * (lower[a] + upper[a]);
+  return value_at(pressure, step.global.time + step.global.dt) +
+         head(middle, at, p.get<Field::group>()[i], p.get<Field::density>()[i]);
+}
+
+void Openings::let_out(StepState& s, std::size_t i, const Near& beside) const {
+  const Rows p(s.particles);
+  const std::size_t number = p.get<Field::buffer>()[i] - 1;
+  const Outlet& outlet = constants_->scene->domain.outlets[number - inlets_.size()];
+  const Box& box = this->box(number);
+  double& v = p.get<Field::velocity>()[i * static_cast<std::size_t>(p.dim()) + box.axis];
+  const double* sound = p.get<Field::sound_speed>();
+  const double c = sound != nullptr ? sound[i] : constants_->groups.sound_speed[p.get<Field::group>()[i]];
+  const double impedance = c * p.get<Field::density>()[i], before = p.get<Field::pressure>()[i];
+  const double share = std::fmin(s.global.dt / outlet.settle_time, 1.0);
+  const double settles = share * (wanted(outlet.pressure, outlet.lower, outlet.upper, p, i, s) - before);
+  if (!(beside.weight > 0)) return press(s, i, before + settles, true);
+  const double out = pressure_of(beside, number, s.global) +
+                     impedance * (box.sign * (beside.velocity[box.axis] / beside.weight));
+  const double in = before - impedance * (box.sign * v) + 2 * settles;
+  v = box.sign * ((out - in) / (2 * impedance));
+  press(s, i, 0.5 * (out + in), true);
+}
+
+void Openings::press(StepState& s, std::size_t i, double pressure, bool keeps_mass) const {
+  const Rows p(s.particles);
+  const Group& g = constants_->scene->groups[p.get<Field::group>()[i]];
+  const double* content = p.get<Field::gas_content>();
+  p.get<Field::pressure>()[i] = pressure;
+  const double rho = materials_->density_of(p, i, g, content != nullptr ? content[i] : 0.0, s);
+  p.get<Field::density>()[i] = rho;
+  if (!keeps_mass) {
+    const double mass = rho / constants_->row_scale.inverse_volume;
+    if (double* liquid = p.get<Field::liquid_mass>()) liquid[i] *= mass / p.get<Field::mass>()[i];
+    p.get<Field::mass>()[i] = mass;
+  }
+  materials_->derive(p, i, i + 1);  // as after a restart
+  find_out_of_range(*constants_, p, i, i + 1, s);
+}
+
+}  // namespace sph
