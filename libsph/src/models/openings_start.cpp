@@ -155,7 +155,9 @@ Openings::Near Openings::near(const StepState& s, std::size_t i, std::size_t blo
   const auto d = static_cast<std::size_t>(p.dim());
   const std::int64_t* x = p.data<Field::position>();
   const auto* group = p.data<Field::group>();
-  const double quantum_over_h = constants_->scale.quantum / scene.kernel.smoothing_length;
+  // Velocities change across a flow: those of the neighbours on either side would make it flatter.
+  const double h = scene.kernel.smoothing_length, radius = scene.kernel_radius() / h;
+  const double unit = constants_->scale.quantum, tube = 1.25 * scene.start.spacing;
   const std::size_t axis = box(p.data<Field::buffer>()[i] - 1).axis;
   Near sums;
   const std::span<const std::uint32_t> entries = s.lists->block(block);
@@ -167,19 +169,22 @@ Openings::Near Openings::near(const StepState& s, std::size_t i, std::size_t blo
     double square = 0;
     for (std::size_t a = 0; a < d; ++a) {
       const auto quanta = static_cast<double>(x[i * d + a] - x[j * d + a]);
-      away[a] = quanta * constants_->scale.quantum;
+      away[a] = quanta * unit;
       square += quanta * quanta;
     }
-    const double w = kernel_at(scene.kernel.shape, scene.dim, std::sqrt(square) * quantum_over_h);
+    const double w = kernel_at(scene.kernel.shape, scene.dim, std::sqrt(square) * unit / h);
     if (!(w > 0)) continue;
     sums.weight += w;
     const double q = p.data<Field::pressure>()[j] + head({}, away, group[j], p.data<Field::density>()[j]);
     sums.pressure += w * q;
-    for (std::size_t a = 0; a < d; ++a) sums.velocity[a] += w * p.data<Field::velocity>()[j * d + a];
     const double ahead = -away[axis];
     sums.along += w * ahead;
     sums.square += w * (ahead * ahead);
     sums.slope += w * (ahead * q);
+    const double aside = std::sqrt(std::fmax(0.0, square * (unit * unit) - ahead * ahead)) / tube;
+    const double straight = w * kernel_at(scene.kernel.shape, scene.dim, radius * aside);
+    sums.before += straight;
+    sums.speed += straight * p.data<Field::velocity>()[j * d + axis];
   }
   return sums;
 }
@@ -196,9 +201,10 @@ void Openings::sum_up(const Near& near, std::size_t number) {
   std::int64_t& of = sums_[2 * number];
   std::int64_t& sum = sums_[2 * number + 1];
   if (is_pressed(number)) {
+    if (!(near.before > 0)) return;
     const Box& b = box(number);
     of += round_to_quanta(whole);
-    sum += round_to_quanta(whole * (b.sign * (near.velocity[b.axis] / near.weight) / sound_));
+    sum += round_to_quanta(whole * (b.sign * (near.speed / near.before) / sound_));
     return;
   }
   const double mean = near.along / near.weight;
@@ -244,9 +250,9 @@ void Openings::let_out(StepState& s, std::size_t i, const Near& beside) const {
   const double impedance = c * p.get<Field::density>()[i], before = p.get<Field::pressure>()[i];
   const double share = std::fmin(s.global.dt / outlet.settle_time, 1.0);
   const double settles = share * (wanted(outlet.pressure, outlet.lower, outlet.upper, p, i, s) - before);
-  if (!(beside.weight > 0)) return press(s, i, before + settles, true);
-  const double out = pressure_of(beside, number, s.global) +
-                     impedance * (box.sign * (beside.velocity[box.axis] / beside.weight));
+  if (!(beside.before > 0)) return press(s, i, before + settles, true);
+  const double out =
+      pressure_of(beside, number, s.global) + impedance * (box.sign * (beside.speed / beside.before));
   const double in = before - impedance * (box.sign * v) + 2 * settles;
   v = box.sign * ((out - in) / (2 * impedance));
   press(s, i, 0.5 * (out + in), true);

@@ -60,7 +60,7 @@ class Openings final : public Model {
   /// Of what is near a row.
   struct Near {
     double weight = 0, pressure = 0;
-    Double3 velocity{};
+    double before = 0, speed = 0;  ///< of what is straight before or behind it: weight, velocity along the axis
     double along = 0, square = 0, slope = 0;  ///< of ways along the box's axis; of these and pressures
   };
   /// A box in quanta.
