@@ -8,6 +8,8 @@ import boxes
 class Openings:
     def openings(self, scene):
         d = self.d.part("openings")
+        if self.mixed or self.family in ("ida", "gas") or (self.family == "total" and not self.wet):
+            return
         if not scene.get("terms", {}).get("motion", True) or not d.chance("any", 0.2):
             return
         free = [a for a in range(self.dim) if self.box.ends[a] != "periodic"]

@@ -75,8 +75,7 @@ class Maker(Terms, FromFile, Mixture, Exchanges, Openings):
             fluids = [g for g in scene["group"] if g["kind"] == "fluid"]
             if self.resets(self.d.part("exchanges"), scene, fluids, False) and d.chance("budget", 0.3):
                 scene["monitor"] = [{"kind": "budget"}]
-        if not self.mixed and (self.family in ("fluid", "solid") or (self.family == "total" and self.wet)):
-            self.openings(scene)
+        self.openings(scene)
         case = {"scene": scene, "skin": self.box.skin}
         if self.box.centred:
             case |= {"reach": self.box.reach, "radius": self.box.radius}

@@ -184,6 +184,10 @@ const std::vector<Source>& sources() {
         "start.region.2={group=\"bar\", shape=\"box\", lower=[0, 5, 2], upper=[76, 9, 5]}",
         "start.region.3={group=\"clamp\", shape=\"box\", lower=[38, 5, 2], upper=[40, 9, 5]}",
         "start.region.5={group=\"clamp\", shape=\"box\", lower=[0, 5, 2], upper=[2, 9, 5]}"}},
+      // particles come and go: water, magma with gas and heat, under rock that fails
+      {"open2d", "tests/scenes/open2d.toml", {}},
+      {"open3d", "tests/scenes/open3d.toml", {}},
+      {"open_wet2d", "tests/scenes/open_wet2d.toml", {}},
       // two sets of particles that act on each other, with contacts that remember
       {"mixture", "tests/scenes/grains_in_melt.toml", {}},
       {"linear", "tests/scenes/grains_pour.toml", {}},

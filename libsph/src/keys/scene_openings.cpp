@@ -123,7 +123,7 @@ void read_leaves(const DomainReader& table, Scene& scene) {
     const std::string word = value->text();
     if (word != "stop" && word != "delete") value->fail_word(word, {"stop", "delete"});
     for (std::size_t face = 0; face < 2 * axes; ++face)
-      scene.domain.deletes[face] = word == "delete" && !scene.domain.periodic[face / 2];
+      scene.domain.openings.deletes[face] = word == "delete" && !scene.domain.periodic[face / 2];
     return;
   }
   std::vector<std::string> names;
@@ -135,21 +135,22 @@ void read_leaves(const DomainReader& table, Scene& scene) {
       value->fail(name == nullptr ? "holds what is no name" : fmt::format("names \"{}\"", shown(*name)),
                   fmt::format("its faces, on axes without period: {}", fmt::join(names, ", ")));
     for (std::size_t face = 0; face < 2 * axes; ++face)
-      if (*name == face_name(face)) scene.domain.deletes[face] = true;
+      if (*name == face_name(face)) scene.domain.openings.deletes[face] = true;
   }
 }
 
-void read_openings(const TopReader& top, Scene& scene) {
-  for (const auto& table : top.tables<keys::inlet>()) scene.domain.inlets.push_back(read_inlet(table, scene));
+void read_openings(const TopReader& top, const DomainReader& domain, Scene& scene) {
+  for (const auto& table : top.tables<keys::inlet>())
+    scene.domain.openings.inlets.push_back(read_inlet(table, scene));
   for (const auto& table : top.tables<keys::outlet>())
-    scene.domain.outlets.push_back(read_outlet(table, scene));
-  if (!scene.has_openings()) return;
+    scene.domain.openings.outlets.push_back(read_outlet(table, scene));
+  if (!scene.domain.openings.any()) return;
   const auto refuse = [&](bool where, std::string_view what) {
     if (!where) return;
     const std::string why = fmt::format("is of liquids and bubbly fluids that move, {}", what);
-    if (!scene.domain.inlets.empty()) top.fail("inlet", why, "remove it");
-    if (!scene.domain.outlets.empty()) top.fail("outlet", why, "remove it");
-    top.fail("domain", why, "remove domain.leaves");
+    if (!scene.domain.openings.inlets.empty()) top.fail("inlet", why, "remove it");
+    if (!scene.domain.openings.outlets.empty()) top.fail("outlet", why, "remove it");
+    domain.fail("leaves", why, "remove it");
   };
   refuse(scene.terms.formulation == Formulation::ida, "and formulation = \"ida\" has none");
   refuse(has_eos(scene, EosKind::ideal_gas), "and the scene has an ideal gas");
@@ -159,8 +160,8 @@ void read_openings(const TopReader& top, Scene& scene) {
 
 void write_leaves(SceneWriter& out, const Domain& domain) {
   std::vector<std::string> names;
-  for (std::size_t face = 0; face < domain.deletes.size(); ++face)
-    if (domain.deletes[face]) names.push_back(SceneWriter::quoted(face_name(face)));
+  for (std::size_t face = 0; face < domain.openings.deletes.size(); ++face)
+    if (domain.openings.deletes[face]) names.push_back(SceneWriter::quoted(face_name(face)));
   out.raw("leaves", fmt::format("[{}]", fmt::join(names, ", ")));
 }
 
@@ -171,12 +172,12 @@ void write_openings(SceneWriter& out, const Domain& domain) {
       texts.push_back(fmt::format("[{}, {}]", SceneWriter::real(t), SceneWriter::real(value)));
     if (!points.empty()) out.raw(key, fmt::format("[{}]", fmt::join(texts, ", ")));
   };
-  for (const Inlet& inlet : domain.inlets) {
+  for (const Inlet& inlet : domain.openings.inlets) {
     out.table(keys::inlet, inlet);
     curve("velocity", inlet.velocity);
     curve("pressure", inlet.pressure);
   }
-  for (const Outlet& outlet : domain.outlets) {
+  for (const Outlet& outlet : domain.openings.outlets) {
     out.table(keys::outlet, outlet);
     curve("pressure", outlet.pressure);
   }

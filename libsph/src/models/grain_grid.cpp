@@ -173,8 +173,9 @@ struct FacePassage {
 // Of the two other axes the mean over the way: W W' + (W dW' + dW W') / 2 + dW dW' / 3.
 void GrainGrid::spread_way(const GridKernel& from, const GridKernel& to, double value,
                            const std::array<Deposit*, 3>& through) const {
-  const std::array<FacePassage, 3> p{FacePassage(from.centre[0], to.centre[0]), FacePassage(from.centre[1], to.centre[1]),
-                                 FacePassage(from.centre[2], to.centre[2])};
+  const std::array<FacePassage, 3> p{FacePassage(from.centre[0], to.centre[0]),
+                                     FacePassage(from.centre[1], to.centre[1]),
+                                     FacePassage(from.centre[2], to.centre[2])};
   for (std::size_t a = 0; a < 3; ++a) {
     const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
     for (std::size_t j = 0; j < p[b].points; ++j)

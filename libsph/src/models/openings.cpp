@@ -1,6 +1,8 @@
 // Openings at the end of a step: what is led there, what is free from then on, what is gone, what is new.
 #include "sph/models/openings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -16,10 +18,12 @@ namespace sph {
 namespace {
 
 struct EndStep {
-  static constexpr FieldSet reads = Openings::reads, writes = Openings::writes;
+  static constexpr FieldSet reads = OpeningBoxes::reads, writes = OpeningBoxes::writes;
   Openings* openings;
   void operator()(const Openings::Rows& p, const Step& step) const { openings->end_step(p, step); }
 };
+
+constexpr std::uint64_t largest_first_id = std::uint64_t{1} << 48;
 
 /// What is counted of a particle besides what budgets count: momentum, kinetic energy.
 constexpr std::size_t of_budget = Passage{}.amounts.size(), of_motion = 4, counted = of_budget + of_motion;
@@ -48,40 +52,22 @@ void count(Passage& passage, std::int64_t number, std::span<const decomp::ExactS
 }  // namespace
 
 Openings::Openings(std::size_t set, const SphConstants& constants, const Materials& materials)
-    : Model(set), constants_(&constants), materials_(&materials) {
-  const Domain& domain = constants.scene->domain;
-  for (const Inlet& inlet : domain.inlets)
-    inlets_.push_back(box_of(inlet.lower, inlet.upper, inlet.direction));
-  for (const Outlet& outlet : domain.outlets)
-    outlets_.push_back(box_of(outlet.lower, outlet.upper, outlet.direction));
-  sums_.resize(2 * (inlets_.size() + outlets_.size()));
-  const std::vector<Group>& groups = constants.scene->groups;
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    if (groups[k].kind != GroupKind::fluid) continue;
-    sound_ = std::fmax(sound_, constants.groups.sound_speed[k]);
-    impedance_ = std::fmax(impedance_, groups[k].density * constants.groups.sound_speed[k]);
-  }
-}
+    : Model(set), constants_(&constants), materials_(&materials), boxes_(constants, materials) {}
 
-Openings::Box Openings::box_of(const std::array<double, 3>& lower, const std::array<double, 3>& upper,
-                               Direction direction) const {
-  const std::size_t a = axis_of(direction);
-  return {a, constants_->scale.quanta(is_up(direction) ? upper[a] : lower[a]),
-          constants_->scale.quanta(upper[a] - lower[a]), is_up(direction) ? 1.0 : -1.0};
-}
-
-Double3 Openings::place(const Rows& p, std::size_t i) const {
-  const auto d = static_cast<std::size_t>(p.dim());
-  Double3 x{};
-  for (std::size_t a = 0; a < d; ++a)
-    x[a] =
-        constants_->scale.metres(constants_->wrap(static_cast<int>(a), p.get<Field::position>()[i * d + a]));
-  return x;
+void Openings::add_to(Builder& b) {
+  if (!b.scene().domain.openings.lead()) return;
+  const FieldSet near{Field::position, Field::velocity, Field::density,
+                      Field::pressure, Field::group,    Field::buffer};
+  b.add_loop({{{"boxes of openings", decomp::Region::update, near,
+                Materials::writes | FieldSet{Field::density, Field::mass, Field::velocity},
+                [this](StepState& s, Side side) { boxes_.pass_pressures(s, side); }}},
+              nullptr,
+              {}});
 }
 
 void Openings::add_end_to(Builder& b) {
   const Scene& s = b.scene();
-  if (s.has_buffers()) {
+  if (s.domain.openings.lead()) {
     b.add_fields({Field::buffer});
     if (s.has_heat()) b.add_fields({Field::heat_inflow});
     if (has_eos(s, EosKind::bubbly)) b.add_fields({Field::gas_inflow});
@@ -91,7 +77,23 @@ void Openings::add_end_to(Builder& b) {
 
 void Openings::reserve(Reduction& r) {
   in_.events = r.add_sums(1);
-  in_.flows = r.add_sums(sums_.size());
+  in_.flows = r.add_sums(boxes_.sums().size());
+}
+
+double Openings::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
+  const Scene& scene = *constants_->scene;
+  global.throughput.passages.assign(boxes_.all().size() + 1, {});
+  const std::uint64_t* id = particles.data<Field::id>();
+  std::int64_t largest = 0;
+  for (std::size_t i = 0; i < particles.owned(); ++i)
+    largest = std::max(largest, static_cast<std::int64_t>(id[i]));
+  global.throughput.id_stride = static_cast<std::uint64_t>(comm.max(largest)) + 1;
+  if (boxes_.inlets() > 0 && global.throughput.id_stride > largest_first_id)
+    throw InputError(
+        fmt::format("{}: start: the largest id is {}; beside an [[inlet]] ids must be below 2^48", scene.file,
+                    global.throughput.id_stride - 1));
+  if (scene.domain.openings.lead()) boxes_.mark(comm, particles, global);
+  return any_step;
 }
 
 void Openings::end_step(const Rows& p, const Step& step) {
@@ -116,14 +118,14 @@ void Openings::end_step(const Rows& p, const Step& step) {
 // What leaves an outlet goes on as it came.
 void Openings::lead(const Rows& p, std::size_t i, const Step& step) const {
   const std::size_t number = p.get<Field::buffer>()[i] - 1;
-  if (number >= inlets_.size()) return;
-  const Inlet& inlet = constants_->scene->domain.inlets[number];
-  renew(p, i, inlet, step);
+  if (!boxes_.is_inlet(number)) return;
+  renew(p, i, constants_->scene->domain.openings.inlets[number], step);
   const auto d = static_cast<std::size_t>(p.dim());
   double* v = p.get<Field::velocity>() + i * d;
   std::fill_n(v, d, 0.0);
-  const Box& box = inlets_[number];
-  v[box.axis] = box.sign * speed(inlet, number, place(p, i), step.global.time + step.global.dt, step.global);
+  const OpeningBox& box = boxes_.all()[number];
+  v[box.axis] =
+      box.sign * boxes_.speed(number, boxes_.place(p, i), step.global.time + step.global.dt, step.global);
 }
 
 // What flows or is conducted into the box from what is free is lost to that.
@@ -138,7 +140,7 @@ void Openings::renew(const Rows& p, std::size_t i, const Inlet& inlet, const Ste
   const double m = gas ? inlet.gas_content.value_or(g.bubbly.gas_content) : 0.0;
   const double before = gas && liquid != nullptr ? liquid[i] * (1 + m) : mass;
   if (gas) p.get<Field::gas_inflow>()[i] -= mass - before;
-  if (h != nullptr) {
+  if (h != nullptr && (inlet.temperature || g.heat.temperature)) {
     const double wanted =
         enthalpy(g.heat.material, inlet.temperature ? *inlet.temperature : *g.heat.temperature);
     p.get<Field::heat_inflow>()[i] -= mass * h[i] - before * wanted;
@@ -156,62 +158,52 @@ void Openings::renew(const Rows& p, std::size_t i, const Inlet& inlet, const Ste
 }
 
 void Openings::judge(const Rows& p, std::size_t i, const Step& step) {
-  const Domain& domain = constants_->scene->domain;
   const Group& g = constants_->scene->groups[p.get<Field::group>()[i]];
   if (is_bonded(g)) return;
-  const auto d = static_cast<std::size_t>(p.dim());
-  const std::int64_t* x = p.get<Field::position>() + i * d;
-  if (is_deleted(*constants_->scene, constants_->scale, g, x)) {
-    gone_.push_back({i, inlets_.size() + outlets_.size()});
-    return;
-  }
   std::uint32_t* buffer = p.get<Field::buffer>();
-  const std::size_t number = buffer != nullptr ? buffer[i] : 0;
-  if (number > 0 && number <= inlets_.size()) {
-    if (!inlets_[number - 1].is_past(x[inlets_[number - 1].axis])) return;
-    come_.push_back({i, number - 1});
-    const std::uint64_t id = p.get<Field::id>()[i];
-    if (id > largest_id - step.global.throughput.id_stride)
-      find_fault(*constants_, p, i, step, "has the last id that there is: nothing can follow it");
+  if (buffer != nullptr && buffer[i] != 0) return judge_led(p, i, step);
+  const std::span<const OpeningBox> boxes = boxes_.all();
+  const auto d = static_cast<std::size_t>(p.dim());
+  if (is_deleted(*constants_->scene, constants_->scale, g, p.get<Field::position>() + i * d)) {
+    gone_.push_back({i, boxes.size()});
     return;
   }
-  if (number > inlets_.size()) {
-    const std::size_t k = number - 1 - inlets_.size();
-    if (outlets_[k].is_past(x[outlets_[k].axis])) gone_.push_back({i, number - 1});
-    return;
-  }
-  for (std::size_t k = 0; k < outlets_.size(); ++k) {
-    const Outlet& outlet = domain.outlets[k];
-    if (!contains(outlet.lower, outlet.upper, place(p, i), d)) continue;
-    if (outlet.pressure.empty())
-      gone_.push_back({i, inlets_.size() + k});
+  for (std::size_t k = boxes_.inlets(); k < boxes.size(); ++k) {
+    if (!boxes[k].contains(boxes_.place(p, i), d)) continue;
+    if (boxes[k].pressure->empty())
+      gone_.push_back({i, k});
     else if (g.kind == GroupKind::fluid)
-      buffer[i] = static_cast<std::uint32_t>(inlets_.size() + k + 1);
+      buffer[i] = static_cast<std::uint32_t>(k + 1);
     return;
   }
+}
+
+void Openings::judge_led(const Rows& p, std::size_t i, const Step& step) {
+  const std::size_t number = p.get<Field::buffer>()[i] - 1;
+  const OpeningBox& box = boxes_.all()[number];
+  const std::int64_t* x = p.get<Field::position>() + i * static_cast<std::size_t>(p.dim());
+  const Group& g = constants_->scene->groups[p.get<Field::group>()[i]];
+  if (!boxes_.is_inlet(number)) {
+    if (box.is_past(x[box.axis]))
+      gone_.push_back({i, number});
+    else if (is_deleted(*constants_->scene, constants_->scale, g, x))
+      gone_.push_back({i, boxes_.all().size()});
+    return;
+  }
+  if (!box.is_past(x[box.axis])) return;
+  come_.push_back({i, number});
+  const std::uint64_t id = p.get<Field::id>()[i];
+  if (id > largest_id - step.global.throughput.id_stride)
+    find_fault(*constants_, p, i, step, "has the last id that there is: nothing can follow it");
 }
 
 bool Openings::report(const StepState&, Reduction& r) {
   r[in_.events][0] = static_cast<std::int64_t>(gone_.size() + come_.size());
-  std::ranges::copy(sums_, r[in_.flows].begin());
+  std::ranges::copy(boxes_.sums(), r[in_.flows].begin());
   return true;
 }
 
-// A pressure that waves bring is gone from the mean in less than a settle_time.
-void Openings::act(const Reduction& r, GlobalState& global) {
-  const double h = constants_->scene->kernel.smoothing_length;
-  const double share = std::fmin(global.dt * sound_ / (Outlet::settles_in * h), 1.0);
-  for (std::size_t k = 0; k < inlets_.size() + outlets_.size(); ++k) {
-    const auto of = static_cast<double>(r[in_.flows][2 * k]),
-               sum = static_cast<double>(r[in_.flows][2 * k + 1]);
-    double& beside = global.throughput.passages[k].beside;
-    if (!(of > 0)) continue;
-    if (is_pressed(k))
-      beside = sound_ * (sum / of);
-    else
-      beside += share * (impedance_ * sound_ / h * (sum / of) - beside);
-  }
-}
+void Openings::act(const Reduction& r, GlobalState& global) { boxes_.remember(r[in_.flows], global); }
 
 double Openings::turn_over(const decomp::Comm& comm, ParticleSet& set, GlobalState& global) {
   std::vector<Passage>& passages = global.throughput.passages;
@@ -232,12 +224,12 @@ double Openings::turn_over(const decomp::Comm& comm, ParticleSet& set, GlobalSta
   decomp::ExactSum::all_reduce(comm, sums);
   for (std::size_t k = 0; k < passages.size(); ++k) {
     count(passages[k], numbers[k], std::span(sums).subspan(counted * k, counted));
-    set.census.count += k < inlets_.size() ? numbers[k] : -numbers[k];
+    set.census.count += boxes_.is_inlet(k) ? numbers[k] : -numbers[k];
   }
   set.census.xor_of_ids ^= changed[0];
   replace_rows(p, global);
   std::int64_t longest = 0;
-  for (const Box& box : inlets_) longest = std::max(longest, box.length);
+  for (const OpeningBox& box : boxes_.all().first(boxes_.inlets())) longest = std::max(longest, box.length);
   return constants_->scale.metres(longest);
 }
 
@@ -252,7 +244,7 @@ void Openings::replace_rows(Particles& p, const GlobalState& global) const {
       std::memcpy(column.data() + child * column.width(), column.data() + parent * column.width(),
                   column.width());
     }
-    const Box& box = inlets_[come_[k].passage];
+    const OpeningBox& box = boxes_.all()[come_[k].passage];
     p.data<Field::buffer>()[parent] = 0;
     p.data<Field::id>()[child] += global.throughput.id_stride;
     p.data<Field::position>()[child * d + box.axis] -= box.sign > 0 ? box.length : -box.length;

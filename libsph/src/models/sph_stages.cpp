@@ -106,7 +106,7 @@ SphModels::SphModels(std::size_t set, const Builder& b) {
   if (s.has_gas_flow()) degassing.emplace(set, b.constants(), b.materials());
   if (s.has_water_diffusion()) water.emplace(set, b.constants(), b.materials());
   if (s.has_heat()) heat.emplace(set, b.constants());
-  if (s.has_openings()) openings.emplace(set, b.constants(), b.materials());
+  if (s.domain.openings.any()) openings.emplace(set, b.constants(), b.materials());
 }
 
 std::vector<Model*> SphModels::all() {

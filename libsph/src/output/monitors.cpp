@@ -27,13 +27,13 @@ std::vector<Energy> energies_of(const State& s) {
 /// Led by an inlet: not yet in.
 bool is_led(const Scene& scene, const Particles& p, std::size_t row) {
   const std::uint32_t* buffer = p.data<Field::buffer>();
-  return buffer != nullptr && buffer[row] != 0 && buffer[row] <= scene.domain.inlets.size();
+  return buffer != nullptr && buffer[row] != 0 && buffer[row] <= scene.domain.openings.inlets.size();
 }
 
 /// Names of what a budget counts, and of what of it has passed openings.
 std::vector<std::string> budget_names(const State& s) {
   std::vector<std::string> out = Budget::names(s.particles());
-  if (!s.scene().has_openings()) return out;
+  if (!s.scene().domain.openings.any()) return out;
   const std::size_t own = out.size();
   for (std::size_t k = 1; k < own; ++k) out.push_back(out[k] + "_through");
   out.insert(out.end(), {"mass_in", "mass_out", "n_in", "n_out"});
@@ -42,8 +42,9 @@ std::vector<std::string> budget_names(const State& s) {
 
 /// What has come in so far, less what has left; mass and numbers apart.
 void append_passages(const State& s, std::vector<double>& to) {
-  if (!s.scene().has_openings()) return;
-  const std::size_t inlets = s.scene().domain.inlets.size(), own = Budget::names(s.particles()).size();
+  if (!s.scene().domain.openings.any()) return;
+  const std::size_t inlets = s.scene().domain.openings.inlets.size(),
+                    own = Budget::names(s.particles()).size();
   std::array<Passage, 2> all;
   const std::vector<Passage>& passages = s.global().throughput.passages;
   for (std::size_t k = 0; k < passages.size(); ++k) {

@@ -162,7 +162,8 @@ EventCounts events_of(const Simulation& s) {
 }
 
 std::vector<OpeningCount> openings_of(const Simulation& s) {
-  const std::size_t inlets = s.scene().domain.inlets.size(), outlets = s.scene().domain.outlets.size();
+  const std::size_t inlets = s.scene().domain.openings.inlets.size(),
+                    outlets = s.scene().domain.openings.outlets.size();
   std::vector<OpeningCount> out;
   const std::vector<Passage>& passages = s.global().throughput.passages;
   for (std::size_t k = 0; k < passages.size(); ++k) {

@@ -53,7 +53,7 @@ bool is_deleted(const Scene& scene, const PositionScale& scale, const Group& gro
     if (scene.domain.periodic[a]) continue;
     const bool below = position[a] < scale.origin[a];
     if (!below && position[a] < scale.quanta(scene.domain.upper[a])) continue;
-    if (!scene.domain.deletes[2 * a + (below ? 0 : 1)]) return false;
+    if (!scene.domain.openings.deletes[2 * a + (below ? 0 : 1)]) return false;
     outside = true;
   }
   return outside;

@@ -67,15 +67,6 @@ bool Scene::total_lagrangian() const {
   return false;
 }
 
-bool Scene::has_openings() const {
-  return !domain.inlets.empty() || !domain.outlets.empty() ||
-         std::ranges::find(domain.deletes, true) != domain.deletes.end();
-}
-bool Scene::has_buffers() const {
-  return !domain.inlets.empty() ||
-         std::ranges::any_of(domain.outlets, [](const Outlet& outlet) { return !outlet.pressure.empty(); });
-}
-
 bool Scene::has_kind(GroupKind k) const {
   for (const Group& g : groups)
     if (g.kind == k) return true;
@@ -98,6 +89,14 @@ int Scene::group_index(const std::string& group_name) const {
   for (std::size_t k = 0; k < groups.size(); ++k)
     if (groups[k].name == group_name) return static_cast<int>(k);
   return -1;
+}
+
+bool OpeningControl::any() const {
+  return !inlets.empty() || !outlets.empty() || std::ranges::find(deletes, true) != deletes.end();
+}
+bool OpeningControl::lead() const {
+  return !inlets.empty() ||
+         std::ranges::any_of(outlets, [](const Outlet& outlet) { return !outlet.pressure.empty(); });
 }
 
 double value_at(const TimeCurve& curve, double time) {

@@ -98,16 +98,6 @@ void Simulation::rebuild() {
   rows_changed_ = false;
 }
 
-// Where particles have come or gone lists are made at once: no file or monitor sees others.
-void Simulation::turn_over() {
-  for (Model* m : parts_.models) {
-    if (!m->turns_over(parts_.reduction)) continue;
-    age_.add(m->set(), m->turn_over(comm_, sets_[m->set()], global_));
-    rows_changed_ = true;
-  }
-  if (rows_changed_) rebuild();
-}
-
 ListSetting Simulation::list_setting(const SetPair& pair) {
   return {comm_,
           distribution_.grid(),
@@ -161,7 +151,13 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   take_maxima(parts_.reduction, global_);
   global_.dt = parts_.longest_step();
   for (const Model* m : parts_.models) m->guard_step(parts_.reduction, global_);
-  turn_over();
+  // Where particles come or go lists are made at once: no file or monitor sees others.
+  for (Model* m : parts_.models)
+    if (m->turns_over(parts_.reduction)) {
+      age_.add(m->set(), m->turn_over(comm_, sets_[m->set()], global_));
+      rows_changed_ = true;
+    }
+  if (rows_changed_) rebuild();
   stale_ = age_.look(parts_.reduction, timers_);
   return static_cast<std::int64_t>(parts_.reduction[Reduction::request]);
 }

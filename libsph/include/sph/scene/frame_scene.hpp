@@ -30,10 +30,8 @@ struct Domain {
   double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
   Background background;
   std::vector<Reset> resets;  ///< in their order
-  std::vector<Inlet> inlets;
-  std::vector<Outlet> outlets;
-  std::array<bool, 6> deletes{};  ///< what leaves through x0, x1, y0, ... is no more; else it ends the run
-  MeltControl melt;               ///< that fills it
+  OpeningControl openings;
+  MeltControl melt;  ///< that fills it
   friend bool operator==(const Domain&, const Domain&) = default;
 };
 

@@ -45,4 +45,16 @@ struct Outlet {
   friend bool operator==(const Outlet&, const Outlet&) = default;
 };
 
+struct OpeningControl {
+  std::vector<Inlet> inlets;
+  std::vector<Outlet> outlets;
+  std::array<bool, 6> deletes{};  ///< what leaves through x0, x1, y0, ... is no more; else it ends the run
+
+  /// Particles come or go.
+  [[nodiscard]] bool any() const;
+  /// Some are led in boxes.
+  [[nodiscard]] bool lead() const;
+  friend bool operator==(const OpeningControl&, const OpeningControl&) = default;
+};
+
 }  // namespace sph

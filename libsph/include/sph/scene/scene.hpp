@@ -58,10 +58,6 @@ struct Scene {
   [[nodiscard]] bool has_heat() const;                                 ///< its fluids and solids have
   [[nodiscard]] bool total_lagrangian() const;                         ///< its solids are
   [[nodiscard]] int group_index(const std::string& group_name) const;  ///< -1 if there is none
-  /// Particles come or go.
-  [[nodiscard]] bool has_openings() const;
-  /// Some of them in boxes where they are driven.
-  [[nodiscard]] bool has_buffers() const;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 

@@ -46,7 +46,6 @@ class Simulation : public State {
   void approach(Settling& settling, std::size_t set);
   void kick_half_a_step();
   void rebuild();
-  void turn_over();
   [[nodiscard]] ListSetting list_setting(const SetPair& pair);
   void reduce(std::int64_t request, bool left);
   std::int64_t finish_step(std::int64_t request);

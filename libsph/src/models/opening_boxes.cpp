@@ -1,4 +1,5 @@
-// Openings at the start of a run, and in a step: who is led, and at which pressure.
+#include "sph/models/opening_boxes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,13 +8,10 @@
 #include "pairs/for_rows.hpp"
 #include "sph/core/fixed_point.hpp"
 #include "sph/core/kernels.hpp"
-#include "sph/models/openings.hpp"
 #include "sph/scene/positions.hpp"
 
 namespace sph {
 namespace {
-
-constexpr std::uint64_t largest_first_id = std::uint64_t{1} << 48;
 
 double kernel_at(KernelShape shape, int dim, double q) {
   switch (shape) {
@@ -27,32 +25,56 @@ double kernel_at(KernelShape shape, int dim, double q) {
   return dim == 2 ? Quintic::value<2>(q) : Quintic::value<3>(q);
 }
 
-}  // namespace
-
-void Openings::add_to(Builder& b) {
-  if (!b.scene().has_buffers()) return;
-  const FieldSet near{Field::position, Field::velocity, Field::density,
-                      Field::pressure, Field::group,    Field::buffer};
-  b.add_loop({{{"boxes of openings", decomp::Region::update, near,
-                Materials::writes | FieldSet{Field::density, Field::mass, Field::velocity},
-                [this](StepState& s, Side side) { pass_pressures(s, side); }}},
-              nullptr,
-              {}});
+/// Rows that are led: which block of the lists is theirs, and which lane of it.
+template <class Function>
+void for_led(const StepState& s, Side side, Function function) {
+  const std::uint32_t* buffer = s.particles.data<Field::buffer>();
+  const auto lanes = static_cast<std::size_t>(s.lists->lanes());
+  const auto look = [&](RowClass c) {
+    const RowRange& r = range_of(s.ranges, c);
+    for (std::size_t i = r.first; i < r.last; ++i)
+      if (buffer[i] != 0) function(i, r.first_block + (i - r.first) / lanes, (i - r.first) % lanes);
+  };
+  if (side != Side::boundary) look(RowClass::interior_movers);
+  if (side != Side::interior) look(RowClass::boundary_movers);
 }
 
-double Openings::start(const decomp::Comm& comm, Particles& particles, GlobalState& global) {
+}  // namespace
+
+OpeningBoxes::OpeningBoxes(const SphConstants& constants, const Materials& materials)
+    : constants_(&constants),
+      materials_(&materials),
+      inlets_(constants.scene->domain.openings.inlets.size()) {
+  const OpeningControl& openings = constants.scene->domain.openings;
+  const auto add = [&](const auto& of) {
+    const std::size_t a = axis_of(of.direction);
+    const bool up = is_up(of.direction);
+    boxes_.push_back({of.lower, of.upper, &of.pressure, a,
+                      constants.scale.quanta(up ? of.upper[a] : of.lower[a]),
+                      constants.scale.quanta(of.upper[a] - of.lower[a]), up ? 1.0 : -1.0});
+  };
+  for (const Inlet& inlet : openings.inlets) add(inlet);
+  for (const Outlet& outlet : openings.outlets) add(outlet);
+  sums_.resize(2 * boxes_.size());
+  const std::vector<Group>& groups = constants.scene->groups;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (groups[k].kind != GroupKind::fluid) continue;
+    sound_ = std::fmax(sound_, constants.groups.sound_speed[k]);
+    impedance_ = std::fmax(impedance_, groups[k].density * constants.groups.sound_speed[k]);
+  }
+}
+
+Double3 OpeningBoxes::place(const Rows& p, std::size_t i) const {
+  const auto d = static_cast<std::size_t>(p.dim());
+  Double3 x{};
+  for (std::size_t a = 0; a < d; ++a)
+    x[a] =
+        constants_->scale.metres(constants_->wrap(static_cast<int>(a), p.get<Field::position>()[i * d + a]));
+  return x;
+}
+
+void OpeningBoxes::mark(const decomp::Comm& comm, Particles& particles, const GlobalState& global) const {
   const Scene& scene = *constants_->scene;
-  global.throughput.passages.assign(inlets_.size() + outlets_.size() + 1, {});
-  const std::uint64_t* id = particles.data<Field::id>();
-  std::int64_t largest = 0;
-  for (std::size_t i = 0; i < particles.owned(); ++i)
-    largest = std::max(largest, static_cast<std::int64_t>(id[i]));
-  global.throughput.id_stride = static_cast<std::uint64_t>(comm.max(largest)) + 1;
-  if (!scene.has_buffers()) return any_step;
-  if (global.throughput.id_stride > largest_first_id)
-    throw InputError(
-        fmt::format("{}: start: the largest id is {}; beside an [[inlet]] ids must be below 2^48", scene.file,
-                    global.throughput.id_stride - 1));
   const auto d = static_cast<std::size_t>(particles.dim());
   const Rows p(particles);
   for (std::size_t i = 0; i < particles.owned(); ++i) {
@@ -61,33 +83,45 @@ double Openings::start(const decomp::Comm& comm, Particles& particles, GlobalSta
     const std::uint32_t group = p.get<Field::group>()[i];
     if (scene.groups[group].kind != GroupKind::fluid) continue;
     const Double3 x = place(p, i);
-    for (std::size_t k = 0; k < inlets_.size(); ++k) {
-      const Inlet& inlet = scene.domain.inlets[k];
-      if (static_cast<int>(group) != inlet.group || !contains(inlet.lower, inlet.upper, x, d)) continue;
-      buffer = static_cast<std::uint32_t>(k + 1);
-      double* v = p.get<Field::velocity>() + i * d;
-      std::fill_n(v, d, 0.0);
-      v[inlets_[k].axis] = inlets_[k].sign * speed(inlet, k, x, 0, global);
+    for (std::size_t k = 0; k < boxes_.size() && buffer == 0; ++k) {
+      const OpeningBox& box = boxes_[k];
+      const bool leads = is_inlet(k) ? static_cast<int>(group) == scene.domain.openings.inlets[k].group
+                                     : !box.pressure->empty();
+      if (leads && box.contains(x, d)) buffer = static_cast<std::uint32_t>(k + 1);
     }
-    for (std::size_t k = 0; k < outlets_.size() && buffer == 0; ++k)
-      if (const Outlet& outlet = scene.domain.outlets[k];
-          !outlet.pressure.empty() && contains(outlet.lower, outlet.upper, x, d))
-        buffer = static_cast<std::uint32_t>(inlets_.size() + k + 1);
+    if (buffer == 0 || !is_inlet(buffer - 1)) continue;
+    double* v = p.get<Field::velocity>() + i * d;
+    std::fill_n(v, d, 0.0);
+    v[boxes_[buffer - 1].axis] = boxes_[buffer - 1].sign * speed(buffer - 1, x, 0, global);
   }
   check_inlets(comm, particles);
-  return any_step;
+}
+
+// A pressure that waves bring is gone from the mean in less than a settle_time.
+void OpeningBoxes::remember(std::span<const std::int64_t> sums, GlobalState& global) const {
+  const double h = constants_->scene->kernel.smoothing_length;
+  const double share = std::fmin(global.dt * sound_ / (Outlet::settles_in * h), 1.0);
+  for (std::size_t k = 0; k < boxes_.size(); ++k) {
+    const auto of = static_cast<double>(sums[2 * k]), sum = static_cast<double>(sums[2 * k + 1]);
+    double& beside = global.throughput.passages[k].beside;
+    if (!(of > 0)) continue;
+    if (is_pressed(k))
+      beside = sound_ * (sum / of);
+    else
+      beside += share * (impedance_ * sound_ / h * (sum / of) - beside);
+  }
 }
 
 // Where a layer has fewer particles than another, gaps would come in again and again.
-void Openings::check_inlets(const decomp::Comm& comm, const Particles& particles) const {
+void OpeningBoxes::check_inlets(const decomp::Comm& comm, const Particles& particles) const {
   const Scene& scene = *constants_->scene;
   const auto d = static_cast<std::size_t>(particles.dim());
   const std::int64_t* x = particles.data<Field::position>();
-  for (std::size_t k = 0; k < inlets_.size(); ++k) {
-    const Box& box = inlets_[k];
+  for (std::size_t k = 0; k < inlets_; ++k) {
+    const OpeningBox& box = boxes_[k];
     const double length = constants_->scale.metres(box.length);
     std::vector<std::int64_t> layers(static_cast<std::size_t>(std::llround(length / scene.start.spacing)), 0);
-    const double lower = scene.domain.inlets[k].lower[box.axis];
+    const double lower = box.lower[box.axis];
     for (std::size_t i = 0; i < particles.owned(); ++i) {
       if (particles.data<Field::buffer>()[i] != k + 1) continue;
       const double along = constants_->scale.metres(x[i * d + box.axis]) - lower;
@@ -103,12 +137,12 @@ void Openings::check_inlets(const decomp::Comm& comm, const Particles& particles
                     "all of it with a "
                     "start.region, whose particles are as many in each layer of one spacing",
                     scene.file, k, least, most,
-                    scene.groups[static_cast<std::size_t>(scene.domain.inlets[k].group)].name));
+                    scene.groups[static_cast<std::size_t>(scene.domain.openings.inlets[k].group)].name));
   }
 }
 
 // Along a period a body force drives a flow: no pressure balances it.
-double Openings::head(const Double3& from, const Double3& to, std::uint32_t group, double density) const {
+double OpeningBoxes::head(const Double3& from, const Double3& to, std::uint32_t group, double density) const {
   const Domain& domain = constants_->scene->domain;
   const GroupTable::Weight& of = constants_->groups.weight;
   double along = 0;
@@ -117,12 +151,13 @@ double Openings::head(const Double3& from, const Double3& to, std::uint32_t grou
   return (density * of.share[group] - of.borne[group]) * along;
 }
 
-double Openings::speed(const Inlet& inlet, std::size_t number, const Double3& at, double time,
-                       const GlobalState& global) const {
-  double v =
-      inlet.velocity.empty() ? global.throughput.passages[number].beside : value_at(inlet.velocity, time);
-  if (inlet.profile == InletProfile::uniform) return v;
+double OpeningBoxes::speed(std::size_t number, const Double3& at, double time,
+                           const GlobalState& global) const {
   const Scene& scene = *constants_->scene;
+  const Inlet& inlet = scene.domain.openings.inlets[number];
+  double v = inlet.velocity.empty() ? std::fmax(0.0, global.throughput.passages[number].beside)
+                                    : value_at(inlet.velocity, time);
+  if (inlet.profile == InletProfile::uniform) return v;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     if (a == axis_of(inlet.direction) || scene.domain.periodic[a]) continue;
     const double s = (at[a] - inlet.lower[a]) / (inlet.upper[a] - inlet.lower[a]);
@@ -131,25 +166,13 @@ double Openings::speed(const Inlet& inlet, std::size_t number, const Double3& at
   return v;
 }
 
-bool Openings::is_pressed(std::size_t number) const {
-  return number < inlets_.size() && !constants_->scene->domain.inlets[number].pressure.empty();
-}
-
-template <class Function>
-void Openings::for_buffers(const StepState& s, Side side, Function function) const {
-  const std::uint32_t* buffer = s.particles.data<Field::buffer>();
-  const auto lanes = static_cast<std::size_t>(s.lists->lanes());
-  const auto look = [&](RowClass c) {
-    const RowRange& r = range_of(s.ranges, c);
-    for (std::size_t i = r.first; i < r.last; ++i)
-      if (buffer[i] != 0) function(i, r.first_block + (i - r.first) / lanes, (i - r.first) % lanes);
-  };
-  if (side != Side::boundary) look(RowClass::interior_movers);
-  if (side != Side::interior) look(RowClass::boundary_movers);
+bool OpeningBoxes::is_pressed(std::size_t number) const {
+  return is_inlet(number) && !boxes_[number].pressure->empty();
 }
 
 // Lists are in the order of ids: so are the sums.
-Openings::Near Openings::near(const StepState& s, std::size_t i, std::size_t block, std::size_t lane) const {
+OpeningBoxes::Near OpeningBoxes::near(const StepState& s, std::size_t i, std::size_t block,
+                                      std::size_t lane) const {
   const Scene& scene = *constants_->scene;
   const Particles& p = s.particles;
   const auto d = static_cast<std::size_t>(p.dim());
@@ -158,7 +181,7 @@ Openings::Near Openings::near(const StepState& s, std::size_t i, std::size_t blo
   // Velocities change across a flow: those of the neighbours on either side would make it flatter.
   const double h = scene.kernel.smoothing_length, radius = scene.kernel_radius() / h;
   const double unit = constants_->scale.quantum, tube = 1.25 * scene.start.spacing;
-  const std::size_t axis = box(p.data<Field::buffer>()[i] - 1).axis;
+  const std::size_t axis = boxes_[p.data<Field::buffer>()[i] - 1].axis;
   Near sums;
   const std::span<const std::uint32_t> entries = s.lists->block(block);
   for (std::size_t e = lane; e < entries.size(); e += static_cast<std::size_t>(s.lists->lanes())) {
@@ -191,18 +214,18 @@ Openings::Near Openings::near(const StepState& s, std::size_t i, std::size_t blo
 
 // The mean of what a kernel reaches is that of a place some way off: the pressure has grown in between. One row alone
 // would not know how much.
-double Openings::pressure_of(const Near& near, std::size_t number, const GlobalState& global) const {
+double OpeningBoxes::pressure_of(const Near& near, std::size_t number, const GlobalState& global) const {
   return (near.pressure - global.throughput.passages[number].beside * near.along) / near.weight;
 }
 
-void Openings::sum_up(const Near& near, std::size_t number) {
+void OpeningBoxes::sum_up(const Near& near, std::size_t number) {
   constexpr double whole = 0x1p32;
   const double h = constants_->scene->kernel.smoothing_length;
   std::int64_t& of = sums_[2 * number];
   std::int64_t& sum = sums_[2 * number + 1];
   if (is_pressed(number)) {
     if (!(near.before > 0)) return;
-    const Box& b = box(number);
+    const OpeningBox& b = boxes_[number];
     of += round_to_quanta(whole);
     sum += round_to_quanta(whole * (b.sign * (near.speed / near.before) / sound_));
     return;
@@ -212,44 +235,43 @@ void Openings::sum_up(const Near& near, std::size_t number) {
   sum += round_to_quanta(whole * ((near.slope - mean * near.pressure) / (h * impedance_ * sound_)));
 }
 
-void Openings::pass_pressures(StepState& s, Side side) {
-  const Domain& domain = constants_->scene->domain;
+void OpeningBoxes::pass_pressures(StepState& s, Side side) {
   if (side != Side::boundary) std::ranges::fill(sums_, 0);
   const Rows p(s.particles);
-  for_buffers(s, side, [&](std::size_t i, std::size_t block, std::size_t lane) {
+  for_led(s, side, [&](std::size_t i, std::size_t block, std::size_t lane) {
     const Near beside = near(s, i, block, lane);
     const std::size_t number = p.get<Field::buffer>()[i] - 1;
     if (beside.weight > 0) sum_up(beside, number);
-    if (number >= inlets_.size()) return let_out(s, i, beside);
-    const Inlet& inlet = domain.inlets[number];
-    if (is_pressed(number))
-      press(s, i, wanted(inlet.pressure, inlet.lower, inlet.upper, p, i, s), false);
+    if (!is_inlet(number))
+      let_out(s, i, beside);
+    else if (is_pressed(number))
+      press(s, i, wanted(boxes_[number], p, i, s), false);
     else if (beside.weight > 0)
       press(s, i, pressure_of(beside, number, s.global), false);
   });
 }
 
 /// The pressure that is given for the middle of a box, where particle i is.
-double Openings::wanted(const TimeCurve& pressure, const Double3& lower, const Double3& upper, const Rows& p,
-                        std::size_t i, const Step& step) const {
+double OpeningBoxes::wanted(const OpeningBox& box, const Rows& p, std::size_t i, const Step& step) const {
   Double3 middle{};
   const Double3 at = place(p, i);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(p.dim()); ++a) middle[a] = 0.5 * (lower[a] + upper[a]);
-  return value_at(pressure, step.global.time + step.global.dt) +
+  for (std::size_t a = 0; a < static_cast<std::size_t>(p.dim()); ++a)
+    middle[a] = 0.5 * (box.lower[a] + box.upper[a]);
+  return value_at(*box.pressure, step.global.time + step.global.dt) +
          head(middle, at, p.get<Field::group>()[i], p.get<Field::density>()[i]);
 }
 
-void Openings::let_out(StepState& s, std::size_t i, const Near& beside) const {
+void OpeningBoxes::let_out(StepState& s, std::size_t i, const Near& beside) const {
   const Rows p(s.particles);
   const std::size_t number = p.get<Field::buffer>()[i] - 1;
-  const Outlet& outlet = constants_->scene->domain.outlets[number - inlets_.size()];
-  const Box& box = this->box(number);
+  const OpeningBox& box = boxes_[number];
   double& v = p.get<Field::velocity>()[i * static_cast<std::size_t>(p.dim()) + box.axis];
   const double* sound = p.get<Field::sound_speed>();
   const double c = sound != nullptr ? sound[i] : constants_->groups.sound_speed[p.get<Field::group>()[i]];
   const double impedance = c * p.get<Field::density>()[i], before = p.get<Field::pressure>()[i];
+  const Outlet& outlet = constants_->scene->domain.openings.outlets[number - inlets_];
   const double share = std::fmin(s.global.dt / outlet.settle_time, 1.0);
-  const double settles = share * (wanted(outlet.pressure, outlet.lower, outlet.upper, p, i, s) - before);
+  const double settles = share * (wanted(box, p, i, s) - before);
   if (!(beside.before > 0)) return press(s, i, before + settles, true);
   const double out =
       pressure_of(beside, number, s.global) + impedance * (box.sign * (beside.speed / beside.before));
@@ -258,7 +280,7 @@ void Openings::let_out(StepState& s, std::size_t i, const Near& beside) const {
   press(s, i, 0.5 * (out + in), true);
 }
 
-void Openings::press(StepState& s, std::size_t i, double pressure, bool keeps_mass) const {
+void OpeningBoxes::press(StepState& s, std::size_t i, double pressure, bool keeps_mass) const {
   const Rows p(s.particles);
   const Group& g = constants_->scene->groups[p.get<Field::group>()[i]];
   const double* content = p.get<Field::gas_content>();
