@@ -169,7 +169,9 @@ TEST(Openings, PressureBringsFluidIn) {
   EXPECT_GT(s.global().throughput.passages[0].beside, 0.05);
   const sph::Particles& p = s.particles();
   for (std::size_t i = 0; i < p.owned(); ++i)
-    if (p.data<Field::buffer>()[i] == 1) EXPECT_NEAR(p.data<Field::pressure>()[i], 4e4, 10);
+    if (p.data<Field::buffer>()[i] == 1) {
+      EXPECT_NEAR(p.data<Field::pressure>()[i], 4e4, 10);
+    }
 }
 
 TEST(Openings, BoxesOfInletsMustBeFull) {

@@ -58,7 +58,7 @@ inline constexpr auto outlet_keys = std::to_array<Key>({
      Default{"required with a pressure"}},
     {"settle_time", Number{dimension::time, positive},
      "In so long the pressure comes back to what is given. Waves that are slow against it are thrown back.",
-     at<&Outlet::settle_time>, Default{"100 h over the fastest sound of a group"}},
+     at<&Outlet::settle_time>, Default{"1000 h over the fastest sound of a fluid"}},
 });
 inline constexpr Table<Outlet> outlet{
     {"outlet", true, "A box in which fluids and updated solids are deleted; budgets count them.",

@@ -12,6 +12,7 @@ namespace sph {
 namespace {
 
 constexpr std::array axis_names{"x", "y", "z"};
+constexpr double settles_in = 1000;  // h / c: a pulse of 40 h leaves all but 4 %
 
 std::string face_name(std::size_t face) { return fmt::format("{}{}", axis_names[face / 2], face % 2); }
 
@@ -101,7 +102,7 @@ Outlet read_outlet(const Reader<keys::outlet>& table, const Scene& scene) {
   Outlet outlet;
   for (const Group& g : scene.groups)
     if (g.kind == GroupKind::fluid)
-      outlet.settle_time = std::fmax(outlet.settle_time, Outlet::settles_in * scene.kernel.smoothing_length /
+      outlet.settle_time = std::fmax(outlet.settle_time, settles_in * scene.kernel.smoothing_length /
                                                              std::sqrt(g.eos.bulk_modulus / g.density));
   table.read(outlet);
   outlet.pressure = read_curve(table.value("pressure"), dimension::pressure);
