@@ -49,6 +49,25 @@ void count(Passage& passage, std::int64_t number, std::span<const decomp::ExactS
   passage.kinetic_energy += sums[of_budget + 3].value();
 }
 
+/// What an inlet leads has at the start what it will bring, at the pressure that was painted; the rest of its state
+/// follows from that.
+void fill(const Scene& scene, double volume, Particles& p) {
+  const std::uint32_t* buffer = p.data<Field::buffer>();
+  const std::vector<Inlet>& inlets = scene.domain.openings.inlets;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    if (buffer[i] == 0 || buffer[i] > inlets.size()) continue;
+    const Inlet& inlet = inlets[buffer[i] - 1];
+    const Group& g = scene.groups[p.data<Field::group>()[i]];
+    if (double* t = p.data<Field::temperature>(); t != nullptr && inlet.temperature)
+      t[i] = *inlet.temperature;
+    if (!inlet.gas_content) continue;
+    double &m = p.data<Field::gas_content>()[i], &rho = p.data<Field::density>()[i];
+    rho = bubbly_eos(g, *inlet.gas_content).density(bubbly_eos(g, m).pressure(rho));
+    m = *inlet.gas_content;
+    p.data<Field::mass>()[i] = rho * volume;
+  }
+}
+
 }  // namespace
 
 Openings::Openings(std::size_t set, const SphConstants& constants, const Materials& materials)
@@ -92,7 +111,9 @@ double Openings::start(const decomp::Comm& comm, Particles& particles, GlobalSta
     throw InputError(
         fmt::format("{}: start: the largest id is {}; beside an [[inlet]] ids must be below 2^48", scene.file,
                     global.throughput.id_stride - 1));
-  if (scene.domain.openings.lead()) boxes_.mark(comm, particles, global);
+  if (!scene.domain.openings.lead()) return any_step;
+  boxes_.mark(comm, particles, global);
+  fill(scene, 1 / constants_->row_scale.inverse_volume, particles);
   return any_step;
 }
 
