@@ -263,6 +263,9 @@ Liveliness liveliness(const sph::Simulation& simulation) {
     if (simulation.scene().is_mixture()) out.dragged = dragged_grains(particles);
     return out;
   }
+  const std::vector<sph::Passage>& passages = simulation.global().throughput.passages;
+  for (std::size_t k = 0; k < passages.size(); ++k)
+    (k < simulation.scene().domain.openings.inlets.size() ? out.come : out.gone) += passages[k].count;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     for (const sph::Group& g : simulation.scene().groups)
       for (const sph::Transition& row : g.becomes)
@@ -294,6 +297,9 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     if (servo && !end.walls_moved) quiet("no wall moved");
     return;
   }
+  constexpr std::int64_t few = 10;
+  if (!scene.domain.openings.inlets.empty() && end.come < few) quiet("few particles came in");
+  if (!scene.domain.openings.inlets.empty() && scene.terms.shifting && end.gone < few) quiet("few left");
   if (end.unstrained > 0) quiet("a body meets no other");
   if (sph::has_strength(scene.groups) && end.yielded < some) quiet("little rock has yielded");
   if (!has_eos(scene, sph::EosKind::bubbly)) return;

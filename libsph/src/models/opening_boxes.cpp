@@ -273,11 +273,16 @@ void OpeningBoxes::let_out(StepState& s, std::size_t i, const Near& beside) cons
   const double share = std::fmin(s.global.dt / outlet.settle_time, 1.0);
   const double settles = share * (wanted(box, p, i, s) - before);
   if (!(beside.before > 0)) return press(s, i, before + settles, true);
-  const double out =
-      pressure_of(beside, number, s.global) + impedance * (box.sign * (beside.speed / beside.before));
+  // Where fluid is torn, or few particles are near, what they tell is no wave.
+  constexpr double mach = 0.1;
+  const double there = pressure_of(beside, number, s.global),
+               flow = box.sign * (beside.speed / beside.before);
   const double in = before - impedance * (box.sign * v) + 2 * settles;
-  v = box.sign * ((out - in) / (2 * impedance));
-  press(s, i, 0.5 * (out + in), true);
+  const double half = 0.5 * (there + impedance * flow - in), most = mach * impedance * c;
+  const double wave = std::clamp(half - impedance * flow, -most, most);
+  v = box.sign * (flow + wave / impedance);
+  const double higher = std::clamp(half + in - there, -most, most);
+  press(s, i, there + higher, true);
 }
 
 void OpeningBoxes::press(StepState& s, std::size_t i, double pressure, bool keeps_mass) const {

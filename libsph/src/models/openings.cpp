@@ -62,6 +62,7 @@ void fill(const Scene& scene, double volume, Particles& p) {
       t[i] = *inlet.temperature;
     if (!inlet.gas_content) continue;
     double &m = p.data<Field::gas_content>()[i], &rho = p.data<Field::density>()[i];
+    if (m == *inlet.gas_content) continue;  // of a file, which must stay as it is
     rho = bubbly_eos(g, *inlet.gas_content).density(bubbly_eos(g, m).pressure(rho));
     m = *inlet.gas_content;
     p.data<Field::mass>()[i] = rho * volume;
