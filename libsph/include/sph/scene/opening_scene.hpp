@@ -38,10 +38,10 @@ struct Inlet {
 /// A box in which fluid is deleted. With a pressure it is led on to the box's end first, and lets sound out.
 struct Outlet {
   std::array<double, 3> lower{}, upper{};
-  Direction direction = Direction::x_up;  ///< with a pressure
-  TimeCurve pressure;                     ///< at the middle of the box [Pa]; empty: it is deleted at once
-  double settle_time = 0;  ///< how fast the pressure returns to that [s]; at first settles_in h / c
-  static constexpr double settles_in = 100;
+  Direction direction = Direction::x_up;     ///< with a pressure
+  TimeCurve pressure;                        ///< at the middle of the box [Pa]; empty: it is deleted at once
+  double settle_time = 0;                    ///< how fast the pressure returns to that [s]
+  static constexpr double settles_in = 100;  ///< h / c: what is beside boxes is a mean over so long
   friend bool operator==(const Outlet&, const Outlet&) = default;
 };
 
