@@ -143,7 +143,7 @@ class Bench {
     d.cuts = sph::CutRule::replay;
     d.replay = (scratch_.path() / "cuts.txt").string();
     d.record = (scratch_.path() / "followed.txt").string();
-    if (comm.rank() == 0) write_random_cuts(d.replay, start, d.chaos_seed, steps_of(c).back() + 2);
+    if (comm.rank() == 0) write_random_cuts(d.replay, start, d.chaos_seed, 2 * steps_of(c).back() + 2);
     comm.barrier();
   }
 

@@ -5,6 +5,7 @@ import math
 import boxes
 from exchange import Exchanges
 from mixture import Mixture
+from openings import Openings
 from sph_bodies import TotalBodies
 from sph_rows import FromFile
 from sph_terms import Terms
@@ -17,7 +18,7 @@ def make(d):
     return Maker(d, family).scene()
 
 
-class Maker(Terms, TotalBodies, FromFile, Mixture, Exchanges):
+class Maker(Terms, TotalBodies, FromFile, Mixture, Exchanges, Openings):
     def __init__(self, d, family):
         self.d, self.mixed = d, family == "mixture"
         self.family = "fluid" if self.mixed else family
@@ -75,10 +76,11 @@ class Maker(Terms, TotalBodies, FromFile, Mixture, Exchanges):
             fluids = [g for g in scene["group"] if g["kind"] == "fluid"]
             if self.resets(self.d.part("exchanges"), scene, fluids, False) and d.chance("budget", 0.3):
                 scene["monitor"] = [{"kind": "budget"}]
+        self.openings(scene)
         case = {"scene": scene, "skin": self.box.skin}
         if self.box.centred:
             case |= {"reach": self.box.reach, "radius": self.box.radius}
-        if not self.mixed and not scene["start"].get("tangled") and d.chance("file", 0.3):
+        if not self.mixed and not scene["start"].get("tangled") and "inlet" not in scene and d.chance("file", 0.3):
             self.from_file(case)
         return case
 

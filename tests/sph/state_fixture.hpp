@@ -139,7 +139,17 @@ inline decomp::Payload make_history(const Particles& particles) {
 }
 
 inline GlobalState make_global() {
-  return {1200, 0.1, 1.0 / 3, 2.5, 9.81, {}, {}, {}, {0.4, 7, 12, 1.0 / 7}};
+  return {1200,
+          0.1,
+          1.0 / 3,
+          2.5,
+          9.81,
+          {},
+          {},
+          {},
+          {0.4, 7, 12, 1.0 / 7},
+          {},
+          {{{3, {0.1, 0.2, 1.0 / 3, 0, 0, 5}, {1, -1, 0.7}, 0.3, -1.0 / 9}, {}}, 4096}};
 }
 inline PositionScale make_scale() { return {0x1p-20, {-100, -200, 0}}; }
 inline Wrap make_wrap() { return {{-100, -200, 0}, {400, 0, 0}}; }

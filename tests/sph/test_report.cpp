@@ -20,7 +20,7 @@ Performance some_performance() {
   p.loop.ranks = 8;
   p.loop.steps = 10000;
   p.loop.particles = 1020000;
-  p.loop.end = {10000, 2.0, 2e-4, 1, 1, {}, {}, {}, {}};
+  p.loop.end = {10000, 2.0, 2e-4, 1, 1, {}, {}, {}, {}, {}};
   p.loop.wall_seconds = 124.3;
   p.loop.imbalance = 1.06;
   p.events.rebuilds = 231;
@@ -35,7 +35,7 @@ Performance some_performance() {
 
 TEST(Report, StatusLine) {
   Status s;
-  s.global = {12000, 1.234, 1e-4, 0, 0, {}, {}, {}, {}};
+  s.global = {12000, 1.234, 1e-4, 0, 0, {}, {}, {}, {}, {}};
   s.particle_steps_per_second = 1.9e7;
   s.imbalance = 1.07;
   s.kinetic_energy = 321;

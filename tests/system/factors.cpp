@@ -31,14 +31,14 @@ Table table_of(std::vector<std::string_view> scenes, std::vector<std::string_vie
 }  // namespace
 
 const Table& factors(Family family) {
-  static const Table sph =
-      table_of({"fluid2d",    "solid2d",    "gas2d",      "ida2d",      "flow2d",       "bubble2d",
-                "jump2d",     "viscous2d",  "dam2d",      "fluid3d",    "viscous3d",    "solid3d",
-                "bodies2d",   "bodies3d",   "gas3d",      "blast2d",    "blast2d_wide", "mixture",
-                "exchange2d", "exchange3d", "implicit2d", "implicit3d", "laws2d",       "laws3d",
-                "freezing2d", "through2d",  "wet2d",      "wet3d",      "crack2d",      "crack3d",
-                "water2d",    "water3d",    "slope2d",    "rock3d",     "rigid2d",      "rigid3d"},
-               {"double", "mixed"});
+  static const Table sph = table_of(
+      {"fluid2d",    "solid2d", "gas2d",        "ida2d",      "flow2d",     "bubble2d",   "jump2d",
+       "viscous2d",  "dam2d",   "fluid3d",      "viscous3d",  "solid3d",    "bodies2d",   "bodies3d",
+       "gas3d",      "blast2d", "blast2d_wide", "mixture",    "exchange2d", "exchange3d", "implicit2d",
+       "implicit3d", "laws2d",  "laws3d",       "freezing2d", "through2d",  "wet2d",      "wet3d",
+       "crack2d",    "crack3d", "water2d",      "water3d",    "slope2d",    "rock3d",     "rigid2d",
+       "rigid3d",    "open2d",  "open3d",       "open_wet2d"},
+      {"double", "mixed"});
   // Contacts are always computed in double.
   static const Table grains = table_of({"linear", "hertz", "latched", "smooth", "sizes", "glued", "servo",
                                         "melts2d", "chamber", "chamber_open"},

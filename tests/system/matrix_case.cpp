@@ -103,7 +103,8 @@ void Cases::set_cuts(const decomp::Comm& comm, const Row& row, const Leg& leg, s
   d.replay = (run_dir(row) / "cuts.txt").string();
   d.record = (run_dir(row) / "followed.txt").string();
   if (comm.rank() == 0) {
-    write_random_cuts(d.replay, start, d.chaos_seed, leg.to - leg.from + 2);
+    // Where particles come or go lists may be made twice a step.
+    write_random_cuts(d.replay, start, d.chaos_seed, 2 * (leg.to - leg.from) + 2);
     fs::remove(d.record);  // of the leg before: a record is appended to
   }
   comm.barrier();

@@ -187,6 +187,10 @@ const std::vector<Source>& sources() {
         "start.region.2={group=\"bar\", shape=\"box\", lower=[0, 5, 2], upper=[76, 9, 5]}",
         "start.region.3={group=\"clamp\", shape=\"box\", lower=[38, 5, 2], upper=[40, 9, 5]}",
         "start.region.5={group=\"clamp\", shape=\"box\", lower=[0, 5, 2], upper=[2, 9, 5]}"}},
+      // particles come and go: water, magma with gas and heat, under rock that fails
+      {"open2d", "tests/scenes/open2d.toml", {}},
+      {"open3d", "tests/scenes/open3d.toml", {}},
+      {"open_wet2d", "tests/scenes/open_wet2d.toml", {}},
       // two sets of particles that act on each other, with contacts that remember
       {"mixture", "tests/scenes/grains_in_melt.toml", {}},
       {"linear", "tests/scenes/grains_pour.toml", {}},
@@ -262,6 +266,9 @@ Liveliness liveliness(const sph::Simulation& simulation) {
     if (simulation.scene().is_mixture()) out.dragged = dragged_grains(particles);
     return out;
   }
+  const std::vector<sph::Passage>& passages = simulation.global().throughput.passages;
+  for (std::size_t k = 0; k < passages.size(); ++k)
+    (k < simulation.scene().domain.openings.inlets.size() ? out.come : out.gone) += passages[k].count;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     for (const sph::Group& g : simulation.scene().groups)
       for (const sph::Transition& row : g.becomes)
@@ -294,6 +301,9 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     if (servo && !end.walls_moved) quiet("no wall moved");
     return;
   }
+  constexpr std::int64_t few = 10;
+  if (!scene.domain.openings.inlets.empty() && end.come < few) quiet("few particles came in");
+  if (!scene.domain.openings.inlets.empty() && scene.terms.shifting && end.gone < few) quiet("few left");
   if (end.unstrained > 0) quiet("a body meets no other");
   if (sph::has_rigid_bodies(scene) && start.touched + end.touched == 0) quiet("rigid bodies touch nothing");
   if (sph::has_strength(scene.groups) && end.yielded < some) quiet("little rock has yielded");

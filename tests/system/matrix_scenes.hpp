@@ -25,6 +25,7 @@ struct Liveliness {
   std::int64_t histories_kept = 0;  ///< over rebuilds, once each
   bool walls_moved = false;         ///< up or down
   std::int64_t dragged = 0;         ///< grains that a fluid pushes
+  std::int64_t come = 0, gone = 0;  ///< through openings
 };
 [[nodiscard]] Liveliness liveliness(const sph::Simulation& simulation);  ///< of this rank's particles
 

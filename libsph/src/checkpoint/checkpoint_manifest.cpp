@@ -91,6 +91,27 @@ BodyState body_of(const Json& json) {
   return body;
 }
 
+Json json_of(const Passage& passage) {
+  Json values = Json::array();
+  for (const double x : passage.amounts) values.push_back(exact(x));
+  for (const double x : passage.momentum) values.push_back(exact(x));
+  values.push_back(exact(passage.kinetic_energy));
+  values.push_back(exact(passage.beside));
+  return {{"count", passage.count}, {"values", values}};
+}
+
+Passage passage_of(const Json& json) {
+  Passage passage;
+  passage.count = json.at("count").get<std::int64_t>();
+  const Json& values = json.at("values");
+  std::size_t k = 0;
+  for (double& x : passage.amounts) x = exact(values.at(k++));
+  for (double& x : passage.momentum) x = exact(values.at(k++));
+  passage.kinetic_energy = exact(values.at(k++));
+  passage.beside = exact(values.at(k));
+  return passage;
+}
+
 Field field_named(const std::string& name) {
   for (const FieldInfo& i : field_table)
     if (i.name == name) return i.field;
@@ -120,6 +141,8 @@ std::string to_text(const Manifest& m) {
   for (const WallState& wall : g.walls) walls.push_back(json_of(wall));
   Json bodies = Json::array();
   for (const BodyState& body : g.bodies) bodies.push_back(json_of(body));
+  Json passages = Json::array();
+  for (const Passage& passage : g.throughput.passages) passages.push_back(json_of(passage));
   Json parts = Json::array();
   for (const Part& part : m.parts) parts.push_back(json_of(part));
   const Json json{{"format", format},
@@ -133,6 +156,8 @@ std::string to_text(const Manifest& m) {
                   {"fluid_volume", {g.fluid_volume.start, g.fluid_volume.now}},
                   {"motion", motion},
                   {"flow", {exact(g.flow.interval), g.flow.left, g.flow.iterations, exact(g.flow.residual)}},
+                  {"passages", passages},
+                  {"id_stride", g.throughput.id_stride},
                   {"quantum", exact(m.record.scale.quantum)},
                   {"origin", m.record.scale.origin},
                   {"dim", m.dim},
@@ -172,9 +197,13 @@ Manifest manifest_from_text(const std::string& text) {
        exact(json.at("motion").at(4))},
       {exact(json.at("flow").at(0)), json.at("flow").at(1), json.at("flow").at(2),
        exact(json.at("flow").at(3))},
+      {},
       {}};
   for (const Json& wall : json.at("walls")) m.record.global.walls.push_back(wall_of(wall));
   for (const Json& body : json.at("bodies")) m.record.global.bodies.push_back(body_of(body));
+  for (const Json& passage : json.at("passages"))
+    m.record.global.throughput.passages.push_back(passage_of(passage));
+  m.record.global.throughput.id_stride = json.at("id_stride").get<std::uint64_t>();
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();
   m.record.scene_toml = json.at("scene").get<std::string>();

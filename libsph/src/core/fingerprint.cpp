@@ -108,6 +108,14 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
     words.push_back(std::bit_cast<std::uint64_t>(global.flow.interval));
     words.push_back(static_cast<std::uint64_t>(global.flow.left));
   }
+  if (!global.throughput.passages.empty()) words.push_back(global.throughput.id_stride);
+  for (const Passage& passage : global.throughput.passages) {
+    words.push_back(static_cast<std::uint64_t>(passage.count));
+    for (const double x : passage.amounts) words.push_back(std::bit_cast<std::uint64_t>(x));
+    for (const double x : passage.momentum) words.push_back(std::bit_cast<std::uint64_t>(x));
+    words.push_back(std::bit_cast<std::uint64_t>(passage.kinetic_energy));
+    words.push_back(std::bit_cast<std::uint64_t>(passage.beside));
+  }
   for (const WallState& wall : global.walls)
     for (std::size_t a = 0; a < 3; ++a) {
       words.push_back(std::bit_cast<std::uint64_t>(wall.offset[a]));

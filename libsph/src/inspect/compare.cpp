@@ -158,6 +158,13 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
       return unequal("flow_interval", g.flow.interval, h.flow.interval);
     if (g.flow.left != h.flow.left) return unequal("flow_left", g.flow.left, h.flow.left);
   }
+  if (a.kind == b.kind && g.throughput != h.throughput) {
+    for (std::size_t k = 0; k < std::min(g.throughput.passages.size(), h.throughput.passages.size()); ++k)
+      if (const Passage& x = g.throughput.passages[k], &y = h.throughput.passages[k]; x != y)
+        return x.count != y.count ? unequal("passage.count", x.count, y.count)
+                                  : unequal("passage.mass", x.amounts[0], y.amounts[0]);
+    return unequal("id_stride", g.throughput.id_stride, h.throughput.id_stride);
+  }
   if (a.kind == b.kind)  // a snapshot does not have the walls
     if (std::string text = wall_difference(g.walls, h.walls); !text.empty()) return text;
   if (a.kind == b.kind)

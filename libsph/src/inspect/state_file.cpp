@@ -102,6 +102,7 @@ class SnapshotFile : public StateFile {
                 {},
                 {},
                 {},
+                {},
                 {}};
     s.scale.quantum = file.real("quantum");
     for (const FieldInfo& i : field_table) {

@@ -5,6 +5,7 @@
 #include "keys/grain_keys.hpp"
 #include "keys/group_keys.hpp"
 #include "keys/melt_keys.hpp"
+#include "keys/opening_keys.hpp"
 #include "keys/run_keys.hpp"
 #include "keys/start_keys.hpp"
 #include "keys/term_keys.hpp"
@@ -32,6 +33,8 @@ inline constexpr auto top_keys = std::to_array<Key>({
     {"wall", Inner{&wall}, "Planes and boxes that hold grains.", of_grains},
     {"stage", Inner{&stage}, "Changes of the walls.", of_grains},
     {"reset", Inner{&reset}, "Boxes where matter is renewed.", of_fluids},
+    {"inlet", Inner{&inlet}, "Where fluid comes in.", of_openings},
+    {"outlet", Inner{&outlet}, "Where it leaves.", of_openings},
     {"start", Inner{&start}, "The first state.", Default{"required"}},
     {"terms", Inner{&terms}, "What acts between particles.",
      sph_only("they are of SPH; grains follow from [contact], melts from [melt]")},
@@ -42,10 +45,11 @@ inline constexpr auto top_keys = std::to_array<Key>({
 });
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
-inline constexpr std::array<const KeyTable*, 31> all{
-    &top,      &domain, &kernel,          &reset,     &group,         &becomes, &permeability, &viscosity_law,
-    &strength, &heat,   &heat_transfer,   &radiation, &start,         &region,  &layer,        &tile,
-    &fill,     &terms,  &surface_tension, &contact,   &contact_pair,  &drag,    &melt_table,   &melt_side,
-    &wall,     &stage,  &stage_wall,      &time,      &decomposition, &output,  &monitor};
+inline constexpr std::array<const KeyTable*, 33> all{
+    &top,        &domain,       &kernel,        &reset,      &inlet,     &outlet,        &group,
+    &becomes,    &permeability, &viscosity_law, &strength,   &heat,      &heat_transfer, &radiation,
+    &start,      &region,       &layer,         &tile,       &fill,      &terms,         &surface_tension,
+    &contact,    &contact_pair, &drag,          &melt_table, &melt_side, &wall,          &stage,
+    &stage_wall, &time,         &decomposition, &output,     &monitor};
 
 }  // namespace sph::keys

@@ -29,13 +29,23 @@ inline constexpr Table<KernelControl> kernel{
      kernel_keys}};
 
 inline constexpr auto domain_keys = std::to_array<Key>({
-    {"lower", Vector{dimension::length}, "Particles that leave the domain end the run.", at<&Domain::lower>,
-     required},
+    {"lower", Vector{dimension::length}, "Particles that leave the domain end the run, or see leaves.",
+     at<&Domain::lower>, required},
     {"upper", Vector{dimension::length}, "Above lower in each direction.", at<&Domain::upper>, required},
     {"periodic", Flags{},
      "A period must be at least three cells of kernel radius (of grains: largest diameter) times 1 + "
      "decomposition.skin long.",
      at<&Domain::periodic>, Default{"none"}},
+    {"leaves",
+     Special{
+         R"("stop", "delete" or an array of faces)", R"(["x1", "y1"])",
+         R"({"anyOf": [{"enum": ["stop", "delete"]}, {"type": "array", "items": {"enum": ["x0", "x1", "y0", "y1", "z0", "z1"]}}]})"},
+     "What a particle does that leaves the domain: \"stop\" ends the run, \"delete\" takes it out at the end "
+     "of the "
+     "step, an array says through which faces it does, at the lower (0) or upper (1) end of an axis. Bodies "
+     "with "
+     "lagrangian = \"total\" always end the run.",
+     of_openings, Default{"\"stop\""}},
     {"gravity", Vector{dimension::acceleration}, "Also serves as a body force along a period.",
      at<&Domain::gravity>},
     {"central_pull", Number{dimension::rate_squared, not_negative},

@@ -44,6 +44,7 @@ void read_domain(const DomainReader& table, Scene& scene) {
     if (!(scene.domain.lower[a] < scene.domain.upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the domain is empty");
   read_pull(table, scene);
+  read_leaves(table, scene);
   scene.domain.background.surface = table.number("background_surface").value_or(0);
   table.finish();
 }
@@ -89,7 +90,7 @@ void check_background(const DomainReader& domain, const Scene& scene) {
   refuse(has_dry_bodies(scene), "is given with total-Lagrangian solids alone",
          "without a fluid nothing presses on them: remove it");
   refuse(scene.domain.central_pull > 0, "is given with central_pull", "gravity alone presses on it");
-  refuse(scene.start.has_surface, "is given, and there is a free surface",
+  refuse(scene.start.has_surface && !scene.domain.openings.any(), "is given, and there is a free surface",
          "nothing bears the background's pressure there: close the box with walls or periods");
   double weight = 0;
   for (std::size_t a = 0; a < 3; ++a) {

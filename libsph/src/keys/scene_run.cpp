@@ -81,9 +81,11 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
   if (scene.has_melt() && !grains && *kind != MonitorKind::melt && *kind != MonitorKind::particle)
     table.fail("kind", "is not of melts", "give \"melt\", or \"particle\" for a cell");
   if (*kind == MonitorKind::budget && !scene.has_exchange() && scene.domain.resets.empty() &&
-      !has_failure(scene))
-    table.fail("kind", "is of what particles exchange, and the scene has no heat, gas flow or diffusion",
-               "give another, group.heat, group.permeability or group.water_diffusivity");
+      !has_failure(scene) && !scene.domain.openings.any())
+    table.fail(
+        "kind",
+        "is of what particles exchange, and the scene has no heat, gas flow, diffusion, inlet or outlet",
+        "give another, group.heat, group.permeability or group.water_diffusivity");
   Monitor monitor;
   table.read(monitor);
   if (!table.has("name")) monitor.name = *table.text("kind");

@@ -84,6 +84,7 @@ std::string to_toml(const Scene& scene) {
   if (scene.domain.central_pull > 0) out.vector("pull_centre", scene.domain.pull_centre);
   if (scene.domain.background.density > 0 && has_eos(scene, EosKind::bubbly))
     out.number("background_surface", scene.domain.background.surface);
+  if (scene.domain.openings.any()) write_leaves(out, scene.domain);
   if (scene.has_matter()) out.table(keys::kernel, scene.kernel);
   if (scene.has_grains()) write_contacts(out, scene);
   if (scene.has_grains_in_flow()) write_drag(out, scene);
@@ -95,6 +96,7 @@ std::string to_toml(const Scene& scene) {
   if (scene.has_grains()) write_walls(out, scene);
   if (scene.has_melt()) write_melt(out, scene.domain.melt);
   for (const Reset& box : scene.domain.resets) out.table(keys::reset, box);
+  write_openings(out, scene.domain);
   write_start(out, scene);
   if (scene.has_matter()) write_terms(out, scene.terms);
   TimeControl time = scene.time;

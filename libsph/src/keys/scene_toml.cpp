@@ -55,6 +55,8 @@ struct Tables {
     (void)top.table<keys::melt_table>().tables<keys::melt_side>();
     (void)top.tables<keys::wall>();
     (void)top.tables<keys::reset>();
+    (void)top.tables<keys::inlet>();
+    (void)top.tables<keys::outlet>();
     for (const auto& stage : top.tables<keys::stage>()) (void)stage.tables<keys::stage_wall>();
   }
 };
@@ -203,6 +205,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   if (scene.has_grains_in_flow()) read_drag(tables.top, tables.drag, scene);
   read_start(tables.start, scene);
   if (scene.has_matter()) read_terms(tables.terms, scene);
+  if (scene.has_matter()) read_openings(tables.top, tables.domain, scene);
   read_time(tables.time, end, scene);
   scene.decomposition = read_decomposition(tables.decomposition, scene);
   scene.output = read_output(tables.top, tables.output, scene);
@@ -216,7 +219,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   check_implicit_viscosity(tables.terms, scene);
   check_still_step(tables.terms, scene);
   if (scene.has_matter()) check_ranges(tables.top, tables.domain, tables.start, tables.terms, scene);
-  scene.start.has_surface = scene.has_matter() && has_free_surface(scene);
+  scene.start.has_surface = scene.has_matter() && (has_free_surface(scene) || scene.domain.openings.any());
   check_background(tables.domain, scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);

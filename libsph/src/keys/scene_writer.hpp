@@ -53,6 +53,9 @@ void write_contacts(SceneWriter& out, const Scene& scene);
 void write_drag(SceneWriter& out, const Scene& scene);
 /// A [[group]] of grains.
 void write_material(SceneWriter& out, const Group& group, const ContactLaw& law);
+/// domain.leaves; [[inlet]] and [[outlet]]
+void write_leaves(SceneWriter& out, const Domain& domain);
+void write_openings(SceneWriter& out, const Domain& domain);
 /// [[wall]] and [[stage]]
 void write_walls(SceneWriter& out, const Scene& scene);
 

@@ -120,6 +120,14 @@ inline constexpr auto melt_profile_words =
     std::to_array<Word>({{"groups", MeltProfile::groups}, {"conductive", MeltProfile::conductive}});
 inline constexpr auto melt_mixture_words =
     std::to_array<Word>({{"groups", MeltMixture::groups}, {"linear", MeltMixture::linear}});
+inline constexpr auto direction_words = std::to_array<Word>({{"+x", Direction::x_up},
+                                                             {"-x", Direction::x_down},
+                                                             {"+y", Direction::y_up},
+                                                             {"-y", Direction::y_down},
+                                                             {"+z", Direction::z_up},
+                                                             {"-z", Direction::z_down}});
+inline constexpr auto inlet_profile_words =
+    std::to_array<Word>({{"uniform", InletProfile::uniform}, {"parabolic", InletProfile::parabolic}});
 inline constexpr auto wall_shape_words =
     std::to_array<Word>({{"plane", WallShape::plane}, {"box", WallShape::box}});
 

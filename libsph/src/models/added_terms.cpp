@@ -32,7 +32,7 @@ double longest_added_drift(double strength, const GlobalState& global) {
 }
 
 struct Drift {
-  static constexpr FieldSet reads{Field::added};
+  static constexpr FieldSet reads{Field::added, Field::buffer};
   static constexpr FieldSet writes{Field::position};
   double strength, h, quantum;
 
@@ -41,7 +41,9 @@ struct Drift {
     const double* sum = p.get<Field::added>();
     std::int64_t* x = p.get<Field::position>();
     const double dt = step.global.dt, most = 2 * strength * step.global.max_speed;
+    const std::uint32_t* buffer = p.get<Field::buffer>();
     for_movers(step.ranges, [&](std::size_t i) {
+      if (buffer != nullptr && buffer[i] != 0) return;
       double square = 0;
       for (std::size_t a = 0; a < d; ++a) square += sum[i * d + a] * sum[i * d + a];
       const double speed = strength * h * std::sqrt(square);

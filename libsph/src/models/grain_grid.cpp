@@ -148,13 +148,13 @@ namespace {
 
 /// Weights of both ends of a way along one axis, over the points that either of them has, and what passes through the lower
 /// face of each: W_to - W_from = -(J_next - J).
-struct Passage {
+struct FacePassage {
   static constexpr std::size_t most = 12;
   std::int64_t first = 0;
   std::size_t points = 0;
   std::array<double, most> from{}, change{}, through{};
 
-  Passage(const KernelLine& a, const KernelLine& b) {
+  FacePassage(const KernelLine& a, const KernelLine& b) {
     first = std::min(a.first, b.first);
     points = static_cast<std::size_t>(std::max(a.first, b.first) - first) + 3;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -173,8 +173,9 @@ struct Passage {
 // Of the two other axes the mean over the way: W W' + (W dW' + dW W') / 2 + dW dW' / 3.
 void GrainGrid::spread_way(const GridKernel& from, const GridKernel& to, double value,
                            const std::array<Deposit*, 3>& through) const {
-  const std::array<Passage, 3> p{Passage(from.centre[0], to.centre[0]), Passage(from.centre[1], to.centre[1]),
-                                 Passage(from.centre[2], to.centre[2])};
+  const std::array<FacePassage, 3> p{FacePassage(from.centre[0], to.centre[0]),
+                                     FacePassage(from.centre[1], to.centre[1]),
+                                     FacePassage(from.centre[2], to.centre[2])};
   for (std::size_t a = 0; a < 3; ++a) {
     const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
     for (std::size_t j = 0; j < p[b].points; ++j)

@@ -34,7 +34,8 @@ struct Drift {
 
 struct Kick {
   static constexpr FieldSet reads =
-      BodyForces::reads | FaultView::reads | FieldSet{Field::force, Field::mass, Field::smoothing_length};
+      BodyForces::reads | FaultView::reads |
+      FieldSet{Field::force, Field::mass, Field::smoothing_length, Field::buffer};
   static constexpr FieldSet writes{Field::velocity};
   const SphConstants* constants;
   const BodyForces* body_forces;
@@ -47,10 +48,12 @@ struct Kick {
     const double* force = p.get<Field::force>();
     const double* mass = p.get<Field::mass>();
     const double* h = p.get<Field::smoothing_length>();
+    const std::uint32_t* buffer = p.get<Field::buffer>();
     double speed2 = 0, acceleration2 = 0;
     const auto* group = p.get<Field::group>();
     for_movers(step.ranges, [&](std::size_t i) {
       if (rigid && is_rigid(constants->scene->groups[group[i]])) return;
+      if (buffer != nullptr && buffer[i] != 0) return;  // led by openings
       const double inverse_mass = 1 / mass[i];
       const Double3 body = (*body_forces)(p, i);
       double v2 = 0, a2 = 0;

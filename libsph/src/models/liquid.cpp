@@ -34,8 +34,9 @@ double filling(const GlobalState& global) {
 }
 
 struct Densities {
-  static constexpr FieldSet reads = Materials::reads | RangeView::reads |
-                                    FieldSet{Field::diffusion, Field::divergence, Field::velocity_gradient};
+  static constexpr FieldSet reads =
+      Materials::reads | RangeView::reads |
+      FieldSet{Field::diffusion, Field::divergence, Field::velocity_gradient, Field::buffer};
   static constexpr FieldSet writes = Materials::writes | FieldSet{Field::density, Field::stress};
   const SphConstants* constants;
   const Materials* materials;
@@ -58,10 +59,11 @@ struct Densities {
     const double* gradient = p.get<Field::velocity_gradient>();
     double* stress = p.get<Field::stress>();
     const auto* group = p.get<Field::group>();
+    const std::uint32_t* buffer = p.get<Field::buffer>();
     const std::size_t d = static_cast<std::size_t>(p.dim()), components_of_stress = d * (d + 1) / 2;
     for (std::size_t i = first; i < last; ++i) {
       const Group& g = scene->groups[group[i]];
-      if (is_body(g)) continue;
+      if (is_body(g) || (buffer != nullptr && buffer[i] != 0)) continue;
       double div = 0;
       if (divergence != nullptr) {
         div = divergence[i];

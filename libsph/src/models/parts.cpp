@@ -14,6 +14,7 @@ Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
     physics.emplace(sets.size(), scene, scale);
     sph_pairs.emplace(sets.size(), *physics);
     sets.push_back({physics->built().fields(), stays});
+    if (physics->models().openings) models.push_back(&*physics->models().openings);
     // How fast bodies start is looked at once they have one motion.
     if (physics->models().rigid) models.push_back(&*physics->models().rigid);
     models.push_back(&*physics);

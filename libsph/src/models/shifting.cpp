@@ -190,8 +190,9 @@ void Shifting::shift(const View<reads, writes>& p, const Step& step) const {
   for (double g : constants_->scene->domain.gravity) pull += g * g;
   const double rest = at_rest * at_rest * constants_->scene->kernel.smoothing_length * std::sqrt(pull);
   const auto* group = p.get<Field::group>();
+  const std::uint32_t* buffer = p.get<Field::buffer>();
   for_movers(step.ranges, [&](std::size_t i) {
-    if (is_body(constants_->scene->groups[group[i]])) return;
+    if (is_body(constants_->scene->groups[group[i]]) || (buffer != nullptr && buffer[i] != 0)) return;
     const double reach = speed_of(p, i, step.global, rest) * step.global.dt;
     if (!(reach > 0)) return;
     const double scale = -2 * constants_->scene->kernel.smoothing_length * reach;

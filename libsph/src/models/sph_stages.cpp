@@ -21,7 +21,7 @@ void add_exchanges(Builder& b, const SphModels& m) {
   if (m.heat) m.heat->add_to(b);
 }
 
-void add_liquids_and_solids(Builder& b, const SphModels& m) {
+void add_liquids_and_solids(Builder& b, SphModels& m) {
   const Scene& s = b.scene();
   const bool walls = s.has_kind(GroupKind::wall), fluid = s.has_kind(GroupKind::fluid);
   // Grains in the fluid and exchanges want to know of walls at once, others after the forces.
@@ -33,6 +33,7 @@ void add_liquids_and_solids(Builder& b, const SphModels& m) {
   if (wall_share && early) add_wall_share(b);
   add_kinematics(b);
   if (has_strength(s.groups)) add_strength(b);
+  if (m.openings) m.openings->add_to(b);
   if (exchange) add_wall_slopes(b);
   if (has_viscosity_law(s)) add_viscosities(b);
   add_exchanges(b, m);
@@ -54,7 +55,7 @@ void add_liquids_and_solids(Builder& b, const SphModels& m) {
   add_implicit_viscosity(b);
 }
 
-void add_end_of_step(Builder& b, const SphModels& m) {
+void add_end_of_step(Builder& b, SphModels& m) {
   const Scene& s = b.scene();
   add_kick(b);
   if (m.shifting) m.shifting->add_to(b);
@@ -64,13 +65,14 @@ void add_end_of_step(Builder& b, const SphModels& m) {
   if (has_failure(s)) add_failure(b);
   if (has_transitions(s)) add_transitions(b);
   if (!s.domain.resets.empty()) add_resets(b);
+  if (m.openings) m.openings->add_end_to(b);
   if (m.shifting) m.shifting->add_motion_to(b);
   if (has_eos(b.scene(), EosKind::ideal_gas)) add_heat(b);
   if (std::ranges::any_of(s.groups, stiffens)) add_sound(b);
   if (s.output.average_time > 0) add_averages(b);
 }
 
-void add_motion(Builder& b, const SphModels& m) {
+void add_motion(Builder& b, SphModels& m) {
   add_drift(b);
   if (m.rigid) m.rigid->add_to(b);
   if (b.scene().terms.formulation == Formulation::ida)
@@ -106,6 +108,7 @@ SphModels::SphModels(std::size_t set, const Builder& b) {
   if (s.has_water_diffusion()) water.emplace(set, b.constants(), b.materials());
   if (s.has_heat()) heat.emplace(set, b.constants());
   if (has_rigid_bodies(s) && s.terms.exchange.motion) rigid.emplace(set, b.constants(), b.body_forces());
+  if (s.domain.openings.any()) openings.emplace(set, b.constants(), b.materials());
 }
 
 std::vector<Model*> SphModels::all() {
@@ -117,7 +120,7 @@ std::vector<Model*> SphModels::all() {
   return out;
 }
 
-void add_stages(Builder& b, const SphModels& models) {
+void add_stages(Builder& b, SphModels& models) {
   if (b.scene().terms.exchange.motion)
     add_motion(b, models);
   else

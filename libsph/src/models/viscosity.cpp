@@ -20,8 +20,8 @@ constexpr int most_iterations = 2000;
 
 class ViscositySolver final : public Solver {
  public:
-  static constexpr FieldSet reads =
-      BodyForces::reads | FieldSet{Field::velocity, Field::mass, Field::group, Field::viscous_sums};
+  static constexpr FieldSet reads = BodyForces::reads | FieldSet{Field::velocity, Field::mass, Field::group,
+                                                                 Field::viscous_sums, Field::buffer};
   static constexpr FieldSet writes{Field::direction, Field::force};
 
   ViscositySolver(const Scene& scene, const BodyForces& body_forces)
@@ -67,7 +67,9 @@ std::span<decomp::ExactSum> ViscositySolver::products(const StepState& s) {
   const double* direction = p.get<Field::direction>();
   const double* viscous = p.get<Field::viscous_sums>();
   const double* mass = p.get<Field::mass>();
+  const std::uint32_t* buffer = p.get<Field::buffer>();
   return changes_.multiply(s.ranges, direction, [&](std::size_t i, std::size_t k) {
+    if (buffer != nullptr && buffer[i] != 0) return 0.0;
     return mass[i] * direction[k] - dt * viscous[i * (d + 1) + (k - i * d)];
   });
 }
@@ -100,7 +102,13 @@ void ViscositySolver::set_out(const View<reads, writes>& p, const Step& step) {
   const double* viscous = p.get<Field::viscous_sums>();
   const double* force = p.get<Field::force>();
   const double* mass = p.get<Field::mass>();
+  const std::uint32_t* buffer = p.get<Field::buffer>();
   for_movers(step.ranges, [&](std::size_t i) {
+    if (buffer != nullptr && buffer[i] != 0) {  // led by openings: its velocity stays
+      std::fill_n(&changes_.residual(i * d), d, 0.0);
+      changes_.diagonal(i) = 1;
+      return;
+    }
     const Double3 body = (*body_forces_)(p, i);
     double driving = 0, dragging = 0;
     const double diagonal = mass[i] + dt * viscous[i * (d + 1) + d];

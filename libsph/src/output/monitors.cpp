@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "output/budget.hpp"
+#include "core/budget.hpp"
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
 #include "sph/models/energies.hpp"
@@ -22,6 +22,39 @@ std::vector<Energy> energies_of(const State& s) {
       if (std::ranges::find(out, e) == out.end()) out.push_back(e);
   std::ranges::sort(out);
   return out;
+}
+
+/// Led by an inlet: not yet in.
+bool is_led(const Scene& scene, const Particles& p, std::size_t row) {
+  const std::uint32_t* buffer = p.data<Field::buffer>();
+  return buffer != nullptr && buffer[row] != 0 && buffer[row] <= scene.domain.openings.inlets.size();
+}
+
+/// Names of what a budget counts, and of what of it has passed openings.
+std::vector<std::string> budget_names(const State& s) {
+  std::vector<std::string> out = Budget::names(s.particles());
+  if (!s.scene().domain.openings.any()) return out;
+  const std::size_t own = out.size();
+  for (std::size_t k = 1; k < own; ++k) out.push_back(out[k] + "_through");
+  out.insert(out.end(), {"mass_in", "mass_out", "n_in", "n_out"});
+  return out;
+}
+
+/// What has come in so far, less what has left; mass and numbers apart.
+void append_passages(const State& s, std::vector<double>& to) {
+  if (!s.scene().domain.openings.any()) return;
+  const std::size_t inlets = s.scene().domain.openings.inlets.size(),
+                    own = Budget::names(s.particles()).size();
+  std::array<Passage, 2> all;
+  const std::vector<Passage>& passages = s.global().throughput.passages;
+  for (std::size_t k = 0; k < passages.size(); ++k) {
+    Passage& sum = all[k < inlets ? 0 : 1];
+    sum.count += passages[k].count;
+    for (std::size_t q = 0; q < own; ++q) sum.amounts[q] += passages[k].amounts[q];
+  }
+  for (std::size_t q = 1; q < own; ++q) to.push_back(all[0].amounts[q] - all[1].amounts[q]);
+  to.insert(to.end(), {all[0].amounts[0], all[1].amounts[0], static_cast<double>(all[0].count),
+                       static_cast<double>(all[1].count)});
 }
 
 std::size_t sums_of(const Monitor& monitor, const State& s) {
@@ -61,8 +94,13 @@ void add_row(const Scene& scene, const Monitor& monitor, const ParticleValues& o
   const Group& group = scene.groups[of.group(row)];
   if (is_held(group)) return;
   if (monitor.kind == MonitorKind::budget) {
+    const std::vector<std::string> names =
+        is_led(scene, of.particles(), row) ? Budget::names(of.particles()) : std::vector<std::string>{};
     std::size_t k = 0;
-    Budget::visit(of.particles(), row, [&](double amount) { sums[k++].add(amount); });
+    Budget::visit(of.particles(), row, [&](double amount) {
+      if (names.empty() || Budget::is_inflow(names[k])) sums[k].add(amount);
+      ++k;
+    });
   } else if (monitor.kind == MonitorKind::contacts) {
     if (group.kind == GroupKind::grain) sums[2].add(1);
   } else if (monitor.kind == MonitorKind::momentum) {
@@ -134,12 +172,12 @@ std::vector<double> values_of_body(const Simulation& s, int group) {
   return out;
 }
 
-/// The values of the chosen particles, one after the other. Bits travel unchanged: all but the owner have
-/// zeros.
+/// The values of the chosen particles, one after the other; nan of one that is gone. Bits travel unchanged: all
+/// but the owner have zeros.
 std::vector<double> values_of(const Simulation& s, const ParticleValues& of,
                               const std::vector<std::uint64_t>& ids) {
   const std::size_t n = ParticleValues::count(s.particles());
-  std::vector<std::uint64_t> bits(n * ids.size(), 0);
+  std::vector<std::uint64_t> bits((n + 1) * ids.size(), 0);
   std::vector<double> value(n);
   const std::uint64_t* id = s.particles().data<Field::id>();
   for (std::size_t row = 0; row < s.particles().owned(); ++row)
@@ -147,10 +185,13 @@ std::vector<double> values_of(const Simulation& s, const ParticleValues& of,
       if (id[row] != ids[k]) continue;
       of.all(row, value);
       for (std::size_t c = 0; c < n; ++c) bits[k * n + c] = std::bit_cast<std::uint64_t>(value[c]);
+      bits[n * ids.size() + k] = 1;
     }
   if (!bits.empty()) s.comm().bit_xor(bits);
   std::vector<double> out;
-  for (std::uint64_t b : bits) out.push_back(std::bit_cast<double>(b));
+  for (std::size_t c = 0; c < n * ids.size(); ++c)
+    out.push_back(bits[n * ids.size() + c / n] == 1 ? std::bit_cast<double>(bits[c])
+                                                    : std::numeric_limits<double>::quiet_NaN());
   return out;
 }
 
@@ -193,7 +234,7 @@ void Monitors::make_names(const Simulation& s) {
       quantities = {"px", "py", "pz"};
       quantities.resize(static_cast<std::size_t>(s.scene().dim));
     }
-    if (m.kind == MonitorKind::budget) quantities = Budget::names(s.particles());
+    if (m.kind == MonitorKind::budget) quantities = budget_names(s);
     if (m.kind == MonitorKind::melt) quantities = s.melt()->columns();
     for (const std::string& quantity : quantities) names_.push_back(m.name + "_" + quantity);
   }
@@ -254,8 +295,11 @@ std::vector<double> Monitors::values(Simulation& s) const {
         break;
       case MonitorKind::energy:
       case MonitorKind::momentum:
+        out.insert(out.end(), sum.begin(), sum.end());
+        break;
       case MonitorKind::budget:
         out.insert(out.end(), sum.begin(), sum.end());
+        append_passages(s, out);
     }
   }
   return out;

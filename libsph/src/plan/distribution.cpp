@@ -82,6 +82,8 @@ Findings Distribution::outside(const Particles& particles) const {
     decomp::Int3 p{};
     for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
     if (grid_.inside(p)) continue;
+    const Group& group = scene_.groups[particles.data<Field::group>()[i]];
+    if (is_deleted(scene_, scale_, group, p.data())) continue;
     const std::uint64_t id = particles.data<Field::id>()[i];
     found.add(id, [&] {
       std::vector<double> at;
@@ -89,7 +91,7 @@ Findings Distribution::outside(const Particles& particles) const {
       return "particle " + std::to_string(id) + " is outside the domain " + place_text(at) +
              (particles.has(Field::radius)
                   ? ": give a [[wall]] there, or enlarge domain.lower or domain.upper"
-                  : ": enlarge domain.lower or domain.upper");
+                  : ": enlarge domain.lower or domain.upper, or see domain.leaves");
     });
   }
   return found;

@@ -1,5 +1,6 @@
 #include "run/cost.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -160,6 +161,21 @@ EventCounts events_of(const Simulation& s) {
   return e;
 }
 
+std::vector<OpeningCount> openings_of(const Simulation& s) {
+  const std::size_t inlets = s.scene().domain.openings.inlets.size(),
+                    outlets = s.scene().domain.openings.outlets.size();
+  std::vector<OpeningCount> out;
+  const std::vector<Passage>& passages = s.global().throughput.passages;
+  for (std::size_t k = 0; k < passages.size(); ++k) {
+    if (k == inlets + outlets && passages[k].count == 0) continue;
+    out.push_back({k < inlets             ? fmt::format("inlet {} brought", k + 1)
+                   : k < inlets + outlets ? fmt::format("outlet {} took", k + 1 - inlets)
+                                          : "through the faces left",
+                   passages[k].count, passages[k].amounts[0]});
+  }
+  return out;
+}
+
 }  // namespace
 
 Performance performance_of(Simulation& s) {
@@ -177,6 +193,7 @@ Performance performance_of(Simulation& s) {
   p.balance = s.distribution().balance();
   p.regions = s.timers().summary(s.comm());
   p.layout = layout_of(s);
+  p.openings = openings_of(s);
   return p;
 }
 

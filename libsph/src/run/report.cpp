@@ -82,6 +82,8 @@ std::string final_table(const Performance& p) {
                    static_cast<double>(p.events.iterations) / static_cast<double>(p.loop.steps));
   fmt::format_to(to, "list rebuilds {}  migrated {}  halo refreshes {}\n", p.events.rebuilds,
                  p.events.migrated, p.events.refreshes);
+  for (const OpeningCount& opening : p.openings)
+    fmt::format_to(to, "{} {} particles, {:.6g} kg\n", opening.name, opening.count, opening.mass);
   if (p.balance.calls > 0)
     fmt::format_to(
         to, "balance asked {} times, cuts moved {} times, {:.3f} s of deciding, {:.3f} of migrating; {}\n",

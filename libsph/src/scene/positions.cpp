@@ -45,4 +45,18 @@ Wrap wrap_of(const Scene& scene, const PositionScale& scale) {
   return wrap;
 }
 
+bool is_deleted(const Scene& scene, const PositionScale& scale, const Group& group,
+                const std::int64_t* position) {
+  if (!is_matter(group) || is_bonded(group)) return false;
+  bool outside = false;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    if (scene.domain.periodic[a]) continue;
+    const bool below = position[a] < scale.origin[a];
+    if (!below && position[a] < scale.quanta(scene.domain.upper[a])) continue;
+    if (!scene.domain.openings.deletes[2 * a + (below ? 0 : 1)]) return false;
+    outside = true;
+  }
+  return outside;
+}
+
 }  // namespace sph

@@ -110,4 +110,22 @@ int Scene::group_index(const std::string& group_name) const {
   return -1;
 }
 
+bool OpeningControl::any() const {
+  return !inlets.empty() || !outlets.empty() || std::ranges::find(deletes, true) != deletes.end();
+}
+bool OpeningControl::lead() const {
+  return !inlets.empty() ||
+         std::ranges::any_of(outlets, [](const Outlet& outlet) { return !outlet.pressure.empty(); });
+}
+
+double value_at(const TimeCurve& curve, double time) {
+  std::size_t k = 0;
+  while (k < curve.size() && curve[k][0] <= time) ++k;
+  if (k == 0) return curve.front()[1];
+  if (k == curve.size()) return curve.back()[1];
+  const auto& [t0, a] = curve[k - 1];
+  const auto& [t1, b] = curve[k];
+  return a + (b - a) * ((time - t0) / (t1 - t0));
+}
+
 }  // namespace sph

@@ -75,7 +75,9 @@ void Simulation::rebuild() {
     try {
       distribution_.rebuild(
           sets, timers_.take_cost(),
-          [&](std::size_t set) { return pairs_of_rows(parts_, sets_[set], set, rebuilds_ > 0); },
+          [&](std::size_t set) {
+            return pairs_of_rows(parts_, sets_[set], set, rebuilds_ > 0 && !rows_changed_);
+          },
           age_.longest(), least_skin, carried);
     } catch (const GuardError& error) {
       throw GuardError(step_text(global_.step) + error.what());
@@ -93,6 +95,7 @@ void Simulation::rebuild() {
   }
   age_.renew();
   ++rebuilds_;
+  rows_changed_ = false;
 }
 
 ListSetting Simulation::list_setting(const SetPair& pair) {
@@ -149,6 +152,13 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   take_maxima(parts_.reduction, global_);
   global_.dt = parts_.longest_step();
   for (const Model* m : parts_.models) m->guard_step(parts_.reduction, global_);
+  // Where particles come or go lists are made at once: no file or monitor sees others.
+  for (Model* m : parts_.models)
+    if (m->turns_over(parts_.reduction)) {
+      age_.add(m->set(), m->turn_over(comm_, sets_[m->set()], global_));
+      rows_changed_ = true;
+    }
+  if (rows_changed_) rebuild();
   stale_ = age_.look(parts_.reduction, timers_);
   return static_cast<std::int64_t>(parts_.reduction[Reduction::request]);
 }

@@ -112,6 +112,7 @@ enum class Field : std::uint8_t {
   plastic_strain,
   plastic_work,
   arm,
+  buffer,
   count_
 };
 inline constexpr int field_count = static_cast<int>(Field::count_);

@@ -277,6 +277,10 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "of a solid with strength: elastic energy that yielding took since the start"},
     {Field::arm, "arm", "m", Type::f64, Shape::vector, true, false,
      "of a rigid body: from its centre of mass at the start"},
+    {Field::buffer, "buffer", "1", Type::u32, Shape::scalar, true, true,
+     "of the fluid in the box of an inlet the inlet's number, from 1; of that of an outlet with a pressure "
+     "the "
+     "outlet's, after those; 0: flows freely"},
 }};
 
 [[nodiscard]] constexpr const FieldInfo& info(Field f) { return field_table[static_cast<std::size_t>(f)]; }

@@ -9,6 +9,7 @@
 #include "decomp/comm.hpp"
 #include "sph/core/particles.hpp"
 #include "sph/models/energies.hpp"
+#include "sph/plan/particle_set.hpp"
 #include "sph/plan/plan.hpp"
 #include "sph/plan/reduction.hpp"
 
@@ -48,6 +49,12 @@ class Model {
   [[nodiscard]] virtual double longest_step(const Reduction&) const { return any_step; }
   /// Throws GuardError where that cannot be stable.
   virtual void guard_step(const Reduction&, const GlobalState&) const {}
+
+  /// After that particles come or go: by the reduction, on all ranks alike.
+  [[nodiscard]] virtual bool turns_over(const Reduction&) const { return false; }
+  /// Takes out the rows of those that are gone, adds those of the new ones, and says so in the census; new lists are
+  /// made at once. Returns how far from the place of its row a new particle may be [m]. Collective.
+  [[nodiscard]] virtual double turn_over(const decomp::Comm&, ParticleSet&, GlobalState&) { return 0; }
 
   /// Bound on any particle's path in the step at hand beyond what its stages declare, where none was faster
   /// than `speed` [m].

@@ -12,7 +12,8 @@ namespace sph {
 
 class Shifting final : public Model {
  public:
-  static constexpr FieldSet reads = BodyForces::reads | FieldSet{Field::id, Field::group, Field::sound_speed};
+  static constexpr FieldSet reads =
+      BodyForces::reads | FieldSet{Field::id, Field::group, Field::sound_speed, Field::buffer};
   static constexpr FieldSet writes{Field::position};
   /// What the sums of all particles need.
   using Motion = View<FieldSet{Field::velocity, Field::group, Field::mass, Field::density}, FieldSet{}>;

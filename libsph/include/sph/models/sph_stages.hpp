@@ -10,6 +10,7 @@
 #include "sph/models/heat.hpp"
 #include "sph/models/model.hpp"
 #include "sph/models/rigid_bodies.hpp"
+#include "sph/models/openings.hpp"
 #include "sph/models/shifting.hpp"
 #include "sph/models/water.hpp"
 
@@ -25,8 +26,9 @@ struct SphModels {
   std::optional<Water> water;
   std::optional<Heat> heat;
   std::optional<RigidBodies> rigid;
+  std::optional<Openings> openings;  ///< that begins before all others
 };
 
-void add_stages(Builder& builder, const SphModels& models);
+void add_stages(Builder& builder, SphModels& models);
 
 }  // namespace sph

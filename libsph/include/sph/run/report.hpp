@@ -67,6 +67,13 @@ struct EventCounts {
   std::int64_t rebuilds = 0, migrated = 0, refreshes = 0, iterations = 0;
 };
 
+/// What an inlet brought, an outlet or the faces took.
+struct OpeningCount {
+  std::string name;        ///< "inlet 1 brought"
+  std::int64_t count = 0;  ///< particles
+  double mass = 0;         ///< [kg]
+};
+
 /// Numbers of a finished (or stopped) run. Counters are sums over ranks unless said otherwise.
 struct Performance {
   RunLabel label;
@@ -76,6 +83,7 @@ struct Performance {
   EventCounts events;
   decomp::BalanceAccount balance;
   CellLayout layout;
+  std::vector<OpeningCount> openings;
   std::vector<decomp::Timers::Row> regions;
 };
 [[nodiscard]] std::string final_table(const Performance& performance);

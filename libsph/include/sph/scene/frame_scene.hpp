@@ -8,6 +8,7 @@
 
 #include "sph/scene/grain_scene.hpp"
 #include "sph/scene/melt_scene.hpp"
+#include "sph/scene/opening_scene.hpp"
 #include "sph/scene/reset_scene.hpp"
 
 namespace sph {
@@ -29,7 +30,8 @@ struct Domain {
   double surface_pressure = 0;  ///< added to the pressure of every equation of state [Pa]
   Background background;
   std::vector<Reset> resets;  ///< in their order
-  MeltControl melt;           ///< that fills it
+  OpeningControl openings;
+  MeltControl melt;  ///< that fills it
   friend bool operator==(const Domain&, const Domain&) = default;
 };
 

@@ -15,6 +15,10 @@ namespace sph {
 /// Extent of the domain in quanta, along a period what is wrapped.
 [[nodiscard]] std::array<std::int64_t, 3> domain_length(const Scene& scene, const PositionScale& scale);
 [[nodiscard]] Wrap wrap_of(const Scene& scene, const PositionScale& scale);
+/// Matter of this group is outside the domain, through faces that delete it alone (domain.leaves). Bodies cannot lose a
+/// part so.
+[[nodiscard]] bool is_deleted(const Scene& scene, const PositionScale& scale, const Group& group,
+                              const std::int64_t* position);
 /// Rows of single precision hold positions without so many low bits.
 [[nodiscard]] int row_position_shift(const Scene& scene, const PositionScale& scale);
 

@@ -56,6 +56,7 @@ class Simulation : public State {
   decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
   bool stale_ = true;        ///< lists must be made anew before they are looked at
   std::int64_t rebuilds_ = 0;
+  bool rows_changed_ = false;  ///< lists are not of the rows that there are
 };
 
 }  // namespace sph

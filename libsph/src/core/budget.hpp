@@ -20,6 +20,10 @@ struct Budget {
     if (p.has(Field::released_energy)) out.emplace_back("released");
     return out;
   }
+  /// Counts what has come from outside.
+  [[nodiscard]] static bool is_inflow(const std::string& name) {
+    return name == "heat_in" || name == "gas_in" || name == "released";
+  }
   /// Of one particle that is no wall [kg, J, J, kg, kg, J].
   template <class Add>
   static void visit(const Particles& p, std::size_t row, Add&& add) {

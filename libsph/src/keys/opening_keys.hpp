@@ -1,0 +1,67 @@
+// Keys of [[inlet]] and [[outlet]].
+#pragma once
+
+#include "keys/conditions.hpp"
+
+namespace sph::keys {
+
+inline constexpr Special curve_of_time{
+    "a value, or an array of times and values", R"([["0 s", 1.0], ["2 s", 3.0]])",
+    R"({"type": ["number", "string", "array"], "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["number", "string"]}}})"};
+
+inline constexpr auto inlet_keys = std::to_array<Key>({
+    {"lower", Vector{dimension::length}, "A corner of the box: lower <= x < upper.", at<&Inlet::lower>,
+     required},
+    {"upper", Vector{dimension::length},
+     "Its other corner. Along the direction it is a whole number of spacings long, at least as far as the "
+     "kernel "
+     "reaches.",
+     at<&Inlet::upper>, required},
+    {"direction", Words{direction_words}, "Where it flows.", at<&Inlet::direction>, required},
+    {"group", NameOf{"group"}, "The fluid that comes in, with which the start fills the box.",
+     index_at<&Inlet::group>, required},
+    {"velocity", curve_of_time,
+     "Mean over the box [m/s], 0 or more, straight between times; the pressure is then that of what is "
+     "beside.",
+     Default{"required, or pressure"}},
+    {"pressure", curve_of_time,
+     "At the middle of the box [Pa], above that of the surface; what is beside then says how fast it flows "
+     "in.",
+     Default{"from what is beside"}},
+    {"profile", Words{inlet_profile_words},
+     "Of the velocity across the box: \"parabolic\" is 0 at faces that are no period, 3/2 of the mean "
+     "between two.",
+     at<&Inlet::profile>},
+    {"temperature", Number{dimension::temperature, not_negative}, "Of what comes in, where there is heat.",
+     at<&Inlet::temperature>, Default{"that of the group"}},
+    {"gas_content",
+     Number{dimension::none,
+            {.least = 0, .most = 1, .below_most = true, .is = "it is a mass per mass of liquid,"}},
+     "m of bubbly fluid that comes in.", at<&Inlet::gas_content>, Default{"that of the group"}},
+});
+inline constexpr Table<Inlet> inlet{{"inlet", true,
+                                     "A box full of fluid that flows in through the end of the box. Each "
+                                     "particle that does is followed by a new one "
+                                     "at its beginning. Behind the box is nothing, or a wall.",
+                                     inlet_keys}};
+
+inline constexpr auto outlet_keys = std::to_array<Key>({
+    {"lower", Vector{dimension::length}, "A corner of the box: lower <= x < upper.", at<&Outlet::lower>,
+     required},
+    {"upper", Vector{dimension::length}, "Its other corner.", at<&Outlet::upper>, required},
+    {"pressure", curve_of_time,
+     "At the middle of the box [Pa], above that of the surface: fluid in the box is led on to its end, and "
+     "takes sound "
+     "out.",
+     Default{"none: what is in the box after a step is deleted"}},
+    {"direction", Words{direction_words}, "With a pressure: where it flows.", at<&Outlet::direction>,
+     Default{"required with a pressure"}},
+    {"settle_time", Number{dimension::time, positive},
+     "In so long the pressure comes back to what is given. Waves that are slow against it are thrown back.",
+     at<&Outlet::settle_time>, Default{"1000 h over the fastest sound of a fluid"}},
+});
+inline constexpr Table<Outlet> outlet{
+    {"outlet", true, "A box in which fluids and updated solids are deleted; budgets count them.",
+     outlet_keys}};
+
+}  // namespace sph::keys

@@ -1,0 +1,187 @@
+// [[inlet]], [[outlet]] and domain.leaves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "keys/scene_resolve.hpp"
+#include "keys/scene_writer.hpp"
+
+namespace sph {
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+constexpr double settles_in = 1000;  // h / c: a pulse of 40 h leaves all but 4 %
+
+std::string face_name(std::size_t face) { return fmt::format("{}{}", axis_names[face / 2], face % 2); }
+
+/// A value, or times and values.
+TimeCurve read_curve(const std::optional<KeyValue>& value, Dimension dim) {
+  if (!value) return {};
+  const toml_tree::Array* points = value->node().array();
+  if (points == nullptr) return {{0, value->number_in(value->node(), dim)}};
+  TimeCurve out;
+  for (const toml_tree::Node& point : *points) {
+    const toml_tree::Array* pair = point.array();
+    if (pair == nullptr || pair->size() != 2)
+      value->fail("has a point that is no pair", "give [[time, value], ...]");
+    out.push_back({value->number_in((*pair)[0], dimension::time), value->number_in((*pair)[1], dim)});
+    if (out.size() > 1 && !(out[out.size() - 2][0] < out.back()[0]))
+      value->fail(fmt::format("goes from {} s to {} s", out[out.size() - 2][0], out.back()[0]),
+                  "times must ascend");
+  }
+  if (out.empty()) value->fail("is an empty array", "give [[time, value], ...]");
+  return out;
+}
+
+/// Of a box whose fluid is led along its direction.
+template <class Table, class Box>
+void check_box(const Table& table, const Box& box, const Scene& scene, bool led) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    if (!(box.lower[a] < box.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+    if (led && !scene.domain.periodic[a] &&
+        (box.lower[a] < scene.domain.lower[a] || box.upper[a] > scene.domain.upper[a]))
+      table.fail("lower", fmt::format("the box lies outside the domain in {}", axis_names[a]),
+                 "enlarge domain.lower or domain.upper");
+  }
+  if (!led) return;
+  const std::size_t a = axis_of(box.direction);
+  if (a >= static_cast<std::size_t>(scene.dim))
+    table.fail("direction", "is along z in a scene of two dimensions", "give one along x or y");
+  if (scene.domain.periodic[a])
+    table.fail("direction", fmt::format("is along the period in {}", axis_names[a]),
+               "what flows in or out needs an axis without period");
+  const double length = box.upper[a] - box.lower[a];
+  if (length < scene.kernel_radius() * (1 - 1e-9))
+    table.fail("upper", fmt::format("makes the box {:.6g} m long in {}", length, axis_names[a]),
+               fmt::format("the kernel reaches {:.6g} m: it must be as long", scene.kernel_radius()));
+}
+
+Inlet read_inlet(const Reader<keys::inlet>& table, const Scene& scene) {
+  Inlet inlet;
+  table.read(inlet);
+  check_box(table, inlet, scene, true);
+  const std::size_t a = axis_of(inlet.direction);
+  const double layers = (inlet.upper[a] - inlet.lower[a]) / scene.start.spacing;
+  if (std::fabs(layers - std::round(layers)) > 1e-6 * layers)
+    table.fail("upper", fmt::format("makes the box {:.6g} spacings long in {}", layers, axis_names[a]),
+               "it must be a whole number of them, so that layers follow on layers");
+  if (scene.start.lattice.kind != LatticeKind::square)
+    table.fail("lower", "is of a box that is no square lattice", "set start.lattice = \"square\"");
+  table.not_both("velocity", "pressure");
+  inlet.velocity = read_curve(table.value("velocity"), dimension::speed);
+  inlet.pressure = read_curve(table.value("pressure"), dimension::pressure);
+  if (inlet.velocity.empty() && inlet.pressure.empty())
+    table.fail_missing("velocity", "give it, or pressure");
+  for (const auto& [t, v] : inlet.velocity)
+    if (!(v >= 0))
+      table.fail("velocity", fmt::format("is {} m/s", v), "it must be 0 or more: turn the direction round");
+  const Group& g = scene.groups[static_cast<std::size_t>(inlet.group)];
+  if (g.kind != GroupKind::fluid)
+    table.fail("group", fmt::format("\"{}\" is no fluid", g.name), "name a group with kind = \"fluid\"");
+  table.only_if(scene.has_heat() && g.heat.temperature.has_value(), "temperature",
+                "there is no heat: give group.heat");
+  table.only_if(g.eos.law->kind == EosKind::bubbly, "gas_content",
+                "the group has no gas: set eos = \"bubbly\"");
+  if (inlet.gas_content) {
+    Group with = g;
+    with.bubbly.gas_content = *inlet.gas_content;
+    try {
+      with.eos.law->check(with);
+    } catch (const InputError& error) {
+      table.fail("gas_content", fmt::format("is too much for \"{}\"", g.name), error.what());
+    }
+  }
+  table.finish();
+  return inlet;
+}
+
+Outlet read_outlet(const Reader<keys::outlet>& table, const Scene& scene) {
+  Outlet outlet;
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::fluid)
+      outlet.settle_time = std::fmax(outlet.settle_time, settles_in * scene.kernel.smoothing_length /
+                                                             std::sqrt(g.eos.bulk_modulus / g.density));
+  table.read(outlet);
+  outlet.pressure = read_curve(table.value("pressure"), dimension::pressure);
+  const bool led = !outlet.pressure.empty();
+  if (led) table.require("direction");
+  check_box(table, outlet, scene, led);
+  table.finish();
+  return outlet;
+}
+
+}  // namespace
+
+void read_leaves(const DomainReader& table, Scene& scene) {
+  const std::optional<KeyValue> value = table.value("leaves");
+  if (!value) return;
+  const auto axes = static_cast<std::size_t>(scene.dim);
+  const toml_tree::Array* faces = value->node().array();
+  if (faces == nullptr) {
+    const std::string word = value->text();
+    if (word != "stop" && word != "delete") value->fail_word(word, {"stop", "delete"});
+    for (std::size_t face = 0; face < 2 * axes; ++face)
+      scene.domain.openings.deletes[face] = word == "delete" && !scene.domain.periodic[face / 2];
+    return;
+  }
+  std::vector<std::string> names;
+  for (std::size_t face = 0; face < 2 * axes; ++face)
+    if (!scene.domain.periodic[face / 2]) names.push_back(face_name(face));
+  for (const toml_tree::Node& n : *faces) {
+    const auto* name = std::get_if<std::string>(&n.value);
+    if (name == nullptr || std::ranges::find(names, *name) == names.end())
+      value->fail(name == nullptr ? "holds what is no name" : fmt::format("names \"{}\"", shown(*name)),
+                  fmt::format("its faces, on axes without period: {}", fmt::join(names, ", ")));
+    for (std::size_t face = 0; face < 2 * axes; ++face)
+      if (*name == face_name(face)) scene.domain.openings.deletes[face] = true;
+  }
+}
+
+void read_openings(const TopReader& top, const DomainReader& domain, Scene& scene) {
+  for (const auto& table : top.tables<keys::inlet>())
+    scene.domain.openings.inlets.push_back(read_inlet(table, scene));
+  for (const auto& table : top.tables<keys::outlet>())
+    scene.domain.openings.outlets.push_back(read_outlet(table, scene));
+  if (!scene.domain.openings.any()) return;
+  const auto refuse = [&](bool where, std::string_view what) {
+    if (!where) return;
+    const std::string why = fmt::format("is of liquids and bubbly fluids that move, {}", what);
+    if (!scene.domain.openings.inlets.empty()) top.fail("inlet", why, "remove it");
+    if (!scene.domain.openings.outlets.empty()) top.fail("outlet", why, "remove it");
+    domain.fail("leaves", why, "remove it");
+  };
+  refuse(scene.terms.formulation == Formulation::ida, "and formulation = \"ida\" has none");
+  refuse(has_eos(scene, EosKind::ideal_gas), "and the scene has an ideal gas");
+  refuse(has_dry_bodies(scene), "and the scene has total-Lagrangian solids alone");
+  refuse(!scene.terms.exchange.motion, "and terms.motion is false");
+}
+
+void write_leaves(SceneWriter& out, const Domain& domain) {
+  std::vector<std::string> names;
+  for (std::size_t face = 0; face < domain.openings.deletes.size(); ++face)
+    if (domain.openings.deletes[face]) names.push_back(SceneWriter::quoted(face_name(face)));
+  out.raw("leaves", fmt::format("[{}]", fmt::join(names, ", ")));
+}
+
+void write_openings(SceneWriter& out, const Domain& domain) {
+  const auto curve = [&](std::string_view key, const TimeCurve& points) {
+    std::vector<std::string> texts;
+    for (const auto& [t, value] : points)
+      texts.push_back(fmt::format("[{}, {}]", SceneWriter::real(t), SceneWriter::real(value)));
+    if (!points.empty()) out.raw(key, fmt::format("[{}]", fmt::join(texts, ", ")));
+  };
+  for (const Inlet& inlet : domain.openings.inlets) {
+    out.table(keys::inlet, inlet);
+    curve("velocity", inlet.velocity);
+    curve("pressure", inlet.pressure);
+  }
+  for (const Outlet& outlet : domain.openings.outlets) {
+    out.table(keys::outlet, outlet);
+    curve("pressure", outlet.pressure);
+  }
+}
+
+}  // namespace sph
