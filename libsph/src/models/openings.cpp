@@ -227,7 +227,9 @@ bool Openings::report(const StepState&, Reduction& r) {
 
 void Openings::act(const Reduction& r, GlobalState& global) { boxes_.remember(r[in_.flows], global); }
 
-double Openings::turn_over(const decomp::Comm& comm, ParticleSet& set, GlobalState& global) {
+std::optional<double> Openings::turn_over(const decomp::Comm& comm, const Reduction& reduction,
+                                          ParticleSet& set, GlobalState& global) {
+  if (reduction[in_.events][0] == 0) return std::nullopt;
   std::vector<Passage>& passages = global.throughput.passages;
   Particles& p = set.particles;
   const std::uint64_t* id = p.data<Field::id>();

@@ -50,11 +50,13 @@ class Model {
   /// Throws GuardError where that cannot be stable.
   virtual void guard_step(const Reduction&, const GlobalState&) const {}
 
-  /// After that particles come or go: by the reduction, on all ranks alike.
-  [[nodiscard]] virtual bool turns_over(const Reduction&) const { return false; }
-  /// Takes out the rows of those that are gone, adds those of the new ones, and says so in the census; new lists are
-  /// made at once. Returns how far from the place of its row a new particle may be [m]. Collective.
-  [[nodiscard]] virtual double turn_over(const decomp::Comm&, ParticleSet&, GlobalState&) { return 0; }
+  /// Particles come and go: takes out the rows of those that are gone, adds those of the new ones, and says so in the
+  /// census; new lists are made at once. Returns how far from the place of its row a new particle may be [m], nothing where
+  /// none came or went. Collective; the reduction says whether any did, on all ranks alike.
+  [[nodiscard]] virtual std::optional<double> turn_over(const decomp::Comm&, const Reduction&, ParticleSet&,
+                                                        GlobalState&) {
+    return std::nullopt;
+  }
 
   /// Bound on any particle's path in the step at hand beyond what its stages declare, where none was faster
   /// than `speed` [m].

@@ -27,10 +27,8 @@ class Openings final : public Model {
   [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
   [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
   void act(const Reduction& reduction, GlobalState& global) override;
-  [[nodiscard]] bool turns_over(const Reduction& reduction) const override {
-    return reduction[in_.events][0] > 0;
-  }
-  [[nodiscard]] double turn_over(const decomp::Comm& comm, ParticleSet& set, GlobalState& global) override;
+  [[nodiscard]] std::optional<double> turn_over(const decomp::Comm& comm, const Reduction& reduction,
+                                                ParticleSet& set, GlobalState& global) override;
 
   using Rows = OpeningBoxes::Rows;
   /// The stage of add_end_to.

@@ -9,8 +9,8 @@
 #include "sph/models/gas_flow.hpp"
 #include "sph/models/heat.hpp"
 #include "sph/models/model.hpp"
-#include "sph/models/rigid_bodies.hpp"
 #include "sph/models/openings.hpp"
+#include "sph/models/rigid_bodies.hpp"
 #include "sph/models/shifting.hpp"
 #include "sph/models/water.hpp"
 
