@@ -141,6 +141,32 @@ TEST(Openings, OtherFacesEndTheRun) {
   EXPECT_GT(s.particle_count(), 0);
 }
 
+// Of a body nothing can be taken away.
+TEST(Openings, BodiesThatLeaveEndTheRun) {
+  for (const char* body :
+       {"rigid = true", "lagrangian = \"total\"\nsound_speed = 100\npoisson_ratio = 0.25"}) {
+    Simulation s(self(), sph::parse_scene(
+                             std::string("[domain]\nlower = [0, 0]\nupper = [30, 20]\nleaves = "
+                                         "\"delete\"\n[kernel]\nh_over_dx = 1\n"
+                                         "[[group]]\nname = \"water\"\nkind = \"fluid\"\ndensity = "
+                                         "1000\nsound_speed = 100\n[[group]]\nname = \"ball\"\nkind = "
+                                         "\"solid\"\ndensity = 1000\n") +
+                                 body +
+                                 "\n[start]\nspacing = 1\nlower = [8, 6]\nupper = [28, 14]\nvelocity = "
+                                 "[10, 0]\n[[start.region]]\ngroup = \"water\"\n[[start.region]]\ngroup = "
+                                 "\"ball\"\nshape = \"ball\"\ncentre = [24, 10]\nradius = 3\n[time]\n"
+                                 "until = 1\n",
+                             "body.toml", {}));
+    EXPECT_THROW(
+        {
+          while (s.global().time < 1) s.step();
+        },
+        sph::GuardError)
+        << body;
+    EXPECT_GT(s.global().throughput.passages.back().count, 0) << "the water before it left";
+  }
+}
+
 TEST(Openings, BoxesDeleteWhatComesIn) {
   Simulation s(self(),
                sph::parse_scene(strip("[[outlet]]\nlower = [10, 3]\nupper = [12, 9]\n"), "scene", {}));

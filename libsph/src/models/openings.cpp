@@ -181,7 +181,7 @@ void Openings::renew(const Rows& p, std::size_t i, const Inlet& inlet, const Ste
 
 void Openings::judge(const Rows& p, std::size_t i, const Step& step) {
   const Group& g = constants_->scene->groups[p.get<Field::group>()[i]];
-  if (is_bonded(g)) return;
+  if (is_body(g)) return;
   std::uint32_t* buffer = p.get<Field::buffer>();
   if (buffer != nullptr && buffer[i] != 0) return judge_led(p, i, step);
   const std::span<const OpeningBox> boxes = boxes_.all();
