@@ -8,11 +8,12 @@
 #include <numbers>
 
 #include "accuracy/bodies.hpp"
+#include "accuracy/light_cylinder.hpp"
 #include "accuracy/pinned.hpp"
 
 namespace {
 
-using measure::Bodies, measure::Sample, measure::samples, measure::run_until;
+using measure::Bodies, measure::Sample, measure::samples, measure::run_until, measure::text;
 
 constexpr double nu = 0.25, plane = 1 / (1 - nu * nu);  // E'
 
@@ -44,12 +45,6 @@ rise_time = 1
 until = 1
 cfl = 0.8
 )";
-
-std::string text(const char* key, double value) {
-  char out[64];
-  std::snprintf(out, sizeof out, "%s=%.17g", key, value);
-  return out;
-}
 
 /// Of cracks of m failed rows on either side of the centre; turned: along the diagonals of the lattice.
 struct Row {

@@ -4,21 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "accuracy/measure.hpp"
+#include "accuracy/light_cylinder.hpp"
 #include "accuracy/pinned.hpp"
-#include "sph/models/energies.hpp"
 
 namespace {
 
-using measure::Sample, measure::samples, measure::run_until;
+using measure::Sample, measure::samples, measure::run_until, measure::energy_of;
 using sph::BodyState;
-
-double energy_of(const sph::Simulation& s) {
-  sph::EnergySums sums;
-  for (const sph::Model* m : s.models()) m->add_energies(s.particles(m->set()), sums);
-  return sums[sph::Energy::kinetic].value() + sums[sph::Energy::potential].value() +
-         sums[sph::Energy::elastic].value();
-}
 
 // Of fluid, elastic and rigid bodies that push each other, in a closed period.
 TEST(Rigid, MomentumStays) {

@@ -4,23 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "accuracy/measure.hpp"
+#include "accuracy/light_cylinder.hpp"
 #include "accuracy/pinned.hpp"
 
 namespace {
 
-using measure::Sample, measure::samples, measure::run_until;
-
-std::string text(const char* key, double value) {
-  char out[64];
-  std::snprintf(out, sizeof out, "%s=%.17g", key, value);
-  return out;
-}
-std::string text(const char* key, double x, double y) {
-  char out[96];
-  std::snprintf(out, sizeof out, "%s=[%.17g, %.17g]", key, x, y);
-  return out;
-}
+using measure::Sample, measure::samples, measure::run_until, measure::text;
 
 sph::Simulation accuracy_scene(const decomp::Comm& comm, const std::string& name,
                                const std::vector<std::string>& overrides) {
@@ -176,26 +165,14 @@ TEST(WetBodies, WaterOnAPlate) {
 }
 
 sph::Simulation elastic_cylinder(const decomp::Comm& comm, double dx, std::vector<std::string> more = {}) {
-  const double wall = 3 * dx;
-  for (const std::string& set :
-       {text("start.spacing", dx), text("start.lower", 1.5 - wall, 1.5 - wall),
-        text("start.upper", 46.5 + wall, 64), std::string("group.cylinder.kind=solid"),
-        std::string("group.cylinder.bulk_modulus=1e10"), std::string("group.cylinder.poisson_ratio=0.25"),
-        std::string("group.cylinder.lagrangian=total")})
-    more.push_back(set);
-  return {comm, sph::read_scene(PEPERITE_TEST_DIR "/../apps/buoyant_cylinder/fluid_fine.toml", more)};
+  more.insert(more.end(), {"group.cylinder.bulk_modulus=1e10", "group.cylinder.poisson_ratio=0.25"});
+  return measure::light_cylinder(comm, dx, more);
 }
 
 double rise(double dx) {
   const decomp::Comm comm(MPI_COMM_SELF);
   sph::Simulation s = elastic_cylinder(comm, dx);
-  const double start = measure::mean_position(s, "cylinder", 1);
-  run_until(s, 1);
-  double v = 0;
-  int n = 0;
-  for (const Sample& q : samples(s))
-    if (s.scene().groups[q.group].name == "cylinder") v += q.v[1], ++n;
-  const double moved = measure::mean_position(s, "cylinder", 1) - start - v / n * (s.global().time - 1);
+  const double moved = measure::rise_in_a_second(s);
   std::printf("elastic cylinder, dx %.2f m: rise %.4f m at 1 s\n", dx, moved);
   return moved;
 }
