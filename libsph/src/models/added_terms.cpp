@@ -70,6 +70,12 @@ void add_accelerations(Builder& b) {
   });
 }
 
+bool has_drifts(const Scene& scene) {
+  bool found = false;
+  for_each_on(scene, Effect::drift, [&](const AddedTerm&, double) { found = true; });
+  return found;
+}
+
 void add_drifts(Builder& b) {
   for_each_on(b.scene(), Effect::drift, [&](const AddedTerm& t, double strength) {
     b.add_kick(b.sums_over_pairs(std::string(t.word), {t.term}));

@@ -60,7 +60,9 @@ void add_end_of_step(Builder& b, SphModels& m) {
   add_kick(b);
   if (m.shifting) m.shifting->add_to(b);
   add_drifts(b);
-  if (bulk_viscous(s)) add_pressures(b);
+  // What a background bears depends on where a particle is.
+  const bool moved = (m.shifting || has_drifts(s)) && s.domain.background.density > 0;
+  if (moved || bulk_viscous(s)) add_pressures(b);
   if (exsolves_slowly(s)) add_exsolution(b);
   if (has_failure(s)) add_failure(b);
   if (has_transitions(s)) add_transitions(b);

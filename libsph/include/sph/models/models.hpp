@@ -47,11 +47,12 @@ void add_bodies(Builder& builder);
 void add_bond_forces(Builder& builder);
 /// v += (F/m + g) dt for particles that move; walls get their own velocity back.
 void add_kick(Builder& builder);
-/// Pressures of the state alone, where forces had others.
+/// Pressures of the state alone, where forces had others, and of where particles were moved to after the kick.
 void add_pressures(Builder& builder);
 /// Terms that are switched on by a number (added_term.hpp): forces, and what moves particles after the kick.
 void add_accelerations(Builder& builder);
 void add_drifts(Builder& builder);
+[[nodiscard]] bool has_drifts(const Scene& scene);
 /// The largest speed of sound where it grows with the pressure.
 void add_sound(Builder& builder);
 /// Sums of what budgets count, in double precision whatever that of the scene.
