@@ -42,7 +42,17 @@ void PairOracle::add_crack(const Pair& pair, double weight, PairSums& sums) cons
   if (bonded && pair.r > 0.95 * scene_.list_range()) to[0].add(1);
   const bool ahead = X(0) > 0 || (X(0) == 0 && (X(1) > 0 || (X(1) == 0 && X(2) > 0)));
   if (bonded && (j.overload > i.overload || (j.overload == i.overload && ahead))) to[1].add(1);
-  for (int a = 0; j.failing && a < dim_; ++a) to[static_cast<std::size_t>(2 + a)].add(weight * X(a) / h);
+  if (!j.failing) return;
+  const Vec m = j.crack.norm() > 0 ? Vec(j.crack.normalized()) : Vec(Vec::Zero());
+  const double distance = j.crack_distance - m.dot(X) / h;
+  const double parts = std::fabs(j.crack_distance) + m.cwiseAbs().dot(X.cwiseAbs()) / h;
+  for (int a = 0; a < dim_; ++a) {
+    to[static_cast<std::size_t>(2 + a)].add(weight * X(a) / h);
+    to[static_cast<std::size_t>(2 + dim_ + a)].add(weight * m(a) * distance,
+                                                   std::fabs(weight * m(a)) * parts);
+    for (int b = a; b < dim_; ++b)
+      to[static_cast<std::size_t>(2 + 2 * dim_ + symmetric_index(a, b, dim_))].add(weight * m(a) * m(b));
+  }
 }
 
 void PairOracle::add_bond(const Pair& pair, Term term, PairSums& sums) const {

@@ -187,6 +187,35 @@ TEST(Openings, BoxesDeleteWhatComesIn) {
   EXPECT_NEAR(after.gas, before.gas, 1e-12 * before.gas);
 }
 
+// What an inlet leads is not yet of the budgets: nothing may be added to it there, nor what is renewed be counted as
+// the difference of large masses, whose rounding adds up.
+TEST(Openings, ResetsOverAnInletAreNotCounted) {
+  const std::string reset = "[[reset]]\nlower = [0, 0]\nupper = [8, 12]\npressure = \"20 kPa\"\n";
+  Simulation s(self(), sph::parse_scene(strip(inlet + outlet + reset), "scene", {}));
+  const Balance before = balance(s);
+  for (int k = 0; k < 1500; ++k) s.step();
+  EXPECT_GT(column(s, "n_in"), 100);
+  const Balance after = balance(s);
+  EXPECT_NEAR(after.heat, before.heat, 1e-13 * before.heat);
+  EXPECT_NEAR(after.gas, before.gas, 1e-13 * before.gas);
+}
+
+// Only fluid is led.
+TEST(Openings, OutletsWithAPressureDeleteSolids) {
+  Simulation s(
+      self(),
+      sph::parse_scene("[domain]\nlower = [0, 0]\nupper = [30, 20]\n[kernel]\nh_over_dx = 1\n"
+                       "[[group]]\nname = \"rock\"\nkind = \"solid\"\ndensity = 2500\nsound_speed = 100\n"
+                       "poisson_ratio = 0.25\n[[outlet]]\nlower = [20, 0]\nupper = [26, 20]\npressure = 0\n"
+                       "direction = \"+x\"\n[start]\nspacing = 1\nlower = [14, 8]\nupper = [19, 12]\n"
+                       "velocity = [20, 0]\n[[start.region]]\ngroup = \"rock\"\n[time]\nuntil = 1\n"
+                       "[[monitor]]\nkind = \"budget\"\n",
+                       "rock.toml", {}));
+  while (s.global().time < 0.5) s.step();
+  EXPECT_EQ(column(s, "n_out"), 20);
+  EXPECT_EQ(s.particle_count(), 0);
+}
+
 // A pressure drives it in.
 TEST(Openings, PressureBringsFluidIn) {
   std::string by_pressure = inlet;

@@ -48,6 +48,9 @@ inline constexpr Condition of_added_terms{
     },
     "liquids and updated-Lagrangian solids",
     "it is of liquids and updated-Lagrangian solids, and formulation = \"ida\" has none"};
+inline constexpr Condition of_added_stresses{
+    [](const Scene& s) { return of_added_terms.holds(s) && s.has_kind(GroupKind::solid); },
+    "updated-Lagrangian solids, not \"ida\"", "it is of updated-Lagrangian solids"};
 inline constexpr Condition of_total{[](const Scene& s) { return s.total_lagrangian(); },
                                     "total-Lagrangian solids",
                                     "only scenes of solids with lagrangian = \"total\" have it"};

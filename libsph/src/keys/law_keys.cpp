@@ -51,8 +51,10 @@ std::span<const Key> more_keys(const KeyTable& table) {
   static const std::vector<Key> of_terms = [] {
     std::vector<Key> keys;
     for (const AddedTerm* t : added_terms())
-      keys.emplace_back(t->word, Number{dimension::none, up_to(t->most, "it must be")}, t->sentence,
-                        of_added_terms, Default{"0"});
+      keys.emplace_back(
+          t->word, Number{dimension::none, up_to(t->most, "it must be")}, t->sentence,
+          t->fusions.front().values.has(sph::Value::stress) ? of_added_stresses : of_added_terms,
+          Default{"0"});
     return keys;
   }();
   if (&table == &group) return of_groups;

@@ -41,10 +41,14 @@ void check_box(const Table& table, const Box& box, const Scene& scene, bool led)
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     if (!(box.lower[a] < box.upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
-    if (led && !scene.domain.periodic[a] &&
-        (box.lower[a] < scene.domain.lower[a] || box.upper[a] > scene.domain.upper[a]))
+    const double rounding = 1e-9 * (scene.domain.upper[a] - scene.domain.lower[a]);
+    if (led &&
+        (box.lower[a] < scene.domain.lower[a] - rounding || box.upper[a] > scene.domain.upper[a] + rounding))
       table.fail("lower", fmt::format("the box lies outside the domain in {}", axis_names[a]),
                  "enlarge domain.lower or domain.upper");
+    if (box.lower[a] >= scene.domain.upper[a] || box.upper[a] <= scene.domain.lower[a])
+      table.fail("lower", fmt::format("all of the box lies outside the domain in {}", axis_names[a]),
+                 "nothing comes into it: move it");
   }
   if (!led) return;
   const std::size_t a = axis_of(box.direction);
@@ -104,10 +108,14 @@ Outlet read_outlet(const Reader<keys::outlet>& table, const Scene& scene) {
     if (g.kind == GroupKind::fluid)
       outlet.settle_time = std::fmax(outlet.settle_time, settles_in * scene.kernel.smoothing_length /
                                                              std::sqrt(g.eos.bulk_modulus / g.density));
+  const double usual = outlet.settle_time;
   table.read(outlet);
   outlet.pressure = read_curve(table.value("pressure"), dimension::pressure);
   const bool led = !outlet.pressure.empty();
   if (led) table.require("direction");
+  const std::string_view deletes = "the outlet has no pressure: what comes into it is deleted";
+  table.only_if(led || outlet.direction == Outlet{}.direction, "direction", deletes);
+  table.only_if(led || outlet.settle_time == usual, "settle_time", deletes);
   check_box(table, outlet, scene, led);
   table.finish();
   return outlet;

@@ -214,6 +214,9 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   check_periods(tables, scene);
   if (scene.terms.bonds.reach && !tables.terms.has("bond_reach"))
     scene.terms.bonds.reach = std::min(*scene.terms.bonds.reach, scene.kernel_radius() / scene.start.spacing);
+  if (scene.has_kind(GroupKind::solid))
+    tables.kernel.only_if(scene.kernel.shape == KernelShape::quintic, "shape",
+                          "beside solids the kernel is \"quintic\"");
   check_total_lagrangian(tables, scene);
   check_ideal_gas(tables.top, tables.domain, tables.start, tables.terms, scene);
   check_implicit_viscosity(tables.terms, scene);

@@ -76,6 +76,21 @@ struct BondSums {
   }
 };
 
+// Beyond half a spacing rows of particles find their way through each other. `energy` is half that of the contacts of
+// what may be the softer side, and tells.
+void check_contact(const SphConstants& k, const FaultView& p, std::size_t i, double energy,
+                   const Step& step) {
+  constexpr double deepest = 0.75;
+  const double overlap = deepest * k.terms.contact.range;
+  const double most =
+      k.terms.contact.energy * k.groups.bodies.modulus[p.get<Field::group>()[i]] * overlap * overlap;
+  if (most > 0 && energy > most)
+    find_fault(k, p, i, step,
+               "is touched by a body that has come into it by more than half of the spacing: contacts are as "
+               "stiff as the "
+               "softer side; raise its bulk_modulus or sound_speed, of a wall too");
+}
+
 struct Stresses {
   static constexpr FieldSet reads =
       RangeView::reads | FieldSet{Field::contact_energy, Field::deformation, Field::prestress, Field::crack};
@@ -102,6 +117,7 @@ struct Stresses {
       double& energy = p.get<Field::strain_energy>()[i];
       const Group& own = constants->scene->groups[group[i]];
       energy = contact != nullptr && own.kind != GroupKind::fluid ? contact[i] : 0.0;
+      check_contact(*constants, p, i, energy, step);
       if (is_rigid(own)) p.get<Field::pressure>()[i] = 0;
       if (!is_bonded(own)) {
         bond_stress.setZero();
@@ -201,18 +217,19 @@ namespace {
 
 /// Of bodies of which none deforms: they touch each other and walls.
 struct Contacts {
-  static constexpr FieldSet reads{Field::contact_energy, Field::group};
+  static constexpr FieldSet reads = FaultView::reads | FieldSet{Field::contact_energy};
   static constexpr FieldSet writes{Field::strain_energy, Field::pressure};
-  const Scene* scene;
+  const SphConstants* constants;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     const double* contact = p.get<Field::contact_energy>();
     const auto* group = p.get<Field::group>();
     for (const RowRange& r : step.ranges)
       for (std::size_t i = r.first; i < r.last; ++i) {
-        const Group& g = scene->groups[group[i]];
-        p.get<Field::strain_energy>()[i] =
-            contact != nullptr && g.kind != GroupKind::fluid ? contact[i] : 0.0;
+        const Group& g = constants->scene->groups[group[i]];
+        double& energy = p.get<Field::strain_energy>()[i];
+        energy = contact != nullptr && g.kind != GroupKind::fluid ? contact[i] : 0.0;
+        check_contact(*constants, p, i, energy, step);
         if (is_rigid(g)) p.get<Field::pressure>()[i] = 0;
       }
   }
@@ -225,7 +242,7 @@ void add_contacts(Builder& b) {
   // Dry bodies that touch nothing have forces too, of 0.
   if (touch || !wet)
     b.add_sums(wet ? "contacts" : "forces", {term<BodyContact>, term<BodyContactEnergy>}, Builder::Rows::all);
-  b.add_update("energies of contacts", Contacts{&s});
+  b.add_update("energies of contacts", Contacts{&b.constants()});
   b.begin_with_these();
   if (!wet || !touch) return;
   b.add_fields({Field::bond_force});
@@ -256,7 +273,7 @@ void add_bodies(Builder& b) {
   if (viscous) forces.push_back(cracks ? term<CrackedBondViscosity> : term<BondViscosity>);
   if (cracks) {
     deformation.push_back(term<CrackSums>);
-    b.add_fields({Field::overload, Field::crack, Field::failing});
+    b.add_fields({Field::overload, Field::crack, Field::crack_distance, Field::crack_planes, Field::failing});
   }
   std::optional<Clamps> clamps;
   if (std::ranges::any_of(s.groups, [](const Group& g) { return g.wall.clamps >= 0; })) clamps.emplace(s);

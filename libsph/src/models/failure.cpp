@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "models/crack_plane.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/core/exact_math.hpp"
-#include "sph/laws/principal_stress.hpp"
 #include "sph/models/faults.hpp"
 #include "sph/terms/crack.hpp"
 
@@ -16,7 +17,9 @@ namespace {
 static_assert(CrackSums::nearly == nearly_lost, "of how far lists reach");
 
 constexpr double tip_stress = 0.70;  ///< C
-constexpr double crumbles = 1e30;    ///< overload of what no longer spans the space
+/// In spacings: one particle of each row across a crack is as near to its plane; others bear so many times more.
+constexpr double half_a_row = 0.5, off_the_plane = 2;
+constexpr double crumbles = 1e30;  ///< overload of what no longer spans the space
 
 /// Of a group, 0 where that criterion is not given.
 struct Limits {
@@ -36,55 +39,12 @@ Limits limits_of(const Group& g, double spacing) {
   return out;
 }
 
-/// The largest and the smallest [Pa], in two dimensions of those in the plane.
-struct Extremes {
-  double most, least;
-};
-
-Extremes principal(const double* deviator, double pressure, int dim) {
-  if (dim == 3) {
-    const PrincipalAxes p =
-        principal_axes({deviator[0], deviator[1], deviator[2], deviator[3], deviator[4], deviator[5]});
-    return {p.values[0] - pressure, p.values[2] - pressure};
-  }
-  const double mean = 0.5 * (deviator[0] + deviator[1]) - pressure, half = 0.5 * (deviator[0] - deviator[1]);
-  const double radius = std::sqrt(half * half + deviator[2] * deviator[2]);
-  return {mean + radius, mean - radius};
-}
-
-/// The largest tension across planes that a crack would follow from `n`, which is where others have failed; across any if
-/// none have.
-double opening_stress(const double* deviator, double pressure, const double* n, int dim, double most) {
-  double square = 0;
-  for (int a = 0; a < dim; ++a) square += n[a] * n[a];
-  if (square == 0) return most;
-  if (dim == 2) {
-    const double across =
-        deviator[0] * (n[1] * n[1]) - 2 * (deviator[2] * (n[0] * n[1])) + deviator[1] * (n[0] * n[0]);
-    return across / square - pressure;
-  }
-  // P s P less so much of n n that it comes last, P = 1 - n n.
-  SymmetricTensor projected{};
-  double along[3] = {}, twice = 0, size = 0;
-  const auto s = [&](int a, int b) { return deviator[symmetric_index(std::min(a, b), std::max(a, b), 3)]; };
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) {
-      along[a] += s(a, b) * n[b] / square;
-      size += std::fabs(s(a, b));
-    }
-  for (int a = 0; a < 3; ++a) twice += along[a] * n[a] / square;
-  for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b)
-      projected[static_cast<std::size_t>(symmetric_index(a, b, 3))] =
-          s(a, b) - along[a] * n[b] - along[b] * n[a] + (twice - 2 * size / square) * (n[a] * n[b]);
-  return principal_axes(projected).values[0] - pressure;
-}
-
-double overload(const Limits& limits, Extremes s, double tension, double inside) {
+/// `most`, `least`: principal stresses [Pa], in two dimensions of those in the plane; `tension` [Pa].
+double overload(const Limits& limits, double largest, double least, double tension, double inside) {
   double most = -1;
   if (limits.tension > 0) most = std::max(most, (tension + inside) / limits.tension - 1);
   if (limits.shear > 0) {
-    const double shear = 0.5 * (s.most - s.least), mean = 0.5 * (s.most + s.least) + inside;
+    const double shear = 0.5 * (largest - least), mean = 0.5 * (largest + least) + inside;
     most = std::max(most, (shear + mean * limits.sine) / limits.shear - 1);
   }
   return most;
@@ -94,19 +54,22 @@ struct Failures {
   static constexpr FieldSet reads =
       FaultView::reads | FieldSet{Field::crack_sums,   Field::stress, Field::pressure,      Field::bonds,
                                   Field::wet_pressure, Field::group,  Field::borne_by_fluid};
-  static constexpr FieldSet writes{Field::overload, Field::crack, Field::failing};
+  static constexpr FieldSet writes{Field::overload, Field::crack, Field::crack_distance, Field::crack_planes,
+                                   Field::failing};
   const SphConstants* constants;
   std::vector<Limits> limits;  ///< by group
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
-    const auto d = static_cast<std::size_t>(p.dim());
+    const auto d = static_cast<std::size_t>(p.dim()), planes = d + d * (d + 1) / 2;
     const double* sums = p.get<Field::crack_sums>();
     const auto* group = p.get<Field::group>();
     for_movers(step.ranges, [&](std::size_t i) {
-      const double* s = sums + i * (2 + d);
+      const double* s = sums + i * (2 + d + planes);
       double& beyond = p.get<Field::overload>()[i];
       const Limits& own = limits[group[i]];
-      const bool fails = own.fails && beyond > 0 && s[1] == 0;
+      // Beside what has just failed the overload is that of before.
+      const bool changed = weight_of(s + 2 + d, p.dim()) > 0;
+      const bool fails = own.fails && beyond > 0 && s[1] == 0 && !changed;
       p.get<Field::failing>()[i] = fails ? 1 : 0;
       if (!is_bonded(constants->scene->groups[group[i]])) return;
       if (s[0] > 0)
@@ -116,21 +79,57 @@ struct Failures {
                    "it or reduce time.dt");
       if (!own.fails) return;
       for (std::size_t a = 0; a < d; ++a) p.get<Field::crack>()[i * d + a] += s[2 + a];
+      for (std::size_t k = 0; k < planes; ++k) p.get<Field::crack_planes>()[i * planes + k] += s[2 + d + k];
+      if (fails) return follow(p, i);
       beyond = p.get<Field::bonds>()[i] == 1 ? crumbles : overload_of(p, i, own);
     });
   }
 
   [[nodiscard]] double overload_of(const View<reads, writes>& p, std::size_t i, const Limits& own) const {
+    const SymmetricTensor stress = stress_of(p, i);
+    const PrincipalAxes principal = principal_axes(stress);
+    const CrackPlane plane =
+        weight_of(planes_of(p, i), p.dim()) > 0
+            ? plane_of(planes_of(p, i), p.dim())
+            : plane_of_tension(stress, p.get<Field::crack>() + i * static_cast<std::size_t>(p.dim()),
+                               p.dim());
+    const double tension = tension_across(plane, stress);
+    const double inside = p.get<Field::wet_pressure>()[i];
+    const double distance = std::fabs(plane.distance) * constants->scene->bond_width();
+    const double off = distance > half_a_row * constants->scene->start.spacing ? off_the_plane : 1.0;
+    return overload(own, principal.values[0], principal.values[static_cast<std::size_t>(p.dim()) - 1],
+                    (tension + inside) / off - inside, inside);
+  }
+
+  void follow(const View<reads, writes>& p, std::size_t i) const {
+    const auto d = static_cast<std::size_t>(p.dim());
+    const SymmetricTensor stress = stress_of(p, i);
+    double* crack = p.get<Field::crack>() + i * d;
+    const CrackPlane here =
+        turned(plane_of_tension(stress, crack, p.dim()), stress, p.get<Field::wet_pressure>()[i]);
+    const CrackPlane plane =
+        weight_of(planes_of(p, i), p.dim()) > 0 ? gone_on(plane_of(planes_of(p, i), p.dim()), here) : here;
+    std::copy_n(plane.normal.begin(), d, crack);
+    p.get<Field::crack_distance>()[i] = plane.distance;
+  }
+
+  static const double* planes_of(const View<reads, writes>& p, std::size_t i) {
+    const auto d = static_cast<std::size_t>(p.dim());
+    return p.get<Field::crack_planes>() + i * (d + d * (d + 1) / 2);
+  }
+  /// Of sums of planes: 0 where nothing has failed.
+  static double weight_of(const double* planes, int dim) {
+    return std::accumulate(planes + dim, planes + 2 * dim, 0.0);
+  }
+
+  [[nodiscard]] SymmetricTensor stress_of(const View<reads, writes>& p, std::size_t i) const {
     const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
-    const double pressure = p.get<Field::pressure>()[i];
-    SymmetricTensor stress{};  // and pressure
+    double stress[6];
     for (std::size_t k = 0; k < n; ++k)
       stress[k] = p.get<Field::stress>()[i * n + k] +
-                  constants->scene->kernel.smoothing_length * p.get<Field::borne_by_fluid>()[i * n + k];
-    const Extremes all = principal(stress.data(), pressure, p.dim());
-    const double tension =
-        opening_stress(stress.data(), pressure, p.get<Field::crack>() + i * d, p.dim(), all.most);
-    return overload(own, all, tension, p.get<Field::wet_pressure>()[i]);
+                  constants->scene->kernel.smoothing_length * p.get<Field::borne_by_fluid>()[i * n + k] -
+                  (k < d ? p.get<Field::pressure>()[i] : 0.0);
+    return in_space(stress, p.dim());
   }
 };
 

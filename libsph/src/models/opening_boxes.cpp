@@ -112,7 +112,7 @@ void OpeningBoxes::remember(std::span<const std::int64_t> sums, GlobalState& glo
   }
 }
 
-// Where a layer has fewer particles than another, gaps would come in again and again.
+// Where a layer has fewer particles than another, gaps would come in again and again; those of a file may be on their way.
 void OpeningBoxes::check_inlets(const decomp::Comm& comm, const Particles& particles) const {
   const Scene& scene = *constants_->scene;
   const auto d = static_cast<std::size_t>(particles.dim());
@@ -131,7 +131,7 @@ void OpeningBoxes::check_inlets(const decomp::Comm& comm, const Particles& parti
     }
     comm.sum(std::span<std::int64_t>(layers));
     const auto [least, most] = std::ranges::minmax(layers);
-    if (least == most && most > 0) continue;
+    if (most > 0 && (least == most || !scene.start.file.empty())) continue;
     throw InputError(
         fmt::format("{}: inlet.{}: its box has layers of {} to {} particles of \"{}\" at the start; paint "
                     "all of it with a "

@@ -161,7 +161,7 @@ void Openings::renew(const Rows& p, std::size_t i, const Inlet& inlet, const Ste
   double* liquid = p.get<Field::liquid_mass>();
   const double m = gas ? inlet.gas_content.value_or(g.bubbly.gas_content) : 0.0;
   const double before = gas && liquid != nullptr ? liquid[i] * (1 + m) : mass;
-  if (gas) p.get<Field::gas_inflow>()[i] -= mass - before;
+  if (gas && liquid != nullptr) p.get<Field::gas_inflow>()[i] -= liquid[i] * (content[i] - m);
   if (h != nullptr && (inlet.temperature || g.heat.temperature)) {
     const double wanted =
         enthalpy(g.heat.material, inlet.temperature ? *inlet.temperature : *g.heat.temperature);
@@ -192,9 +192,9 @@ void Openings::judge(const Rows& p, std::size_t i, const Step& step) {
   }
   for (std::size_t k = boxes_.inlets(); k < boxes.size(); ++k) {
     if (!boxes[k].contains(boxes_.place(p, i), d)) continue;
-    if (boxes[k].pressure->empty())
+    if (boxes[k].pressure->empty() || g.kind != GroupKind::fluid)
       gone_.push_back({i, k});
-    else if (g.kind == GroupKind::fluid)
+    else
       buffer[i] = static_cast<std::uint32_t>(k + 1);
     return;
   }
@@ -275,7 +275,8 @@ void Openings::replace_rows(Particles& p, const GlobalState& global) const {
     for (double* counter : {p.data<Field::heat_inflow>(), p.data<Field::gas_inflow>(),
                             p.data<Field::released_energy>(), p.data<Field::waiting_time>()})
       if (counter != nullptr) counter[child] = 0;
-    if (std::uint32_t* waits = p.data<Field::waiting_for>()) waits[child] = 0;
+    for (std::uint32_t* latch : {p.data<Field::waiting_for>(), p.data<Field::connected>()})
+      if (latch != nullptr) latch[child] = 0;
   }
   if (gone_.empty()) return;
   std::vector<bool> stays(p.owned(), true);

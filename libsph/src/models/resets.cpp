@@ -10,7 +10,8 @@ namespace sph {
 namespace {
 
 struct Resets {
-  static constexpr FieldSet reads = FaultView::reads | RangeView::reads | Materials::reads;
+  static constexpr FieldSet reads =
+      FaultView::reads | RangeView::reads | Materials::reads | FieldSet{Field::buffer};
   static constexpr FieldSet writes =
       Materials::writes | FieldSet{Field::density,    Field::mass,          Field::gas_content,
                                    Field::enthalpy,   Field::temperature,   Field::heat_inflow,
@@ -20,7 +21,11 @@ struct Resets {
   const Materials* materials;
 
   void operator()(const Rows& p, const Step& step) const {
+    // What inlets lead they renew themselves, and budgets do not have it yet.
+    const std::uint32_t* buffer = p.get<Field::buffer>();
+    const std::size_t inlets = constants->scene->domain.openings.inlets.size();
     for_movers(step.ranges, [&](std::size_t i) {
+      if (buffer != nullptr && buffer[i] != 0 && buffer[i] <= inlets) return;
       for (const Reset& box : constants->scene->domain.resets) {
         if ((box.until && step.global.time >= *box.until) || !contains(box, p, i)) continue;
         if (box.gas_content) fill(p, i, *box.gas_content, step);

@@ -29,9 +29,15 @@ const Fusion& find_fusion(int dim, Precision precision, KernelShape kernel, cons
     std::sort(t.begin(), t.end());
     return t;
   };
-  for (const Fusion& f : all_fusions())
-    if (f.dim == dim && f.precision == precision && f.kernel == kernel && sorted(f.terms) == sorted(terms))
-      return f;
+  const auto find = [&](KernelShape shape) {
+    return std::ranges::find_if(all_fusions(), [&](const Fusion& f) {
+      return f.dim == dim && f.precision == precision && f.kernel == shape &&
+             sorted(f.terms) == sorted(terms);
+    });
+  };
+  if (const auto found = find(kernel); found != all_fusions().end()) return *found;
+  if (find(KernelShape::quintic) != all_fusions().end())
+    throw InputError("kernel.shape: is not \"quintic\", which alone comes with these terms: remove it");
   std::string line = kernel == KernelShape::quintic       ? "fuse<Quintic"
                      : kernel == KernelShape::wendland_c2 ? "fuse<WendlandC2"
                                                           : "fuse<WendlandC4";

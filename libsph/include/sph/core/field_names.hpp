@@ -104,6 +104,8 @@ enum class Field : std::uint8_t {
   clamp_push,
   overload,
   crack,
+  crack_distance,
+  crack_planes,
   failing,
   crack_sums,
   borne_by_fluid,

@@ -12,7 +12,7 @@
 
 namespace sph {
 
-/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+D, 2+2D, 1+2D, 2+D(D+1)/2+D*D components
+/// 1, 2, 4, D, D(D+1)/2, D*D, 1+D, 2+D, 2+2D, 1+2D, 2+D(D+1)/2+D*D, D+D(D+1)/2, 2+2D+D(D+1)/2 components
 enum class Shape : std::uint8_t {
   scalar,
   two,
@@ -24,7 +24,9 @@ enum class Shape : std::uint8_t {
   shifting,
   wall,
   clamp,
-  deformation
+  deformation,
+  planes,
+  cracks
 };
 enum class Type : std::uint8_t { f64, i64, u64, u32 };
 /// What a pass multiplies a sum of its pairs by, once, to undo the scaled units of pair_rows.hpp: nothing,
@@ -253,13 +255,18 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::overload, "overload", "1", Type::f64, Shape::scalar, true, true,
      "of solids that can fail: how far beyond their strength they are, over it; below 0 where they hold"},
     {Field::crack, "crack", "1", Type::f64, Shape::vector, true, true,
-     "n: where beside a particle of a solid others have failed (terms/crack.hpp)"},
+     "n: where beside a particle of a solid others have failed (terms/crack.hpp); of what has, the normal of "
+     "its "
+     "crack's plane"},
+    {Field::crack_distance, "crack_distance", "1", Type::f64, Shape::scalar, true, false,
+     "of what has failed: how far from its plane it was, over the width of bonds"},
+    {Field::crack_planes, "crack_planes", "1", Type::f64, Shape::planes, true, false,
+     "of a particle of a solid beside what has failed: sums of their planes (terms/crack.hpp)"},
     {Field::failing, "failing", "1", Type::u32, Shape::scalar, true, false,
      "1: has become fluid since cracks were last looked at"},
-    {Field::crack_sums, "crack_sums", "1", Type::f64, Shape::shifting, false, false,
-     "over bonds: how many are nearly lost, how many lead to what is further beyond its strength; then n of "
-     "what has "
-     "just failed",
+    {Field::crack_sums, "crack_sums", "1", Type::f64, Shape::cracks, false, false,
+     "over bonds: how many are nearly lost, how many lead to what is further beyond its strength; then n "
+     "and the planes of what has just failed",
      SumScale::one},
     {Field::borne_by_fluid, "borne_by_fluid", "Pa/m", Type::f64, Shape::symmetric, false, false,
      "of solids that can fail: what of their stress the fluid's pressure bears, over h (terms/crack.hpp)",
@@ -308,6 +315,10 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
       return 1 + 2 * dim;
     case Shape::deformation:
       return 2 + dim * (dim + 1) / 2 + dim * dim;
+    case Shape::planes:
+      return dim + dim * (dim + 1) / 2;
+    case Shape::cracks:
+      return 2 + 2 * dim + dim * (dim + 1) / 2;
   }
   return 0;
 }

@@ -204,9 +204,10 @@ struct BondColumns {
 struct CrackColumns {
   explicit CrackColumns(const Particles& p)
       : crack(p.data<Field::crack>()),
+        distance(p.data<Field::crack_distance>()),
         overload(p.data<Field::overload>()),
         failing(p.data<Field::failing>()) {}
-  const double *crack, *overload;
+  const double *crack, *distance, *overload;
   const std::uint32_t* failing;
 
   template <class Row>
@@ -220,6 +221,7 @@ struct CrackColumns {
       const double length = std::sqrt(square);
       for (int k = 0; k < D; ++k) row.put(Value::crack, k, length > 0 ? crack[i * D + k] / length : 0.0);
     }
+    if constexpr (S.has(Value::crack_distance)) row.put(Value::crack_distance, 0, distance[i]);
     if constexpr (S.has(Value::overload)) row.put(Value::overload, 0, overload[i]);
     if constexpr (S.has(Value::failing)) row.put(Value::failing, 0, failing[i]);
   }

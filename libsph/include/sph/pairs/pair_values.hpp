@@ -81,10 +81,11 @@ enum class Value : std::uint8_t {
   wet_pressure,    ///< of a body what the fluid beside it presses with, else the pressure [Pa]
   wet_velocity,    ///< of a body the mirror image of the flow beside it, else the velocity [m/s]
   own_head,  ///< -a h of a body, a its acceleration: rho times it is grad p h beside it, less the weight's part
-  crack,     ///< n over its length, 0 without a crack
-  overload,  ///< how far beyond its strength, over it
-  failing,   ///< 1 where it has just become fluid, else 0
-  flux,      ///< of solids and walls: what flows onto them, for the fluid beside them (terms/wetted.hpp)
+  crack,     ///< n over its length, 0 without a crack; of what has failed its plane's normal
+  crack_distance,  ///< from that plane, over the width of bonds
+  overload,        ///< how far beyond its strength, over it
+  failing,         ///< 1 where it has just become fluid, else 0
+  flux,  ///< of solids and walls: what flows onto them, for the fluid beside them (terms/wetted.hpp)
   count_
 };
 
@@ -154,6 +155,7 @@ class ValueSet {
   if (values.has(Value::wet_velocity)) f |= FieldSet{Field::group, Field::velocity, Field::wet_velocity};
   if (values.has(Value::own_head)) f |= FieldSet{Field::group, Field::acceleration};
   if (values.has(Value::crack)) f |= FieldSet{Field::crack};
+  if (values.has(Value::crack_distance)) f |= FieldSet{Field::crack_distance};
   if (values.has(Value::overload)) f |= FieldSet{Field::overload};
   if (values.has(Value::failing)) f |= FieldSet{Field::failing};
   if (values.has(Value::flux)) f |= FieldSet{Field::flux};

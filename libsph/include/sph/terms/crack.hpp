@@ -70,8 +70,8 @@ struct CrackedBondViscosity {
 /// further beyond its strength, of two alike the one in the direction of growing coordinates; and n of what has just failed.
 struct CrackSums {
   static constexpr std::string_view name = "CrackSums";
-  static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::body,   Value::modulus,
-                                  Value::crack,     Value::overload,       Value::failing};
+  static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::body,     Value::modulus,
+                                  Value::crack,     Value::crack_distance, Value::overload, Value::failing};
   static constexpr Field writes = Field::crack_sums;
   static constexpr Value nothing_without = Value::modulus;
   static constexpr double nearly = 0.95;
@@ -96,7 +96,16 @@ struct CrackSums {
     sums.template add<Field::crack_sums>(
         1, where_less(own, other, bonded) + where_equal(own, other, bonded * is_ahead(p)));
     const V w = p.template j<Value::failing>() * p.bond.weight_of_any;
-    for (int a = 0; a < P::dim; ++a) sums.template add<Field::crack_sums>(2 + a, w * p.bond.reference[a]);
+    V distance = p.template j<Value::crack_distance>();
+    for (int a = 0; a < P::dim; ++a) distance -= p.template j<Value::crack>(a) * p.bond.reference[a];
+    for (int a = 0; a < P::dim; ++a) {
+      const V wm = w * p.template j<Value::crack>(a);
+      sums.template add<Field::crack_sums>(2 + a, w * p.bond.reference[a]);
+      sums.template add<Field::crack_sums>(2 + P::dim + a, wm * distance);
+      for (int b = a; b < P::dim; ++b)
+        sums.template add<Field::crack_sums>(2 + 2 * P::dim + symmetric_index(a, b, P::dim),
+                                             wm * p.template j<Value::crack>(b));
+    }
   }
 };
 
