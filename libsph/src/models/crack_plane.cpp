@@ -54,9 +54,9 @@ CrackPlane plane_of(const double* sums, int dim) {
   return out;
 }
 
-CrackPlane plane_of_tension(const SymmetricTensor& s, const double* along, int dim) {
+CrackPlane plane_of_tension(const SymmetricTensor& s, std::span<const double> along) {
   Vector n{};
-  std::copy_n(along, dim, n.begin());
+  std::ranges::copy(along, n.begin());
   const double square = dot(n, n);
   if (square == 0) return {principal_axes(s).axes[0], 0};
   // P s P less so much of n n that it comes last, P = 1 - n n.

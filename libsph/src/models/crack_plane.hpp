@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "sph/laws/principal_stress.hpp"
 
@@ -23,8 +24,8 @@ struct CrackPlane {
 [[nodiscard]] SymmetricTensor in_space(const double* components, int dim);
 /// Of the sums b, then A, of a particle; A must not be 0.
 [[nodiscard]] CrackPlane plane_of(const double* sums, int dim);
-/// That across which tension is the largest, through the particle, and along `along` where that is not 0.
-[[nodiscard]] CrackPlane plane_of_tension(const SymmetricTensor& stress, const double* along, int dim);
+/// That across which tension is the largest, through the particle, and along `along` where there is any.
+[[nodiscard]] CrackPlane plane_of_tension(const SymmetricTensor& stress, std::span<const double> along);
 /// m.s m
 [[nodiscard]] double tension_across(const CrackPlane& plane, const SymmetricTensor& stress);
 /// So that it is not sheared; `inside`: pressure of what is in the crack.

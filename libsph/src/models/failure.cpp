@@ -17,7 +17,8 @@ namespace {
 static_assert(CrackSums::nearly == nearly_lost, "of how far lists reach");
 
 constexpr double tip_stress = 0.70;  ///< C
-/// In spacings: one particle of each row across a crack is as near to its plane; others bear so many times more.
+/// In spacings: one particle of each row across a crack is as near to its plane. Others bear so many times more, and what
+/// is on it does across any other plane.
 constexpr double half_a_row = 0.5, off_the_plane = 2;
 constexpr double crumbles = 1e30;  ///< overload of what no longer spans the space
 
@@ -88,29 +89,37 @@ struct Failures {
   [[nodiscard]] double overload_of(const View<reads, writes>& p, std::size_t i, const Limits& own) const {
     const SymmetricTensor stress = stress_of(p, i);
     const PrincipalAxes principal = principal_axes(stress);
-    const CrackPlane plane =
-        weight_of(planes_of(p, i), p.dim()) > 0
-            ? plane_of(planes_of(p, i), p.dim())
-            : plane_of_tension(stress, p.get<Field::crack>() + i * static_cast<std::size_t>(p.dim()),
-                               p.dim());
-    const double tension = tension_across(plane, stress);
+    const double largest = principal.values[0],
+                 least = principal.values[static_cast<std::size_t>(p.dim()) - 1];
     const double inside = p.get<Field::wet_pressure>()[i];
-    const double distance = std::fabs(plane.distance) * constants->scene->bond_width();
-    const double off = distance > half_a_row * constants->scene->start.spacing ? off_the_plane : 1.0;
-    return overload(own, principal.values[0], principal.values[static_cast<std::size_t>(p.dim()) - 1],
-                    (tension + inside) / off - inside, inside);
+    double tension = 0;
+    if (!is_beside_cracks(p, i)) {
+      tension = tension_across(first_plane(p, i, stress), stress);
+    } else {
+      tension = (largest + inside) / off_the_plane - inside;
+      if (const CrackPlane plane = plane_of(planes_of(p, i), p.dim()); is_on(plane))
+        tension = std::max(tension, tension_across(plane, stress));
+    }
+    return overload(own, largest, least, tension, inside);
   }
 
   void follow(const View<reads, writes>& p, std::size_t i) const {
     const auto d = static_cast<std::size_t>(p.dim());
     const SymmetricTensor stress = stress_of(p, i);
-    double* crack = p.get<Field::crack>() + i * d;
-    const CrackPlane here =
-        turned(plane_of_tension(stress, crack, p.dim()), stress, p.get<Field::wet_pressure>()[i]);
-    const CrackPlane plane =
-        weight_of(planes_of(p, i), p.dim()) > 0 ? gone_on(plane_of(planes_of(p, i), p.dim()), here) : here;
-    std::copy_n(plane.normal.begin(), d, crack);
+    CrackPlane plane = turned(first_plane(p, i, stress), stress, p.get<Field::wet_pressure>()[i]);
+    if (is_beside_cracks(p, i)) {
+      if (const CrackPlane before = plane_of(planes_of(p, i), p.dim()); is_on(before))
+        plane = gone_on(before, plane);
+      else
+        plane = plane_of_tension(stress, {});
+    }
+    std::copy_n(plane.normal.begin(), d, p.get<Field::crack>() + i * d);
     p.get<Field::crack_distance>()[i] = plane.distance;
+  }
+
+  static CrackPlane first_plane(const View<reads, writes>& p, std::size_t i, const SymmetricTensor& stress) {
+    const auto d = static_cast<std::size_t>(p.dim());
+    return plane_of_tension(stress, {p.get<Field::crack>() + i * d, d});
   }
 
   static const double* planes_of(const View<reads, writes>& p, std::size_t i) {
@@ -120,6 +129,13 @@ struct Failures {
   /// Of sums of planes: 0 where nothing has failed.
   static double weight_of(const double* planes, int dim) {
     return std::accumulate(planes + dim, planes + 2 * dim, 0.0);
+  }
+  static bool is_beside_cracks(const View<reads, writes>& p, std::size_t i) {
+    return weight_of(planes_of(p, i), p.dim()) > 0;
+  }
+  [[nodiscard]] bool is_on(const CrackPlane& plane) const {
+    const Scene& s = *constants->scene;
+    return std::fabs(plane.distance) * s.bond_width() <= half_a_row * s.start.spacing;
   }
 
   [[nodiscard]] SymmetricTensor stress_of(const View<reads, writes>& p, std::size_t i) const {
