@@ -4,6 +4,8 @@
 // stresses in Young's moduli.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -182,6 +184,69 @@ TEST(Cracks, GrowStraight) {
     EXPECT_GE(g.failed, 4) << row.turned;
     EXPECT_EQ(g.late, 0) << row.turned;
     EXPECT_LT(g.off, 0.75) << row.turned;
+  }
+}
+
+/// In a free disc of a lattice turned by `degrees` a crack under pressure alone, which nothing but itself leads: the angle
+/// between its line and the one through what failed on the same side [degrees].
+struct Path {
+  double turned = 0;
+  int failed = 0;
+};
+
+Path path(double degrees) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  constexpr double toughness = 0.01, half = 8.5, radius = 50, rise = 300, until = 1.5 * rise;
+  const double p = 1.2 * toughness / std::sqrt(std::numbers::pi * half);
+  const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+  Bodies body(1);
+  for (int j = -80; j <= 80; ++j)
+    for (int i = -80; i <= 80; ++i) {
+      const double x = i * c - j * s, y = i * s + j * c;
+      if (std::hypot(x, y) < radius)
+        body.add(x, y, 0, 0, std::abs(x) < 0.5 - 1e-9 && std::abs(y) < half ? 1 : 0);
+    }
+  sph::Simulation run =
+      body.start(comm, slab, 1,
+                 {"domain={lower=[-60, -60], upper=[60, 60]}", text("group.0.becomes.0.toughness", toughness),
+                  "reset.0.lower=[-4, -11]", "reset.0.upper=[4, 11]", text("reset.0.pressure", p),
+                  text("reset.0.rise_time", rise), text("reset.0.until", until), text("time.until", until)});
+  const auto melt = [&] {
+    std::vector<std::array<double, 2>> at;
+    const std::int64_t* u = run.particles().data<sph::Field::displacement>();
+    const std::vector<Sample> all = samples(run);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto start = [&](std::size_t a) {
+        return all[k].x[a] - (run.scale().metres(u[2 * k + a]) - run.scale().metres(0));
+      };
+      if (all[k].group == 1 && start(1) > 0) at.push_back({start(0), start(1)});
+    }
+    std::ranges::sort(at, {}, [](const auto& x) { return x[1]; });
+    return at;
+  };
+  const std::size_t before = melt().size();
+  run_until(run, until, [] {});
+  const std::vector<std::array<double, 2>> at = melt();
+  const auto n = static_cast<double>(at.size() - before);
+  double mean[2] = {}, across = 0, along = 0;
+  for (std::size_t k = before; k < at.size(); ++k)
+    for (std::size_t a = 0; a < 2; ++a) mean[a] += at[k][a] / n;
+  for (std::size_t k = before; k < at.size(); ++k) {
+    across += (at[k][0] - mean[0]) * (at[k][1] - mean[1]);
+    along += (at[k][1] - mean[1]) * (at[k][1] - mean[1]);
+  }
+  const Path out{std::atan(across / along) / std::numbers::pi * 180, static_cast<int>(n)};
+  std::printf("crack in a lattice turned by %.1f degrees: %d failed on one side, %.1f degrees off its line\n",
+              degrees, out.failed, out.turned);
+  return out;
+}
+
+// Rows of the lattice are 18.4 and 26.6 degrees off, its diagonals 15 and 18.4.
+TEST(Cracks, FollowNoRowsOfTheLattice) {
+  for (const double degrees : {10.0, 18.435, 30.0}) {
+    const Path p = path(degrees);
+    EXPECT_GE(p.failed, 5) << degrees;
+    EXPECT_NEAR(PINNED(p.turned), 0, 6) << degrees;
   }
 }
 

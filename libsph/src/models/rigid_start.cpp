@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -58,7 +59,8 @@ class RigidStart {
       if (const int b = body_of_[group[i]]; b >= 0) function(i, static_cast<std::size_t>(b));
   }
 
-  /// Where the particle of the lowest id is: of periodic images of the others the nearest to it are meant.
+  /// Where the particle of the lowest id is: of periodic images of the others the nearest to it are meant. And how it
+  /// moves: the mean of what moves alike is that then, to the last bit.
   void choose_origins() {
     std::vector<std::int64_t> lowest(kind_.size(), std::numeric_limits<std::int64_t>::min());
     const std::uint64_t* id = p_.data<Field::id>();
@@ -70,11 +72,16 @@ class RigidStart {
       if (lowest[b] == std::numeric_limits<std::int64_t>::min())
         refuse(*constants_.scene, name_[b], "the start has no particle of it; give it a region");
     origin_.assign(3 * kind_.size(), 0);
+    std::vector<std::int64_t> bits(origin_.size(), 0);  // that one rank has, and the others none of
     for_rows([&](std::size_t i, std::size_t b) {
-      for (std::size_t a = 0; a < d_ && -static_cast<std::int64_t>(id[i]) == lowest[b]; ++a)
+      for (std::size_t a = 0; a < d_ && -static_cast<std::int64_t>(id[i]) == lowest[b]; ++a) {
         origin_[3 * b + a] = p_.data<Field::position>()[i * d_ + a];
+        bits[3 * b + a] = std::bit_cast<std::int64_t>(p_.data<Field::velocity>()[i * d_ + a]);
+      }
     });
     comm_.sum(std::span<std::int64_t>(origin_));
+    comm_.sum(std::span<std::int64_t>(bits));
+    for (const std::int64_t b : bits) velocity_.push_back(std::bit_cast<double>(b));
   }
 
   [[nodiscard]] Vector3 from_origin(std::size_t i, std::size_t b) const {
@@ -123,7 +130,7 @@ class RigidStart {
       s[Sums::heaviness].add(mass[i] * constants_.groups.weight.share[group[i]]);
       for (std::size_t a = 0; a < d_; ++a) {
         s[Sums::moment + a].add(mass[i] * x[static_cast<Eigen::Index>(a)]);
-        s[Sums::momentum + a].add(mass[i] * v[i * d_ + a]);
+        s[Sums::momentum + a].add(mass[i] * (v[i * d_ + a] - velocity_[3 * b + a]));
       }
     });
     decomp::ExactSum::all_reduce(comm_, sums);
@@ -136,7 +143,7 @@ class RigidStart {
         const double mean = s[Sums::moment + a].value() / out[b].shape.mass;
         mean_[b][static_cast<Eigen::Index>(a)] = mean;
         out[b].motion.centre[a] = origin_[3 * b + a] + constants_.scale.quanta(mean);
-        out[b].motion.velocity[a] = s[Sums::momentum + a].value() / out[b].shape.mass;
+        out[b].motion.velocity[a] = velocity_[3 * b + a] + s[Sums::momentum + a].value() / out[b].shape.mass;
         out[b].load.force[a] = out[b].shape.heaviness * constants_.scene->domain.gravity[a];  // not known yet
       }
     }
@@ -214,6 +221,7 @@ class RigidStart {
   std::size_t d_;
   std::vector<std::string> name_;
   std::vector<std::int64_t> origin_;  ///< of each body [quanta]
+  std::vector<double> velocity_;      ///< of the same particles
   std::vector<Vector3> mean_;         ///< its centre of mass from there [m]
 };
 
