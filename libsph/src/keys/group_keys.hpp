@@ -275,7 +275,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"rigid", Flag{},
      "Of a solid with lagrangian = \"total\": it does not deform. The particles of the group move as one "
      "body by the "
-     "sums of their forces; sound_speed, or bulk_modulus, is then how stiff its contacts are.",
+     "sums of their forces; sound_speed, or bulk_modulus, is then how stiff its contacts are, if what it "
+     "touches is as stiff.",
      at<&Group::solid, &SolidMaterial::body, &RigidMaterial::rigid>, of_sph, solid},
     {"part_of", NameOf{"group"}, "Of a rigid solid: this rigid group and it are one body.",
      index_at<&Group::solid, &SolidMaterial::body, &RigidMaterial::part_of>, of_sph, solid},

@@ -3,8 +3,9 @@
 // the fluid beside it, which is in its cracks,
 //   (sigma_t + p) / s - 1,     s = C K_Ic / sqrt(spacing), or given                                      tension
 //   ((sigma_1 - sigma_3)/2 + (sigma_1 + sigma_3 + 2 p)/2 sin phi) / (c cos phi) - 1           Mohr and Coulomb
-// the larger of the two. sigma_t is sigma_1, or beside what has failed the hoop stress, the largest across planes that contain
-// the direction n from there (Erdogan & Sih 1963): sigma_1 is as large 60 degrees off the line of a crack, and would turn it.
+// the larger of the two. sigma_t is sigma_1, or beside what is fluid from the start the hoop stress, the largest across planes
+// that contain the direction n from there (Erdogan & Sih 1963): sigma_1 is as large 60 degrees off the line of a crack, and
+// would turn it. Beside what has failed it is that across the crack's plane, for particles on it; half of sigma_1 for any.
 // Stress beside the tip of a crack grows as 1 / sqrt(spacing), so that the first fixes K_Ic at any
 // spacing; C is found with pressurised cracks (Sneddon 1946). A particle that is beyond its strength, and bonded to none
 // that is further, becomes fluid: cracks stay one row wide. It has the pressure beside it; its neighbours' bonds to it are

@@ -3,6 +3,8 @@
 // vector
 //   n_i = sum over what failed beside it of w X_ik,   X_ik from i to the failed k in the reference state,
 // state, and a bond within 37 degrees of n at both of its ends is cut: n_i.X > 0.8 |n_i| |X|, n_j.(-X) > 0.8 |n_j| |X|.
+// A failed particle's vector is the normal m of its crack's plane, and what fails next beside it asks for the sums of w m m
+// and of w m d, d its distance from that plane (models/failure.cpp).
 // Across a crack that is narrower than the kernel the faces press on each other with the fluid's pressure, or a row of it
 // would transmit 0.82 to 0.93 of it.
 #pragma once
