@@ -23,6 +23,7 @@ SHOWN = {
     "rising_bubble_2": ("first", "second", "centre of mass at 3 s"), "cavity": ("rms error / U",),
     "heat_decay": ("rate off", "steps"), "heat_layers": ("rate off", "steps"), "water_decay": ("rate off", "steps"),
     "barenblatt": ("front ahead / dx", "steps"),
+    "convection": ("Nu", "largest u", "largest v"),
     "fragmentation": ("first breaks [s]", "broken at 13.6 s"),
 }
 
