@@ -217,6 +217,8 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
     }
     case key("BodyContact"):
     case key("BodyContactEnergy"):
+    case key("CrackedBodyContact"):
+    case key("CrackedBodyContactEnergy"):
       return add_contact(pair, term, sums);
     case key("Deformation"):
     case key("BondForce"):
@@ -238,17 +240,19 @@ void PairOracle::add_contact(const Pair& pair, Term term, PairSums& sums) const 
   const PairParticle &i = pair.i, &j = pair.j;
   const Vec& x = pair.x;
   const double r = pair.r;
-  const double d = scene_.start.spacing, overlap = d - r;
-  if (i.body == j.body || overlap < 0) return;
+  const bool across = i.body == j.body;
+  if (across && !(term.name.starts_with("Cracked") && faces(pair, 0.8))) return;
+  const double d = scene_.start.spacing, touch = across ? bond(pair).X.norm() : d, overlap = touch - r;
+  if (overlap < 0 || touch >= scene_.list_range()) return;
   const double k = contact_stiffness * std::min(i.modulus, j.modulus) * power(d, dim_) / (h_ * h_);
-  if (term.name == "BodyContactEnergy") {
+  if (term.name.ends_with("Energy")) {
     sums.of[static_cast<std::size_t>(Field::contact_energy)][0].add(0.25 * k * overlap * overlap,
-                                                                    0.25 * k * overlap * d);
+                                                                    0.25 * k * overlap * touch);
     return;
   }
   for (int a = 0; a < dim_; ++a)
     sums.of[static_cast<std::size_t>(Field::force)][static_cast<std::size_t>(a)].add(
-        -k * overlap / r * x(a), k * d / r * std::abs(x(a)));
+        -k * overlap / r * x(a), k * touch / r * std::abs(x(a)));
 }
 
 Vec PairOracle::shock(const Pair& pair) const {

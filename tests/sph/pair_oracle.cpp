@@ -204,6 +204,8 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("BondViscosity"):
     case key("BodyContact"):
     case key("BodyContactEnergy"):
+    case key("CrackedBodyContact"):
+    case key("CrackedBodyContactEnergy"):
       return p.modulus > 0;
     case key("WeightedPressure"):
     case key("GasPressure"):

@@ -266,9 +266,9 @@ void add_bodies(Builder& b) {
     first = k.groups.bodies.number[g];
     viscous = viscous || (s.groups[g].kind == GroupKind::solid && k.groups.viscosity[g] > 0);
   }
-  if (contact) {
-    deformation.push_back(term<BodyContactEnergy>);
-    forces.push_back(term<BodyContact>);
+  if (contact || cracks) {
+    deformation.push_back(cracks ? term<CrackedBodyContactEnergy> : term<BodyContactEnergy>);
+    forces.push_back(cracks ? term<CrackedBodyContact> : term<BodyContact>);
   }
   if (viscous) forces.push_back(cracks ? term<CrackedBondViscosity> : term<BondViscosity>);
   if (cracks) {

@@ -293,7 +293,7 @@ void OpeningBoxes::press(StepState& s, std::size_t i, double pressure, bool keep
   const double rho = materials_->density_of(p, i, g, content != nullptr ? content[i] : 0.0, s);
   p.get<Field::density>()[i] = rho;
   if (!keeps_mass) {
-    const double mass = rho / constants_->row_scale.inverse_volume;
+    const double mass = rho * particle_volume(*constants_->scene);
     if (double* liquid = p.get<Field::liquid_mass>()) liquid[i] *= mass / p.get<Field::mass>()[i];
     p.get<Field::mass>()[i] = mass;
   }

@@ -51,7 +51,7 @@ void count(Passage& passage, std::int64_t number, std::span<const decomp::ExactS
 
 /// What an inlet leads has at the start what it will bring, at the pressure that was painted; the rest of its state
 /// follows from that.
-void fill(const Scene& scene, double volume, Particles& p) {
+void fill(const Scene& scene, Particles& p) {
   const std::uint32_t* buffer = p.data<Field::buffer>();
   const std::vector<Inlet>& inlets = scene.domain.openings.inlets;
   for (std::size_t i = 0; i < p.owned(); ++i) {
@@ -65,7 +65,7 @@ void fill(const Scene& scene, double volume, Particles& p) {
     if (m == *inlet.gas_content) continue;  // of a file, which must stay as it is
     rho = bubbly_eos(g, *inlet.gas_content).density(bubbly_eos(g, m).pressure(rho));
     m = *inlet.gas_content;
-    p.data<Field::mass>()[i] = rho * volume;
+    p.data<Field::mass>()[i] = rho * particle_volume(scene);
   }
 }
 
@@ -114,7 +114,7 @@ double Openings::start(const decomp::Comm& comm, Particles& particles, GlobalSta
                     global.throughput.id_stride - 1));
   if (!scene.domain.openings.lead()) return any_step;
   boxes_.mark(comm, particles, global);
-  fill(scene, 1 / constants_->row_scale.inverse_volume, particles);
+  fill(scene, particles);
   return any_step;
 }
 
@@ -174,7 +174,7 @@ void Openings::renew(const Rows& p, std::size_t i, const Inlet& inlet, const Ste
   if (double* w = p.get<Field::dissolved_gas>())
     w[i] = dissolved_gas(g, m, p.get<Field::pressure>()[i] + materials_->outer(p, i, g));
   p.get<Field::density>()[i] = materials_->density_of(p, i, g, m, step);
-  mass = p.get<Field::density>()[i] / constants_->row_scale.inverse_volume;
+  mass = p.get<Field::density>()[i] * particle_volume(*constants_->scene);
   if (liquid != nullptr) liquid[i] = mass / (1 + m);
   materials_->derive(p, i, i + 1);  // as after a restart
 }

@@ -161,7 +161,7 @@ RowScale scale_of_rows(const Scene& of, const PositionScale& scale) {
   const double unit =
       of.terms.precision == Precision::mixed ? std::ldexp(scale.quantum, rows.position_shift) : scale.quantum;
   rows.position_unit = unit / h;
-  rows.inverse_volume = 1 / power(of.start.spacing, of.dim);
+  rows.inverse_volume = 1 / particle_volume(of);
   rows.inverse_h = 1 / h;
   rows.quantum = scale.quantum;
   rows.pull = of.domain.central_pull;
@@ -181,7 +181,7 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   if (of.of_grains()) return;
   const KernelNumbers kernel = numbers(of);
   const double h = of.kernel.smoothing_length;
-  const double volume = power(of.start.spacing, of.dim);
+  const double volume = particle_volume(of);
   const double slope = kernel.normalisation / power(h, of.dim + 1);
   gradient_factor = volume * slope;
   force_factor = volume * volume * slope;
@@ -210,7 +210,7 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   bond_factor = gradient_factor * h * power(ratio, of.dim);
   terms.contact.range = of.start.spacing / h;
   // k over min(M_i, M_j), terms/body_contact.hpp; forces are multiplied by force_factor later.
-  const double contact = contact_stiffness * power(of.start.spacing, of.dim) / (h * h);
+  const double contact = contact_stiffness * particle_volume(of) / (h * h);
   terms.contact.force = contact * h / force_factor;
   terms.contact.energy = 0.25 * contact * h * h;
   if (const InterfaceTension& t = of.terms.surface_tension;

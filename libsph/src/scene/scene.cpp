@@ -31,6 +31,12 @@ double Scene::kernel_radius() const {
   return (kernel.shape == KernelShape::quintic ? 3 : 2) * kernel.smoothing_length;
 }
 
+double particle_volume(const Scene& scene) {
+  double volume = 1;
+  for (int a = 0; a < scene.dim; ++a) volume *= scene.start.spacing;
+  return volume;
+}
+
 double Scene::bond_width() const {
   const double h = kernel.smoothing_length;
   return terms.bonds.reach && has_bonds(*this)

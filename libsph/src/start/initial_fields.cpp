@@ -76,8 +76,6 @@ void InitialFields::set(NewParticle& p) const {
     return;
   }
   const Double3& x = p.position;
-  double volume = 1;
-  for (int a = 0; a < scene.dim; ++a) volume *= scene.start.spacing;
   if (g.kind == GroupKind::melt) {
     p.mass = g.density * melt_grid(scene).volume();
     return;
@@ -104,7 +102,7 @@ void InitialFields::set(NewParticle& p) const {
                     u * exact_sin(k * x[0]) * exact_cos(k * x[1]), 0};
     }
   }
-  p.mass = p.density * volume;
+  p.mass = p.density * particle_volume(scene);
 }
 
 namespace {

@@ -25,8 +25,7 @@ std::string advice(const Group& g, double density) {
 void check_start_densities(const decomp::Comm& comm, const Scene& scene, const Particles& particles) {
   const double* density = particles.data<Field::density>();
   const double* mass = particles.data<Field::mass>();
-  double volume = 1;
-  for (int a = 0; a < scene.dim; ++a) volume *= scene.start.spacing;
+  const double volume = particle_volume(scene);
   Findings found;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     const Group& g = scene.groups[particles.data<Field::group>()[i]];

@@ -137,11 +137,9 @@ void add_row(const StartRows& rows, std::size_t k, std::uint64_t id, const decom
     if (!rows.grains.spin.empty()) p.spin[a] = rows.grains.spin[k * d + a];
   }
   if (!rows.matter.rho.empty()) {
-    double volume = 1;
-    for (std::size_t a = 0; a < d; ++a) volume *= scene.start.spacing;
     p.energy *= p.density / rows.matter.rho[k];  // at the same pressure
     p.density = rows.matter.rho[k];
-    p.mass = p.density * volume;  // as on a lattice, to the bit
+    p.mass = p.density * particle_volume(scene);  // as on a lattice, to the bit
     if (is_bonded(scene.groups[p.group])) p.prestress += pressure_at(scene.groups[p.group], p.density);
   }
   if (!rows.matter.energy.empty() && p.energy > 0) p.energy = rows.matter.energy[k];

@@ -100,8 +100,7 @@ struct FusionList {
              fuse<Quintic, IdaStress, ArtificialViscosity>(),
              fuse<Quintic, Deformation>(),
              fuse<Quintic, Deformation, BodyContactEnergy>(),
-             fuse<Quintic, CrackedDeformation, CrackSums>(),
-             fuse<Quintic, CrackedDeformation, BodyContactEnergy, CrackSums>(),
+             fuse<Quintic, CrackedDeformation, CrackedBodyContactEnergy, CrackSums>(),
              fuse<Quintic, WettedExtrapolation>(),
              fuse<Quintic, FlowOntoSolids>(),
              fuse<Quintic, ClampSums>(),
@@ -112,9 +111,8 @@ struct FusionList {
              fuse<Quintic, BondForce, BodyContact>(),
              fuse<Quintic, BondForce, BodyContact, BondViscosity>(),
              fuse<Quintic, CrackedBondForce>(),
-             fuse<Quintic, CrackedBondForce, CrackedBondViscosity>(),
-             fuse<Quintic, CrackedBondForce, BodyContact>(),
-             fuse<Quintic, CrackedBondForce, BodyContact, CrackedBondViscosity>(),
+             fuse<Quintic, CrackedBondForce, CrackedBodyContact>(),
+             fuse<Quintic, CrackedBondForce, CrackedBodyContact, CrackedBondViscosity>(),
          })
       list.push_back(std::move(f));
     for (auto& more : {forces<Viscosity>(), forces<SymmetricViscosity>(), wetted<WettedViscosity>(),

@@ -126,7 +126,7 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::strain_energy, "strain_energy", "J", Type::f64, Shape::scalar, false, true,
      "of total-Lagrangian solids: elastic energy of the particle, hourglass energy included"},
     {Field::contact_energy, "contact_energy", "J", Type::f64, Shape::scalar, false, false,
-     "half the energy of the particle's contacts with other bodies", SumScale::one},
+     "half the energy of the particle's contacts with other bodies, and across cracks", SumScale::one},
     {Field::direction, "direction", "m/s", Type::f64, Shape::vector, false, false,
      "implicit viscosity: what the viscous operator is applied to"},
     {Field::viscous_sums, "viscous_sums", "N", Type::f64, Shape::spread, false, false,

@@ -34,6 +34,7 @@ template <class V, int D>
 struct PairBond {
   V reference[D];     ///< X = (X_j - X_i) / h, h that of the kernel of bonds
   V displacement[D];  ///< u = x_j - x_i over the same h, less X; exact before it is rounded once
+  V near;             ///< 1 where X is known: of what was never too far apart for its bits, else 0
   V intact;  ///< 1 for two particles of one body within each other's support in the reference state, unless
              ///< lost
   V weight;  ///< -w'(|X|) / |X| of a bond, else 0; grad_i W = weight X
@@ -242,6 +243,7 @@ struct PairPass {
     // Differences in rows of single precision are modulo 2^32 units, four to eight times 2^29: particles from
     // far apart that meet now must not pass for neighbours then.
     const V near = all_near(own, other);
+    pair.bond.near = near;
     const V distance = sqrt(square), tiny(static_cast<T>(1e-30));
     // A bond longer than the range is lost even where a list, with its skin, still holds it: how wide lists
     // are must not decide when a run ends.

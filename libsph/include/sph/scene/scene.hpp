@@ -61,6 +61,7 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
+[[nodiscard]] double particle_volume(const Scene& scene);  ///< spacing^dim [m^dim]
 /// There are total-Lagrangian solids in a fluid, or alone.
 [[nodiscard]] bool has_wet_bodies(const Scene& scene);
 [[nodiscard]] bool has_dry_bodies(const Scene& scene);

@@ -9,6 +9,24 @@
 
 namespace sph {
 
+/// `overlap` / h.
+template <class P, class C, class S>
+void add_contact(const P& p, const C& c, typename P::V overlap, S& sums) {
+  using V = typename P::V;
+  const V modulus = min(p.template i<Value::modulus>(), p.template j<Value::modulus>());
+  const V push = V(c.contact.force) * modulus * overlap;
+  const V s = push / max(p.r, V(static_cast<typename P::Scalar>(1e-30)));
+  for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, -(s * p.e[a]));
+}
+
+/// Half the energy of a contact for either particle.
+template <class P, class C, class S>
+void add_contact_energy(const P& p, const C& c, typename P::V overlap, S& sums) {
+  using V = typename P::V;
+  const V modulus = min(p.template i<Value::modulus>(), p.template j<Value::modulus>());
+  sums.template add<Field::contact_energy>(0, V(c.contact.energy) * modulus * (overlap * overlap));
+}
+
 struct BodyContact {
   static constexpr std::string_view name = "BodyContact";
   static constexpr ValueSet reads{Value::body, Value::modulus};
@@ -20,20 +38,12 @@ struct BodyContact {
     const V o = max(V(c.contact.range) - p.r, V::zero());
     return o - where_equal(p.template i<Value::body>(), p.template j<Value::body>(), o);
   }
-  template <class P>
-  static auto modulus(const P& p) {
-    return min(p.template i<Value::modulus>(), p.template j<Value::modulus>());
-  }
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V push = V(c.contact.force) * modulus(p) * overlap(p, c);
-    const V s = push / max(p.r, V(static_cast<typename P::Scalar>(1e-30)));
-    for (int a = 0; a < P::dim; ++a) sums.template add<Field::force>(a, -(s * p.e[a]));
+    add_contact(p, c, overlap(p, c), sums);
   }
 };
 
-/// Half the energy of a contact for either particle.
 struct BodyContactEnergy {
   static constexpr std::string_view name = "BodyContactEnergy";
   static constexpr ValueSet reads = BodyContact::reads;
@@ -41,10 +51,7 @@ struct BodyContactEnergy {
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    using V = typename P::V;
-    const V overlap = BodyContact::overlap(p, c);
-    const V energy = V(c.contact.energy) * BodyContact::modulus(p) * (overlap * overlap);
-    sums.template add<Field::contact_energy>(0, energy);
+    add_contact_energy(p, c, BodyContact::overlap(p, c), sums);
   }
 };
 

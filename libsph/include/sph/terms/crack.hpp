@@ -5,10 +5,13 @@
 // state, and a bond within 37 degrees of n at both of its ends is cut: n_i.X > 0.8 |n_i| |X|, n_j.(-X) > 0.8 |n_j| |X|.
 // A failed particle's vector is the normal m of its crack's plane, and what fails next beside it asks for the sums of w m m
 // and of w m d, d its distance from that plane (models/failure.cpp).
+// Faces of a crack come no nearer to each other than they were: what failed between them keeps its place, or a crack that
+// closes would press it out, and with it more melt than came in.
 // Across a crack that is narrower than the kernel the faces press on each other with the fluid's pressure, or a row of it
 // would transmit 0.82 to 0.93 of it.
 #pragma once
 
+#include "sph/terms/body_contact.hpp"
 #include "sph/terms/bonds.hpp"
 #include "sph/terms/wetted.hpp"
 
@@ -65,6 +68,42 @@ struct CrackedBondViscosity {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     add_bond_viscosity(p, c, uncut(p), sums);
+  }
+};
+
+/// As BodyContact, and between the faces of a crack where they are closer than in the reference state, of an energy
+/// k (|X| - r)^2 / 2: in the reference state a crack is closed.
+struct CrackedBodyContact {
+  static constexpr std::string_view name = "CrackedBodyContact";
+  static constexpr ValueSet reads =
+      BodyContact::reads | ValueSet{Value::reference, Value::reference_cell, Value::crack};
+  static constexpr Field writes = Field::force;
+  static constexpr Value nothing_without = Value::modulus;
+  template <class P, class C>
+  static auto overlap(const P& p, const C& c) {
+    using V = typename P::V;
+    V square = V::zero();
+    for (int a = 0; a < P::dim; ++a) square += p.bond.reference[a] * p.bond.reference[a];
+    const V closed = sqrt(square) / V(c.bonds.ratio);
+    const V nearer = where_less(closed, V(c.bonds.range), max(closed - p.r, V::zero()));
+    const V across = faces(p, 0.8) * p.bond.near;
+    return BodyContact::overlap(p, c) +
+           where_equal(p.template i<Value::body>(), p.template j<Value::body>(), nearer * across);
+  }
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    add_contact(p, c, overlap(p, c), sums);
+  }
+};
+
+struct CrackedBodyContactEnergy {
+  static constexpr std::string_view name = "CrackedBodyContactEnergy";
+  static constexpr ValueSet reads = CrackedBodyContact::reads;
+  static constexpr Field writes = Field::contact_energy;
+  static constexpr Value nothing_without = Value::modulus;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C& c, S& sums) {
+    add_contact_energy(p, c, CrackedBodyContact::overlap(p, c), sums);
   }
 };
 
