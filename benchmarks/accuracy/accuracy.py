@@ -32,7 +32,7 @@ CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "pois
          "sloshing", "kelvin_helmholtz", "kelvin_helmholtz_2", "added_mass", "rayleigh_wave", "standing_wave", "standing_wave_2500", "acoustic", "shock_tube", "shock_tube_10", "sod", "sod_equal", "sedov", "sedov_3d",
          "gaussian_blast", "noh", "cantilever", "rings", "spinning_plate",
          "bar_wave", "gravity_patch", "cylinder", "fragmentation", "held_grain", "sinking_layer",
-         "heat_decay", "heat_layers", "barenblatt", "water_decay", "convection")
+         "heat_decay", "heat_layers", "barenblatt", "water_decay", "convection", "elastic_gate")
 
 
 def order(sizes, errors):

@@ -24,6 +24,7 @@ SHOWN = {
     "heat_decay": ("rate off", "steps"), "heat_layers": ("rate off", "steps"), "water_decay": ("rate off", "steps"),
     "barenblatt": ("front ahead / dx", "steps"),
     "convection": ("Nu", "largest u", "largest v"),
+    "elastic_gate": ("outwards [mm]", "upwards [mm]"),
     "fragmentation": ("first breaks [s]", "broken at 13.6 s"),
 }
 
