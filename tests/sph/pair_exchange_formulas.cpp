@@ -70,14 +70,15 @@ void PairOracle::add_exchange(const Pair& pair, Term term, PairSums& sums) const
     if (!j.mover) return;
     const double lift = 0.5 * (i.gas_density + j.gas_density) * head;
     const double before = j.gas_pressure - i.gas_pressure - lift;
-    const double up = before > 0 ? j.gas_mobility : i.gas_mobility;
+    const double drive = term.name.starts_with("Implicit") ? j.trial - i.trial - lift : before;
+    const auto upstream = [&](double by) { return by > 0 ? j.gas_mobility : i.gas_mobility; };
+    const double up = std::min(upstream(before), upstream(term.name == "GasOperator" ? before : drive));
     const double rate = weight * harmonic(i.permeability, j.permeability) *
                         std::min(0.5 * (i.gas_mobility + j.gas_mobility), 2 * up);
     if (term.name == "GasOperator") {
       one(Field::exchange_sums, 0, rate * (j.trial - i.trial));
       return one(Field::exchange_sums, 1, rate);
     }
-    const double drive = term.name.starts_with("Implicit") ? j.trial - i.trial - lift : before;
     const double flow = rate * drive;
     if (term.name.ends_with("GasHeat"))
       return one(Field::gas_heat, 0, flow * (drive > 0 ? j : i).sensible_heat);

@@ -22,15 +22,25 @@ template <Value pressure, class P, class C>
   return (p.template j<pressure>() - p.template i<pressure>()) - rho * head(p, c);
 }
 
-/// Of a pair, by the pressures at the start of the step [kg/s/Pa].
-template <class P, class C>
+/// b of the one where the potential by `pressure` is higher.
+template <Value pressure, class P, class C>
+[[nodiscard, gnu::always_inline]] inline typename P::V upstream_mobility(const P& p, const C& c) {
+  using V = typename P::V;
+  const V drive = gas_drive<pressure>(p, c);
+  return where_less(V::zero(), drive, p.template j<Value::gas_mobility>()) +
+         where_less(drive, V::zero(), p.template i<Value::gas_mobility>());
+}
+
+/// Of a pair, by the pressures at the start of the step [kg/s/Pa]; where an implicit step turns the flow round, limited by
+/// what is upstream then too, or a particle would give gas that it does not have.
+template <Value by, class P, class C>
 [[nodiscard, gnu::always_inline]] inline typename P::V gas_conductance(const P& p, const C& c) {
   using V = typename P::V;
   using T = typename P::Scalar;
-  const V half(T(0.5)), drive = gas_drive<Value::gas_pressure>(p, c);
   const V b_i = p.template i<Value::gas_mobility>(), b_j = p.template j<Value::gas_mobility>();
-  const V up = where_less(V::zero(), drive, b_j) + where_less(drive, V::zero(), b_i);
-  return exchange_rate(p, c, exchange_mean<Value::permeability>(p) * min(half * (b_i + b_j), up + up));
+  V up = upstream_mobility<Value::gas_pressure>(p, c);
+  if constexpr (by != Value::gas_pressure) up = min(up, upstream_mobility<by>(p, c));
+  return exchange_rate(p, c, exchange_mean<Value::permeability>(p) * min(V(T(0.5)) * (b_i + b_j), up + up));
 }
 
 inline constexpr ValueSet gas_exchange_reads{Value::volume, Value::permeability, Value::gas_mobility,
@@ -45,7 +55,7 @@ struct GasFlowBy {
   static constexpr Field writes = Field::gas_gain;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    add_matter(p, gas_conductance(p, c) * gas_drive<by>(p, c), sums);
+    add_matter(p, gas_conductance<by>(p, c) * gas_drive<by>(p, c), sums);
   }
 };
 
@@ -59,7 +69,7 @@ struct GasHeatBy {
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     const auto drive = gas_drive<by>(p, c);
-    sums.template add<Field::gas_heat>(0, gas_conductance(p, c) * drive * heat_upstream(p, drive));
+    sums.template add<Field::gas_heat>(0, gas_conductance<by>(p, c) * drive * heat_upstream(p, drive));
   }
 };
 
@@ -76,7 +86,7 @@ struct GasOperator {
   static constexpr Field writes = Field::exchange_sums;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
-    const typename P::V rate = gas_conductance(p, c);
+    const typename P::V rate = gas_conductance<Value::gas_pressure>(p, c);
     sums.template add<Field::exchange_sums>(
         0, rate * (p.template j<Value::trial>() - p.template i<Value::trial>()));
     sums.template add<Field::exchange_sums>(1, rate);
