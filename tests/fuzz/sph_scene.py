@@ -39,7 +39,8 @@ class Maker(Terms, TotalBodies, FromFile, Mixture, Exchanges, Openings):
         pulled = family == "fluid" and self.kernel == "quintic" and d.chance("pulled", 0.08)
         self.pulled = pulled
         most = 3000 if d.chance("many", 0.02) else 400 if self.dim == 2 else 700
-        self.box = boxes.Box(d.part("box"), self.dim, radius, radius * self.stretch * self.growth,
+        nearly_lost = 0.95 if family == "total" else 1.0  # of lists where bodies fail
+        self.box = boxes.Box(d.part("box"), self.dim, radius, radius * self.stretch * self.growth / nearly_lost,
                              ["open"] if pulled else list(boxes.ENDS[2]), most, 4 if family == "total" else 1)
 
     def scene(self):
