@@ -236,4 +236,16 @@ TEST(Openings, BoxesOfInletsMustBeFull) {
                sph::InputError);
 }
 
+TEST(Openings, BehindBoxesOfInletsIsNothing) {
+  for (const bool turned : {false, true})
+    EXPECT_THROW(
+        Simulation(self(),
+                   sph::parse_scene(
+                       strip(inlet), "scene",
+                       turned ? std::vector<std::string>{"inlet.0.direction=-x", "inlet.0.lower=[20, 0]",
+                                                         "inlet.0.upper=[23, 12]"}
+                              : std::vector<std::string>{"inlet.0.lower=[2, 0]", "inlet.0.upper=[5, 12]"})),
+        sph::InputError);
+}
+
 }  // namespace

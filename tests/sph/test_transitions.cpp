@@ -178,4 +178,62 @@ TEST(Transitions, ReleaseElasticEnergy) {
   EXPECT_EQ(sum_of(s, stored), 0);
 }
 
+// A bar that is thrown against a wall breaks into melt half as dense.
+TEST(Transitions, CountTheMassThatFailureTakes) {
+  Simulation s(world(), sph::parse_scene(R"(
+dimension = 2
+domain = { lower = [0, 0], upper = [30, 20], periodic = [false, true] }
+kernel = { h_over_dx = 1 }
+[[group]]
+name = "rock"
+kind = "solid"
+lagrangian = "total"
+density = 2000
+sound_speed = 60
+poisson_ratio = 0.25
+becomes = [{ group = "melt", tensile_strength = 1e4, cohesion = 1e4, friction_angle = 30, keeps = "volume" }]
+[[group]]
+name = "melt"
+kind = "fluid"
+density = 1000
+sound_speed = 60
+viscosity = 3e3
+[[group]]
+name = "wall"
+kind = "wall"
+[start]
+spacing = 1
+velocity = [-4, 0]
+[[start.region]]
+group = "wall"
+shape = "box"
+lower = [0, 0]
+upper = [3, 20]
+[[start.region]]
+group = "rock"
+shape = "box"
+lower = [4, 4]
+upper = [20, 16]
+[time]
+cfl = 0.5
+steps = 1000
+[[monitor]]
+kind = "budget"
+)",
+                                         "bar", {}));
+  const sph::Monitors monitors(s);
+  const auto value = [&](const std::vector<double>& row, const std::string& name) {
+    const auto at = std::ranges::find(monitors.names(), name);
+    return row.at(static_cast<std::size_t>(at - monitors.names().begin()));
+  };
+  const std::vector<double> first = monitors.values(s);
+  const double mass = value(first, "budget_mass");
+  while (count(s, "melt") < 20 && s.global().step < 400) {
+    s.step();
+    const std::vector<double> now = monitors.values(s);
+    EXPECT_NEAR(value(now, "budget_mass") - value(now, "budget_mass_added"), mass, 1e-13 * mass);
+  }
+  EXPECT_LT(value(monitors.values(s), "budget_mass_added"), -20 * 900);
+}
+
 }  // namespace

@@ -13,6 +13,7 @@ struct Budget {
   /// One sum each, in the order of visit().
   [[nodiscard]] static std::vector<std::string> names(const Particles& p) {
     std::vector<std::string> out{"mass"};
+    if (p.has(Field::mass_inflow)) out.emplace_back("mass_added");
     if (p.has(Field::enthalpy)) out.emplace_back("heat");
     if (p.has(Field::heat_inflow)) out.emplace_back("heat_in");
     if (has_gas(p)) out.emplace_back("gas");
@@ -22,13 +23,14 @@ struct Budget {
   }
   /// Counts what has come from outside.
   [[nodiscard]] static bool is_inflow(const std::string& name) {
-    return name == "heat_in" || name == "gas_in" || name == "released";
+    return name == "mass_added" || name == "heat_in" || name == "gas_in" || name == "released";
   }
-  /// Of one particle that is no wall [kg, J, J, kg, kg, J].
+  /// Of one particle that is no wall [kg, kg, J, J, kg, kg, J].
   template <class Add>
   static void visit(const Particles& p, std::size_t row, Add&& add) {
     const double mass = p.data<Field::mass>()[row];
     add(mass);
+    if (const double* inflow = p.data<Field::mass_inflow>()) add(inflow[row]);
     if (const double* h = p.data<Field::enthalpy>()) add(mass * h[row]);
     if (const double* inflow = p.data<Field::heat_inflow>()) add(inflow[row]);
     if (has_gas(p)) {

@@ -70,8 +70,8 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
      "\"group\": averages over it. Of grains: \"wall\": its place, its velocity and the force of the "
      "grains on it; \"body\": the same of a rigid solid, with its rotation and torque; \"contacts\": their "
      "number and largest overlap. Of melts \"melt\". Of heat \"budget\": "
-     "what there is and "
-     "what walls gave.",
+     "what there is, and "
+     "what came from outside.",
      at<&Monitor::kind>, required},
     {"id", Whole{}, "The particle with this id.", at<&Monitor::id>, where("kind", "particle"),
      Default{"required of a particle, or nearest_to"}},

@@ -34,7 +34,8 @@ constexpr Quantity viscosity{"eta / h", "Pa s/m", row_single, row_double};
 // No star is as hot; its fourth power must be a number.
 constexpr Quantity temperature{"T", "K", {0, 1e12}, {0, 1e12}};
 // Exchanges are in double precision always.
-constexpr Quantity specific_heat{"c_p", "J/kg/K", row_double, row_double};
+constexpr Range row_positive{1e-72, 1e72};
+constexpr Quantity specific_heat{"c_p", "J/kg/K", row_positive, row_positive};
 constexpr Quantity conductivity{"k / h", "W/m^2/K", row_double, row_double};
 constexpr Quantity heat_flux{"|q|", "W/m^2", row_double, row_double};
 constexpr Quantity face_flux{"h_c", "W/m^2/K", row_double, row_double};
@@ -126,6 +127,12 @@ void check_ranges(const TopReader& top, const DomainReader& domain, const StartR
       check_group(ranges, groups[k], scene, g);
       check_exchange(ranges, groups[k], g, h);
     }
+  const auto come = [&](const auto& tables, const auto& all) {
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k].temperature) ranges.check(tables[k], "temperature", temperature, *all[k].temperature);
+  };
+  come(top.tables<keys::reset>(), scene.domain.resets);
+  come(top.tables<keys::inlet>(), scene.domain.openings.inlets);
   double square = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     ranges.check(domain, "gravity", head, std::abs(scene.domain.gravity[a]) * h);

@@ -48,7 +48,7 @@ inline constexpr auto terms_keys = std::to_array<Key>({
     {"implicit_gas_flow", Flag{},
      "The same of gas that flows (group.permeability): steps then change no gas content by more than 5 % of "
      "the "
-     "largest. Pays where the gas spreads faster than 0.4 c h.",
+     "largest, and are at most 20 explicit limits long. Pays where the gas spreads faster than 0.4 c h.",
      at<&Terms::exchange, &ExchangeTerms::implicit_gas_flow>},
     {"exchange_tolerance",
      Number{dimension::none, {.least = 1e-12, .most = 0.01, .is = "it is a share of what a step changes,"}},

@@ -95,6 +95,7 @@ void OpeningBoxes::mark(const decomp::Comm& comm, Particles& particles, const Gl
     v[boxes_[buffer - 1].axis] = boxes_[buffer - 1].sign * speed(buffer - 1, x, 0, global);
   }
   check_inlets(comm, particles);
+  check_behind(comm, particles);
 }
 
 // A pressure that waves bring is gone from the mean in less than a settle_time.
@@ -109,6 +110,29 @@ void OpeningBoxes::remember(std::span<const std::int64_t> sums, GlobalState& glo
       beside = sound_ * (sum / of);
     else
       beside += share * (impedance_ * sound_ / h * (sum / of) - beside);
+  }
+}
+
+// It would flow into the box, where nothing looks at it, between layers that are led.
+void OpeningBoxes::check_behind(const decomp::Comm& comm, Particles& particles) const {
+  const Scene& scene = *constants_->scene;
+  const Rows p(particles);
+  for (std::size_t k = 0; k < inlets_; ++k) {
+    OpeningBox behind = boxes_[k];
+    const double spacing = scene.start.spacing;
+    (behind.sign > 0 ? behind.upper : behind.lower)[behind.axis] =
+        (behind.sign > 0 ? behind.lower : behind.upper)[behind.axis];
+    (behind.sign > 0 ? behind.lower : behind.upper)[behind.axis] -= behind.sign * spacing;
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < particles.owned(); ++i)
+      if (scene.groups[p.get<Field::group>()[i]].kind == GroupKind::fluid &&
+          behind.contains(place(p, i), static_cast<std::size_t>(p.dim())))
+        ++count;
+    if (comm.sum(count) > 0)
+      throw InputError(fmt::format(
+          "{}: inlet.{}: {} particles of fluid are behind its box at the start; behind it must be "
+          "nothing, or a wall",
+          scene.file, k, comm.sum(count)));
   }
 }
 

@@ -272,8 +272,9 @@ void Openings::replace_rows(Particles& p, const GlobalState& global) const {
     p.data<Field::buffer>()[parent] = 0;
     p.data<Field::id>()[child] += global.throughput.id_stride;
     p.data<Field::position>()[child * d + box.axis] -= box.sign > 0 ? box.length : -box.length;
-    for (double* counter : {p.data<Field::heat_inflow>(), p.data<Field::gas_inflow>(),
-                            p.data<Field::released_energy>(), p.data<Field::waiting_time>()})
+    for (double* counter :
+         {p.data<Field::heat_inflow>(), p.data<Field::gas_inflow>(), p.data<Field::mass_inflow>(),
+          p.data<Field::released_energy>(), p.data<Field::waiting_time>()})
       if (counter != nullptr) counter[child] = 0;
     for (std::uint32_t* latch : {p.data<Field::waiting_for>(), p.data<Field::connected>()})
       if (latch != nullptr) latch[child] = 0;

@@ -15,7 +15,8 @@ struct Resets {
   static constexpr FieldSet writes =
       Materials::writes | FieldSet{Field::density,    Field::mass,          Field::gas_content,
                                    Field::enthalpy,   Field::temperature,   Field::heat_inflow,
-                                   Field::gas_inflow, Field::dissolved_gas, Field::liquid_mass};
+                                   Field::gas_inflow, Field::dissolved_gas, Field::liquid_mass,
+                                   Field::mass_inflow};
   using Rows = View<reads, writes>;
   const SphConstants* constants;
   const Materials* materials;
@@ -79,10 +80,10 @@ struct Resets {
     const double* content = p.get<Field::gas_content>();
     const double m = content != nullptr ? content[i] : 0.0;
     p.get<Field::pressure>()[i] = wanted;
-    const double now = materials->density_of(p, i, g, m, step), more = now / rho;
-    if (const double* h = p.get<Field::enthalpy>())
-      p.get<Field::heat_inflow>()[i] += (more - 1) * mass * h[i];
-    if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += (more - 1) * mass * (m / (1 + m));
+    const double now = materials->density_of(p, i, g, m, step), more = now / rho, added = (more - 1) * mass;
+    p.get<Field::mass_inflow>()[i] += added / (1 + m);
+    if (const double* h = p.get<Field::enthalpy>()) p.get<Field::heat_inflow>()[i] += added * h[i];
+    if (double* inflow = p.get<Field::gas_inflow>()) inflow[i] += added * (m / (1 + m));
     if (double* liquid = p.get<Field::liquid_mass>()) liquid[i] *= more;
     mass *= more;
     rho = now;
@@ -113,6 +114,8 @@ void add_resets(Builder& b) {
   const Scene& s = b.scene();
   if (resets_gas(s)) b.add_fields({Field::gas_inflow});
   if (s.has_heat()) b.add_fields({Field::heat_inflow});
+  if (std::ranges::any_of(s.domain.resets, [](const Reset& box) { return box.pressure.has_value(); }))
+    b.add_fields({Field::mass_inflow});
   b.add_kick("resets", Resets{&b.constants(), &b.materials()});
 }
 

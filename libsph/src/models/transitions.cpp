@@ -49,6 +49,7 @@ struct Transitions {
                                               Field::waiting_for,
                                               Field::waiting_time,
                                               Field::released_energy,
+                                              Field::mass_inflow,
                                               Field::void_fraction_mean,
                                               Field::temperature_mean,
                                               Field::pressure};
@@ -135,7 +136,7 @@ struct Transitions {
       const double* gas = p.get<Field::gas_content>();
       const double before = rho;
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
-      if (row.keeps == Conserved::volume) mass *= rho / before;
+      if (row.keeps == Conserved::volume) swell(p, i, rho / before);
     }
     group[i] = to;
     if (opened != nullptr)
@@ -151,6 +152,14 @@ struct Transitions {
       p.get<Field::temperature>()[i] = temperature(now.heat.material, h[i]);
     if (double* mean = p.get<Field::void_fraction_mean>()) mean[i] = p.get<Field::void_fraction>()[i];
     if (double* mean = p.get<Field::temperature_mean>()) mean[i] = p.get<Field::temperature>()[i];
+  }
+
+  /// Gives a body's particle, without gas and heat, so many times its mass.
+  static void swell(const Rows& p, std::size_t i, double factor) {
+    double& mass = p.get<Field::mass>()[i];
+    const double before = mass;
+    mass *= factor;
+    p.get<Field::mass_inflow>()[i] += mass - before;
   }
 
   void release(const Rows& p, std::size_t i, const Group& old, const Group& now, double* stress,
@@ -185,6 +194,9 @@ void add_transitions(Builder& b) {
     for (const Transition& row : g.becomes)
       if (row.average > 0)
         b.add_fields({row.of_temperature() ? Field::temperature_mean : Field::void_fraction_mean});
+  for (const Group& g : b.scene().groups)
+    if (std::ranges::any_of(g.becomes, [](const Transition& row) { return row.keeps == Conserved::volume; }))
+      b.add_fields({Field::mass_inflow});
   if (has_released_energy(b.scene())) b.add_fields({Field::released_energy});
   b.add_kick("transitions", Transitions{&b.constants(), &b.materials()});
 }

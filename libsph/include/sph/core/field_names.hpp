@@ -71,6 +71,7 @@ enum class Field : std::uint8_t {
   heat_gain,
   wall_heat,
   heat_inflow,
+  mass_inflow,
   liquid_mass,
   gas_mobility,
   gas_pressure,

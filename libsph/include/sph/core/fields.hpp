@@ -183,6 +183,9 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "... and from walls; how much less if the particle were 1 K warmer [W/K]", SumScale::force},
     {Field::heat_inflow, "heat_inflow", "J", Type::f64, Shape::scalar, true, false,
      "heat that a particle has had from walls, of friction and with gas from outside since the start"},
+    {Field::mass_inflow, "mass_inflow", "kg", Type::f64, Shape::scalar, true, false,
+     "mass without gas that a particle has had from resets of the pressure since the start, less what "
+     "failure took"},
     {Field::liquid_mass, "liquid_mass", "kg", Type::f64, Shape::scalar, true, false,
      "of bubbly magma whose volatiles flow or spread: mass without them, which stays"},
     {Field::gas_mobility, "gas_mobility", "s/m^2", Type::f64, Shape::scalar, false, false,

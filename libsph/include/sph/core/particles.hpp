@@ -157,7 +157,7 @@ void for_each_number(Body& body, See&& see) {
 /// What has come in through an inlet, or left through an outlet or a face, since the start.
 struct Passage {
   std::int64_t count = 0;            ///< of particles
-  std::array<double, 6> amounts{};   ///< as core/budget.hpp counts them [kg, J, J, kg, kg, J]
+  std::array<double, 7> amounts{};   ///< as core/budget.hpp counts them [kg, kg, J, J, kg, kg, J]
   std::array<double, 3> momentum{};  ///< [kg m/s]
   double kinetic_energy = 0;         ///< [J]
   /// Of an inlet with a pressure: mean speed of what flows in [m/s]; of other boxes: how the pressure beside them grows

@@ -53,7 +53,7 @@ class OpeningBoxes {
   [[nodiscard]] double speed(std::size_t inlet, const Double3& at, double time,
                              const GlobalState& global) const;
 
-  /// Who is led at the start, and how fast. Collective; throws InputError where the box of an inlet has gaps.
+  /// Who is led at the start, and how fast. Collective; throws InputError where the box of an inlet has gaps, or fluid is behind it.
   void mark(const decomp::Comm& comm, Particles& particles, const GlobalState& global) const;
   /// The stage that passes pressures on; in the end sums() are those of the step.
   void pass_pressures(StepState& state, Side side);
@@ -83,6 +83,7 @@ class OpeningBoxes {
   void let_out(StepState& state, std::size_t row, const Near& near) const;
   void press(StepState& state, std::size_t row, double pressure, bool keeps_mass) const;
   void check_inlets(const decomp::Comm& comm, const Particles& particles) const;
+  void check_behind(const decomp::Comm& comm, Particles& particles) const;
 
   const SphConstants* constants_;
   const Materials* materials_;

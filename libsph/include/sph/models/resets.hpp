@@ -4,7 +4,7 @@
 //   the pressure p, at constant volume: mass comes in, of the matter that is there, or leaves;
 //   the gas content m, its mass M (1 + m), M that of its liquid, at constant temperature, velocity and pressure: the
 //   density follows, and the volume. What can be dissolved is, where that takes time. (At constant volume gas that comes in would be a blow.)
-// What heat and gas that adds is counted for the particle (heat_inflow, gas_inflow); its momentum grows as its mass does.
+// What heat, gas and other mass that adds is counted for the particle (heat_inflow, gas_inflow, mass_inflow); its momentum grows as its mass does.
 #pragma once
 
 #include "sph/models/builder.hpp"
