@@ -195,7 +195,8 @@ class RigidStart {
     if (!thin) settle_spin(body, false);
     if (kind.velocity) body.motion.velocity = *kind.velocity;
     if (kind.spin) body.motion.spin = *kind.spin;
-    round_motion(body, !kind.velocity, !kind.spin);
+    // Twice: the first may take the speed over a power of two, and its unit with it.
+    for (int k = 0; k < 2; ++k) round_motion(body, !kind.velocity, !kind.spin);
     settle_spin(body, true);
   }
 
