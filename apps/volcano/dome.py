@@ -17,7 +17,7 @@ here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "plotting"))
 from figures import RUNS, plt, save  # noqa: E402
 from run_folder import refusing  # noqa: E402
-from runs import drawn_from_runs  # noqa: E402
+from scene_runs import drawn_from_runs  # noqa: E402
 
 PERMEABILITIES = {"permeable": 1e-10, "tight": 1e-12}
 MAGMA, PLUG, SPRAY = 0, 1, 2
@@ -87,7 +87,7 @@ def draw(folders, out):
 
 
 def main():
-    drawn_from_runs(__doc__, "dome.toml", {name: (name, [f"group.{group}.permeability.coefficient={k}" for group in ("magma", "plug")])
+    drawn_from_runs(__doc__, here / "dome.toml", {name: (name, [f"group.{group}.permeability.coefficient={k}" for group in ("magma", "plug")])
                                            for name, k in PERMEABILITIES.items()}, draw)
 
 

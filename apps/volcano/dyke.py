@@ -18,7 +18,7 @@ here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "plotting"))
 from figures import plt, save  # noqa: E402
 from run_folder import refusing  # noqa: E402
-from runs import drawn_from_runs  # noqa: E402
+from scene_runs import drawn_from_runs  # noqa: E402
 
 COEFFICIENTS = (100, 1000, 3000)  # W/m2/K
 SOLIDUS, LIQUIDUS, HOT, COLD = 1273, 1423, 1473, 400
@@ -125,7 +125,7 @@ def draw(folders, out):
 
 
 def main():
-    drawn_from_runs(__doc__, "dyke.toml", {name: (f"h_{name}", settings_of(name)) for name in ("still", *COEFFICIENTS)}, draw)
+    drawn_from_runs(__doc__, here / "dyke.toml", {name: (f"h_{name}", settings_of(name)) for name in ("still", *COEFFICIENTS)}, draw)
 
 
 if __name__ == "__main__":

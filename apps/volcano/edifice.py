@@ -17,7 +17,7 @@ here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "plotting"))
 from figures import GROUPS, RUNS, WALL, plt, save  # noqa: E402
 from run_folder import refusing  # noqa: E402
-from runs import drawn_from_runs  # noqa: E402
+from scene_runs import drawn_from_runs  # noqa: E402
 
 TIMES = (0, 10, 20, 60)  # s
 ALTERED, GROUND = 1, 2
@@ -63,7 +63,7 @@ def draw(folders, out):
 
 
 def main():
-    drawn_from_runs(__doc__, "edifice.toml", {"edifice": ("edifice", ())}, draw)
+    drawn_from_runs(__doc__, here / "edifice.toml", {"edifice": ("edifice", ())}, draw)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "plotting"))
 from figures import plt, save  # noqa: E402
 from run_folder import refusing  # noqa: E402
-from runs import drawn_from_runs  # noqa: E402
+from scene_runs import drawn_from_runs  # noqa: E402
 
 UNTIL = {1e5: 4, 3e5: 4, 1e6: 6, 3e6: 14}  # s, by viscosity (Pa s): afterwards little changes
 PERMEABILITIES = (6.3e-12, 6.3e-11, 6.3e-10, 6.3e-9, 6.3e-8)
@@ -120,7 +120,7 @@ def draw_boundaries(axes, viscosities, magma, measured):
 
 
 def main():
-    drawn_from_runs(__doc__, "conduit.toml", {(eta, k): (f"eta_{eta:.0e}_k_{k:.1e}", settings_of(eta, k)) for eta in UNTIL for k in PERMEABILITIES},
+    drawn_from_runs(__doc__, here / "conduit.toml", {(eta, k): (f"eta_{eta:.0e}_k_{k:.1e}", settings_of(eta, k)) for eta in UNTIL for k in PERMEABILITIES},
                     lambda folders, out: draw({at: at_the_end(folder) for at, folder in folders.items()}, out))
 
 

@@ -236,6 +236,7 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
   numbers(Field::dissolved_gas, 0.04, 0.03);
   numbers(Field::crack, 0, uniform(number, Field::crack, 9) > -0.5 ? 1 : 0);
   numbers(Field::crack_distance, 0, 0.5);
+  numbers(Field::crack_closing, 0.1, 0.1);
   if (particles_.has(Field::overload))  // some are alike
     particles_.data<Field::overload>()[row] = std::round(2 * uniform(number, Field::overload, 0));
   if (particles_.has(Field::failing))

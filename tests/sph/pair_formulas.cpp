@@ -242,7 +242,8 @@ void PairOracle::add_contact(const Pair& pair, Term term, PairSums& sums) const 
   const double r = pair.r;
   const bool across = i.body == j.body;
   if (across && !(term.name.starts_with("Cracked") && faces(pair, 0.8))) return;
-  const double d = scene_.start.spacing, touch = across ? bond(pair).X.norm() : d, overlap = touch - r;
+  const double d = scene_.start.spacing, shorter = 0.5 * (i.crack_closing + j.crack_closing),
+               touch = across ? bond(pair).X.norm() * (1 - shorter) : d, overlap = touch - r;
   if (overlap < 0 || touch >= scene_.list_range()) return;
   const double k = contact_stiffness * std::min(i.modulus, j.modulus) * power(d, dim_) / (h_ * h_);
   if (term.name.ends_with("Energy")) {

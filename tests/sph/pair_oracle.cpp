@@ -103,6 +103,7 @@ void PairOracle::load() {
     q.water_mobility = q.density / (1 + get(Field::gas_content, row, 0)) * g.bubbly.water_diffusivity;
     q.overload = get(Field::overload, row, 0);
     q.crack_distance = get(Field::crack_distance, row, 0);
+    q.crack_closing = get(Field::crack_closing, row, 0);
     q.failing = read.has(Field::failing) && p.data<Field::failing>()[row] == 1;
     q.open = g.wall.gas_pressure.has_value();
     q.slips = g.wall.slip;

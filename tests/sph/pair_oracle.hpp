@@ -38,7 +38,7 @@ struct PairParticle {
   double rest_volume, modulus, hourglass;
   double temperature, trial, conductivity, sensible_heat;
   double permeability, gas_mobility, gas_pressure, gas_density;
-  double dissolved, water_mobility, overload, crack_distance;
+  double dissolved, water_mobility, overload, crack_distance, crack_closing;
   std::array<double, 2> wall_pressures;
   bool mover, shears, heavy, owned, warm, open, slips, failing;
   int side, group, body;

@@ -109,8 +109,9 @@ std::string place_of(const Key& key) {
 std::string refusal(const KeyTable& table, const Where& where) {
   if (!where.but.empty()) return std::string(where.but);
   const bool many = !table.plural.empty();
-  return fmt::format("only {}{} = \"{}\" {} it{}", many ? fmt::format("{} with ", table.plural) : "",
-                     where.key, where.word, many ? "have" : "has", where.more);
+  const std::string other = where.or_word.empty() ? "" : fmt::format(" or \"{}\"", where.or_word);
+  return fmt::format("only {}{} = \"{}\"{} {} it{}", many ? fmt::format("{} with ", table.plural) : "",
+                     where.key, where.word, other, many ? "have" : "has", where.more);
 }
 
 }  // namespace sph::keys

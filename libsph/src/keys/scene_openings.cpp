@@ -85,6 +85,11 @@ Inlet read_inlet(const Reader<keys::inlet>& table, const Scene& scene) {
   const Group& g = scene.groups[static_cast<std::size_t>(inlet.group)];
   if (g.kind != GroupKind::fluid)
     table.fail("group", fmt::format("\"{}\" is no fluid", g.name), "name a group with kind = \"fluid\"");
+  const double fastest = 10 * std::sqrt(g.eos.bulk_modulus / g.density);
+  for (const auto& [t, v] : inlet.velocity)
+    if (!(v <= fastest))
+      table.fail("velocity", fmt::format("is {:.6g} m/s", v),
+                 fmt::format("it must be at most {:.6g} m/s, ten times the speed of sound", fastest));
   table.only_if(scene.has_heat() && g.heat.temperature.has_value(), "temperature",
                 "there is no heat: give group.heat");
   table.only_if(g.eos.law->kind == EosKind::bubbly, "gas_content",

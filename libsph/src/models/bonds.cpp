@@ -273,7 +273,8 @@ void add_bodies(Builder& b) {
   if (viscous) forces.push_back(cracks ? term<CrackedBondViscosity> : term<BondViscosity>);
   if (cracks) {
     deformation.push_back(term<CrackSums>);
-    b.add_fields({Field::overload, Field::crack, Field::crack_distance, Field::crack_planes, Field::failing});
+    b.add_fields({Field::overload, Field::crack, Field::crack_distance, Field::crack_planes,
+                  Field::crack_closing, Field::failing});
   }
   std::optional<Clamps> clamps;
   if (std::ranges::any_of(s.groups, [](const Group& g) { return g.wall.clamps >= 0; })) clamps.emplace(s);

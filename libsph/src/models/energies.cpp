@@ -1,6 +1,7 @@
 #include "sph/models/energies.hpp"
 
 #include "sph/laws/background.hpp"
+#include "sph/laws/eos/law.hpp"
 
 namespace sph {
 
@@ -12,6 +13,10 @@ double kinetic_energy(const Particles& p, std::size_t row) {
   double v2 = 0;
   for (std::size_t a = 0; a < d; ++a) v2 += v[a] * v[a];
   return 0.5 * p.data<Field::mass>()[row] * v2;
+}
+
+double compression_energy(const Group& g, double mass, double density) {
+  return mass * (g.eos.bulk_modulus / g.density) * g.eos.law->energy(g, density);
 }
 
 double potential_energy(const Scene& scene, const PositionScale& scale, const Wrap& wrap, const Particles& p,

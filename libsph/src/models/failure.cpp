@@ -20,7 +20,8 @@ constexpr double tip_stress = 0.70;  ///< C
 /// In spacings: one particle of each row across a crack is as near to its plane. Others bear so many times more, and what
 /// is on it does across any other plane.
 constexpr double half_a_row = 0.5, off_the_plane = 2;
-constexpr double crumbles = 1e30;  ///< overload of what no longer spans the space
+constexpr double most_closing = 0.5;  ///< so that faces keep a distance
+constexpr double crumbles = 1e30;     ///< overload of what no longer spans the space
 
 /// Of a group, 0 where that criterion is not given.
 struct Limits {
@@ -53,10 +54,11 @@ double overload(const Limits& limits, double largest, double least, double tensi
 
 struct Failures {
   static constexpr FieldSet reads =
-      FaultView::reads | FieldSet{Field::crack_sums,   Field::stress, Field::pressure,      Field::bonds,
-                                  Field::wet_pressure, Field::group,  Field::borne_by_fluid};
-  static constexpr FieldSet writes{Field::overload, Field::crack, Field::crack_distance, Field::crack_planes,
-                                   Field::failing};
+      FaultView::reads | FieldSet{Field::crack_sums,     Field::stress,       Field::pressure,
+                                  Field::bonds,          Field::wet_pressure, Field::group,
+                                  Field::borne_by_fluid, Field::prestress};
+  static constexpr FieldSet writes{Field::overload,     Field::crack,         Field::crack_distance,
+                                   Field::crack_planes, Field::crack_closing, Field::failing};
   const SphConstants* constants;
   std::vector<Limits> limits;  ///< by group
 
@@ -81,9 +83,32 @@ struct Failures {
       if (!own.fails) return;
       for (std::size_t a = 0; a < d; ++a) p.get<Field::crack>()[i * d + a] += s[2 + a];
       for (std::size_t k = 0; k < planes; ++k) p.get<Field::crack_planes>()[i * planes + k] += s[2 + d + k];
+      if (changed) close(p, i);
       if (fails) return follow(p, i);
       beyond = p.get<Field::bonds>()[i] == 1 ? crumbles : overload_of(p, i, own);
     });
+  }
+
+  /// By Hooke's law the strain across the crack is s_nn / 2 mu - p / 3 K, s the deviator.
+  void close(const View<reads, writes>& p, std::size_t i) const {
+    const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
+    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
+    const double* crack = p.get<Field::crack>() + i * d;
+    const double* s = p.get<Field::stress>() + i * n;
+    const double before = p.get<Field::prestress>() != nullptr ? p.get<Field::prestress>()[i] : 0.0;
+    double across = 0, square = 0;
+    for (std::size_t a = 0; a < d; ++a) {
+      square += crack[a] * crack[a];
+      for (std::size_t b = 0; b < d; ++b)
+        across +=
+            crack[a] * crack[b] *
+            s[symmetric_index(static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b)), p.dim())];
+    }
+    if (!(square > 0)) return;
+    const double strain = across / square / (2 * g.solid.shear_modulus) -
+                          (p.get<Field::pressure>()[i] - before) / (3 * g.eos.bulk_modulus);
+    double& closing = p.get<Field::crack_closing>()[i];
+    closing = std::max(closing, std::min(-strain, most_closing));
   }
 
   [[nodiscard]] double overload_of(const View<reads, writes>& p, std::size_t i, const Limits& own) const {

@@ -1,7 +1,7 @@
 // Energies of fluids and solids (output/monitors.hpp has the formulas).
 #include <algorithm>
 
-#include "sph/laws/eos/law.hpp"
+#include "sph/models/energies.hpp"
 #include "sph/models/physics.hpp"
 
 namespace sph {
@@ -17,8 +17,7 @@ double elastic_energy(const Scene& scene, const Particles& p, std::size_t row) {
   const double* liquid = p.data<Field::liquid_density>();
   const double* e = p.data<Field::plastic_volume>();
   const double opened = e != nullptr ? 1 + e[row] : 1.0;
-  double energy = m * opened * (g.eos.bulk_modulus / g.density) *
-                  g.eos.law->energy(g, (liquid != nullptr ? liquid[row] : rho) * opened);
+  double energy = compression_energy(g, m * opened, (liquid != nullptr ? liquid[row] : rho) * opened);
   if (g.kind != GroupKind::solid || scene.terms.formulation != Formulation::conservative) return energy;
   const std::size_t n = d * (d + 1) / 2;
   const double* s = p.data<Field::stress>() + row * n;

@@ -10,6 +10,7 @@
 #include "sph/laws/enthalpy.hpp"
 #include "sph/laws/eos/bubbly.hpp"
 #include "sph/laws/eos/law.hpp"
+#include "sph/models/energies.hpp"
 
 namespace sph {
 namespace {
@@ -138,6 +139,9 @@ struct Transitions {
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
       if (row.keeps == Conserved::volume) swell(p, i, rho / before);
     }
+    // What was stored in bonds but for what the fluid's pressure stores.
+    if (double* released = p.get<Field::released_energy>(); released != nullptr && is_bonded(old))
+      released[i] -= compression_energy(now, mass, rho);
     group[i] = to;
     if (opened != nullptr)
       opened[i] = p.get<Field::opening>()[i] = p.get<Field::plastic_strain>()[i] =

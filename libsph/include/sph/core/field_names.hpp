@@ -106,6 +106,7 @@ enum class Field : std::uint8_t {
   overload,
   crack,
   crack_distance,
+  crack_closing,
   crack_planes,
   failing,
   crack_sums,

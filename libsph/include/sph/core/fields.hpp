@@ -218,7 +218,8 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
     {Field::dissolved_gas, "dissolved_gas", "1", Type::f64, Shape::scalar, true, true,
      "w: what of bubbly magma's volatiles is dissolved where that lags behind, per mass of liquid melt"},
     {Field::released_energy, "released_energy", "J", Type::f64, Shape::scalar, true, false,
-     "elastic energy that a particle lost by transitions since the start"},
+     "elastic energy that a particle lost by transitions since the start; negative: had from the fluid "
+     "beside it"},
     {Field::trial, "trial", "K or Pa", Type::f64, Shape::scalar, false, false,
      "implicit exchange: what is tried for the temperature or the gas pressure, or the change of it"},
     {Field::exchange_sums, "exchange_sums", "W, kg/s", Type::f64, Shape::two, false, false,
@@ -263,6 +264,10 @@ inline constexpr std::array<FieldInfo, field_count> field_table{{
      "crack's plane"},
     {Field::crack_distance, "crack_distance", "1", Type::f64, Shape::scalar, true, false,
      "of what has failed: how far from its plane it was, over the width of bonds"},
+    {Field::crack_closing, "crack_closing", "1", Type::f64, Shape::scalar, true, false,
+     "of a particle of a solid beside a crack: how much shorter across it that was than in the reference "
+     "state when the crack "
+     "came"},
     {Field::crack_planes, "crack_planes", "1", Type::f64, Shape::planes, true, false,
      "of a particle of a solid beside what has failed: sums of their planes (terms/crack.hpp)"},
     {Field::failing, "failing", "1", Type::u32, Shape::scalar, true, false,

@@ -31,6 +31,8 @@ class EnergySums {
 
 /// m v^2 / 2 of a particle.
 [[nodiscard]] double kinetic_energy(const Particles& particles, std::size_t row);
+/// Of a fluid's or an updated solid's volume [J], from the density at no pressure.
+[[nodiscard]] double compression_energy(const Group& group, double mass, double density);
 /// -m g.x, and that of the scene's central pull; positions are those within the periodic domain.
 [[nodiscard]] double potential_energy(const Scene& scene, const PositionScale& scale, const Wrap& wrap,
                                       const Particles& particles, std::size_t row);

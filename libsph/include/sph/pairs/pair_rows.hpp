@@ -205,9 +205,10 @@ struct CrackColumns {
   explicit CrackColumns(const Particles& p)
       : crack(p.data<Field::crack>()),
         distance(p.data<Field::crack_distance>()),
+        closing(p.data<Field::crack_closing>()),
         overload(p.data<Field::overload>()),
         failing(p.data<Field::failing>()) {}
-  const double *crack, *distance, *overload;
+  const double *crack, *distance, *closing, *overload;
   const std::uint32_t* failing;
 
   template <class Row>
@@ -222,6 +223,7 @@ struct CrackColumns {
       for (int k = 0; k < D; ++k) row.put(Value::crack, k, length > 0 ? crack[i * D + k] / length : 0.0);
     }
     if constexpr (S.has(Value::crack_distance)) row.put(Value::crack_distance, 0, distance[i]);
+    if constexpr (S.has(Value::crack_closing)) row.put(Value::crack_closing, 0, closing[i]);
     if constexpr (S.has(Value::overload)) row.put(Value::overload, 0, overload[i]);
     if constexpr (S.has(Value::failing)) row.put(Value::failing, 0, failing[i]);
   }

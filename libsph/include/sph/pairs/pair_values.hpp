@@ -83,6 +83,7 @@ enum class Value : std::uint8_t {
   own_head,  ///< -a h of a body, a its acceleration: rho times it is grad p h beside it, less the weight's part
   crack,     ///< n over its length, 0 without a crack; of what has failed its plane's normal
   crack_distance,  ///< from that plane, over the width of bonds
+  crack_closing,   ///< how much shorter across a crack than in the reference state when that came, over it
   overload,        ///< how far beyond its strength, over it
   failing,         ///< 1 where it has just become fluid, else 0
   flux,  ///< of solids and walls: what flows onto them, for the fluid beside them (terms/wetted.hpp)
@@ -156,6 +157,7 @@ class ValueSet {
   if (values.has(Value::own_head)) f |= FieldSet{Field::group, Field::acceleration};
   if (values.has(Value::crack)) f |= FieldSet{Field::crack};
   if (values.has(Value::crack_distance)) f |= FieldSet{Field::crack_distance};
+  if (values.has(Value::crack_closing)) f |= FieldSet{Field::crack_closing};
   if (values.has(Value::overload)) f |= FieldSet{Field::overload};
   if (values.has(Value::failing)) f |= FieldSet{Field::failing};
   if (values.has(Value::flux)) f |= FieldSet{Field::flux};

@@ -71,12 +71,13 @@ struct CrackedBondViscosity {
   }
 };
 
-/// As BodyContact, and between the faces of a crack where they are closer than in the reference state, of an energy
-/// k (|X| - r)^2 / 2: in the reference state a crack is closed.
+/// As BodyContact, and between the faces of a crack where they are closer than they were when it came, of an energy
+/// k (|X| (1 - (c_i + c_j) / 2) - r)^2 / 2: c >= 0 is how much shorter than in the reference state the solid was across the
+/// crack; what is whole has that energy already, and the faces would gain it once more.
 struct CrackedBodyContact {
   static constexpr std::string_view name = "CrackedBodyContact";
-  static constexpr ValueSet reads =
-      BodyContact::reads | ValueSet{Value::reference, Value::reference_cell, Value::crack};
+  static constexpr ValueSet reads = BodyContact::reads | ValueSet{Value::reference, Value::reference_cell,
+                                                                  Value::crack, Value::crack_closing};
   static constexpr Field writes = Field::force;
   static constexpr Value nothing_without = Value::modulus;
   template <class P, class C>
@@ -84,7 +85,9 @@ struct CrackedBodyContact {
     using V = typename P::V;
     V square = V::zero();
     for (int a = 0; a < P::dim; ++a) square += p.bond.reference[a] * p.bond.reference[a];
-    const V closed = sqrt(square) / V(c.bonds.ratio);
+    const V shorter = p.template i<Value::crack_closing>() + p.template j<Value::crack_closing>();
+    const V part = V(1) - V(static_cast<typename P::Scalar>(0.5)) * shorter;
+    const V closed = part * sqrt(square) / V(c.bonds.ratio);
     const V nearer = where_less(closed, V(c.bonds.range), max(closed - p.r, V::zero()));
     const V across = faces(p, 0.8) * p.bond.near;
     return BodyContact::overlap(p, c) +

@@ -2,24 +2,21 @@
 
 import argparse
 import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-here = Path(__file__).resolve().parent
-sys.path.append(str(here.parent / "plotting"))
-from run_folder import BadInput  # noqa: E402
+from run_folder import BadInput
 
 
 def make(programs, scene, folder, settings):
-    done = subprocess.run([str(Path(programs) / "peperite"), "run", str(here / scene), "--out", str(folder),
+    done = subprocess.run([str(Path(programs) / "peperite"), "run", str(scene), "--out", str(folder),
                            *(word for setting in settings for word in ("--set", setting))], capture_output=True, text=True)
     if done.returncode:
         raise BadInput(done.stderr.strip().split("\n")[0])
 
 
 def drawn_from_runs(doc, scene, runs, draw):
-    """A script's main. `runs`: by key, the run's name and what is set in its scene, the longest last; `draw(folders, out)`."""
+    """A script's main. `scene`: its file; `runs`: by key, the run's name and what is set in its scene, the longest last; `draw(folders, out)`."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs")
     parser.add_argument("--out", help="default: RUNS")
