@@ -27,9 +27,9 @@ Crack pressed(int dim) {
     return "lower = [" + std::to_string(-x) + ", " + std::to_string(-y) + z + "]\nupper = [" +
            std::to_string(x) + ", " + std::to_string(y) + top + "]\n";
   };
-  sph::Simulation s(
-      comm, sph::parse_scene("dimension = " + std::to_string(dim) + "\n[domain]\n" + corners(40, period / 2) +
-                                 "periodic = [false, true" + (dim == 3 ? ", true" : "") + R"(]
+  sph::Simulation s(comm, sph::parse_scene("dimension = " + std::to_string(dim) + "\n[domain]\n" +
+                                               corners(40.5, period / 2) + "periodic = [false, true" +
+                                               (dim == 3 ? ", true" : "") + R"(]
 [kernel]
 h_over_dx = 1
 [[group]]
@@ -55,10 +55,10 @@ group = "none"
 group = "rock"
 shape = "box"
 )" + corners(11.5, period / 2) + "[[start.region]]\ngroup = \"melt\"\nshape = \"box\"\n" +
-                                 corners(0.5, 5.5) + "[[reset]]\n" + corners(40, period) +
-                                 "pressure = 1e-3\nrise_time = " + std::to_string(rise) +
-                                 "\n[time]\ncfl = 0.8\nuntil = " + std::to_string(until) + "\n",
-                             "crack", {}));
+                                               corners(0.5, 5.5) + "[[reset]]\n" + corners(40, period) +
+                                               "pressure = 1e-3\nrise_time = " + std::to_string(rise) +
+                                               "\n[time]\ncfl = 0.8\nuntil = " + std::to_string(until) + "\n",
+                                           "crack", {}));
   const auto d = static_cast<std::size_t>(dim);
   Crack out;
   double weights = 0;
