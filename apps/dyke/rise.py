@@ -71,15 +71,15 @@ def draw(folders, out):
         files = sorted(folder.glob("snapshot_*.h5"))
         drawn = draw_state(panel, files[-1], f"{name} of the area")
         times, tips = np.array([tip(file) for file in files]).T
-        axes[2].plot(times, 100 * tips, "o-", color=color, ms=3, label=f"{name} of the area")
+        axes[2].plot(times, 100 * tips, "o-", color=color, ms=3, label=f"{name} of the critical area")
         heights, apart = opening(files[-1])
         axes[3].plot(1000 * apart, 100 * heights, color=color)
         print(f"{name}: tip at {100 * tips[-1]:.1f} cm after {times[-1]:.2f} s, {100 * np.interp(times[-1] - 0.2, times, tips):.1f} "
               f"0.2 s before; open by {1000 * apart.max():.1f} mm at most")
     figure.colorbar(drawn, ax=axes[1], label="largest principal stress (Pa)")
-    axes[2].axhline(200 * HALF, color="#777777", lw=1, ls="--", label="length at which a crack rises (Weertman 1971)")
+    axes[2].axhline(200 * HALF, color="#777777", lw=1, ls="--", label="critical length (Weertman 1971)")
     axes[2].set(xlabel="time (s)", ylabel="height of the tip (cm)", title="one stays")
-    axes[2].legend()
+    axes[2].legend(fontsize=8)
     axes[3].set(xlabel="open by (mm)", ylabel="height (cm)", ylim=(-1, 22), title="in the end")
     print(f"Weertman: {200 * HALF:.1f} cm long, {1e4 * AREA:.2f} cm2")
     save(figure, Path(out) / "rise.png")
