@@ -4,7 +4,7 @@ tension around them, how high their tips are, how far they are open. Runs of sta
 
     rise.py RUNS [--out DIR] [--programs build/bin]
 
-Runs that are not in RUNS yet are made, on one rank each, side by side: half an hour.
+Runs that are not in RUNS yet are made, on one rank each, side by side.
 """
 
 import math

@@ -95,15 +95,15 @@ TEST(Resets, CountTheMassThatPressureBrings) {
                sph::parse_scene(scene("[[reset]]\nlower = [4, 0]\nupper = [8, 12]\npressure = 1e5\n"),
                                 "scene", {"group.magma.permeability={coefficient=1e-10}"}));
   const double mass = column(s, "mass"), heat = column(s, "heat"), gas = column(s, "gas");
+  const sph::Group& g = s.scene().groups[0];
+  const double more = bubbly_eos(g, 0.002).density(1.1e6) - bubbly_eos(g, 0.002).density(1e6);
   for (int k = 0; k < 30; ++k) {
     s.step();
+    if (k == 0) EXPECT_NEAR(column(s, "mass_added"), 48 * more / 1.002, 1e-6 * more);
     EXPECT_NEAR(column(s, "mass") - column(s, "mass_added") - column(s, "gas_in"), mass, 1e-13 * mass);
     EXPECT_NEAR(column(s, "gas") - column(s, "gas_in"), gas, 1e-13 * gas);
     EXPECT_NEAR(column(s, "heat") - column(s, "heat_in"), heat, 1e-13 * heat);
   }
-  const sph::Group& g = s.scene().groups[0];
-  EXPECT_GT(column(s, "mass_added"),
-            48 * (bubbly_eos(g, 0.002).density(1.1e6) / bubbly_eos(g, 0.002).density(1e6) - 1));
 }
 
 TEST(Resets, AreOfTheirOwnMatter) {
