@@ -1,61 +1,47 @@
 #!/usr/bin/python3
-"""Draws any run, by the script for its kind of scene.
+"""Draws any run, by what its scene has.
 
     plot.py DIR [DIR ...] [--out DIR] [--time T] [--draw LIST]
 
-DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Melts: plotting/melt.py; what else has two dimensions:
-buoyant_cylinder/plot.py; the sandbox and its shear boxes: sandbox/plot.py; everything else in three: plotting/plain.py.
-Each says with --help what it draws.
+DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Which options there are depends on the run: plot.py DIR --help.
+The sandbox and its shear boxes are drawn by sandbox/plot.py, all else by the package peperite, which is in python/.
 """
 
 import os
 import sys
-import tomllib
 from pathlib import Path
 
-import h5py
-
 here = Path(__file__).resolve().parent
-sys.path.append(str(here / "plotting"))
-from run_folder import BadInput, drawing_parser, refusing  # noqa: E402
+sys.path.insert(0, str(here / "python"))
+import peperite  # noqa: E402
+from peperite.drawing import module_for  # noqa: E402
+from peperite.drawing.command import refusing, show  # noqa: E402
 
 
-def scene_of(folder):
-    if not Path(folder).is_dir():
-        raise BadInput(f"{folder}: no such folder")
-    snapshots = sorted(Path(folder).glob("snapshot_*.h5"))
-    if not snapshots:
-        raise BadInput(f"{folder}: no snapshot_*.h5 in it")
-    try:
-        with h5py.File(snapshots[-1]) as file:
-            return tomllib.loads(file.attrs["scene"])
-    except (OSError, KeyError, ValueError) as error:
-        raise BadInput(f"{snapshots[-1]}: not a snapshot: {error}") from None
-
-
-def script_for(scene):
+def is_sandbox(scene):
+    """A back wall that is pushed; of its shear boxes a lid over a bottom that slides."""
     walls = {wall["name"] for wall in scene.get("wall", [])}
     pushed = {change["name"] for stage in scene.get("stage", []) for change in stage.get("wall", [])
               if any(change.get("velocity", []))}
-    if any(group["kind"] == "melt" for group in scene["group"]):
-        return "plotting/melt.py"
-    if scene["dimension"] == 2:
-        return "buoyant_cylinder/plot.py"
-    # The sandbox has a back wall that is pushed, its shear boxes a lid over a bottom that slides.
-    if "back" in pushed or {"lid", "bottom"} <= walls and "bottom" in pushed:
-        return "sandbox/plot.py"
-    return "plotting/plain.py"
+    return "back" in pushed or {"lid", "bottom"} <= walls and "bottom" in pushed
 
 
 def main():
-    parser = drawing_parser(__doc__, ["those that the script has"])
-    for option in ("--time", "--average"):
-        parser.add_argument(option, help="as the script says")
-    given, _ = parser.parse_known_args()
-    scripts = {script_for(scene_of(folder)) for folder in given.runs}
-    if len(scripts) > 1:
-        raise BadInput("runs of different kinds: draw one after the other")
-    os.execv(sys.executable, [sys.executable, "-B", str(here / scripts.pop()), *sys.argv[1:]])
+    words = sys.argv[1:]
+    folders = [word for k, word in enumerate(words) if not word.startswith("-") and not words[k - 1].startswith("--")]
+    if not folders:
+        if {"-h", "--help"} & set(words):
+            print(__doc__)
+            return
+        raise peperite.Error("the following arguments are required: DIR")
+    os.environ["MPLBACKEND"] = "Agg"
+    scenes = [peperite.open(folder).scene for folder in folders]
+    kinds = {is_sandbox(scene) or module_for(scene) for scene in scenes}
+    if len(kinds) > 1:
+        raise peperite.Error("runs of different kinds: draw one after the other")
+    if is_sandbox(scenes[0]):
+        os.execv(sys.executable, [sys.executable, "-B", str(here / "sandbox/plot.py"), *words])
+    show(module_for(scenes[0]), words)
 
 
 if __name__ == "__main__":

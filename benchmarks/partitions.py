@@ -34,7 +34,7 @@ import tables  # noqa: E402
 from speed import environment, finished  # noqa: E402
 
 here = Path(__file__).resolve().parent
-sys.path.append(str(here.parent / "apps/plotting"))
+sys.path.append(str(here.parent / "cmake"))
 import manifest  # noqa: E402
 
 BALANCERS = {"fixed": "#888888", "literal": "#c1272d", "quasi_newton": "#1b6ca8", "hybrid": "#3a7d44"}

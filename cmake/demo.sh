@@ -23,7 +23,7 @@ done
 mkdir -p out
 
 mpirun -np 2 build/bin/buoyant_cylinder apps/buoyant_cylinder/fluid.toml --until "$until" --out "$out/cylinder"
-/usr/bin/python3 apps/buoyant_cylinder/plot.py "$out/cylinder"
+/usr/bin/python3 apps/plot.py "$out/cylinder"
 
 mpirun -np 2 build/bin/sandbox apps/sandbox/sandbox.toml --until "$until_sand" --out "$out/sandbox"
 /usr/bin/python3 apps/sandbox/plot.py "$out/sandbox"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the pictures of the repository anew, each entered with its commit and scenes in the pictures.json beside it
-# (apps/plotting/manifest.py; the test `pictures` compares). The tree must be committed.
+# (cmake/manifest.py; the test `pictures` compares). The tree must be committed.
 #
 #     sh cmake/pictures.sh            galleries and rising bubbles: three quarters of an hour of two cores
 #     sh cmake/pictures.sh all        also the bulk behaviour of grains and the partitions: some hours

@@ -24,10 +24,10 @@ draw() {
   for case in $3; do folders="$folders $runs/$case" scenes="$scenes $here/$case.toml"; done
   shift 3
   # shellcheck disable=SC2086  # one word a case
-  /usr/bin/python3 -B "$here/plot.py" $folders "$@" --draw "$picture" --out "$runs" > /dev/null
+  /usr/bin/python3 -B "$here/../plot.py" $folders "$@" --draw "$picture" --out "$runs" > /dev/null
   mv "$runs/$picture.png" "$here/gallery/$name.png"
   # shellcheck disable=SC2086
-  /usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/$name.png" --runs $folders --scenes $scenes
+  /usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here/gallery/$name.png" --runs $folders --scenes $scenes
   echo "$here/gallery/$name.png"
 }
 

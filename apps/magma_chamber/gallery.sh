@@ -17,5 +17,5 @@ fi
 
 mkdir -p "$here/gallery"
 /usr/bin/python3 -B "$here/plot.py" "$runs/chamber" --times 3600,10800,17100 --out "$here/gallery"
-/usr/bin/python3 -B "$here/../plotting/manifest.py" "$here"/gallery/*.png \
+/usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here"/gallery/*.png \
   --runs "$runs/chamber" --scenes "$here/chamber.toml"

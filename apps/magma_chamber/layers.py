@@ -62,15 +62,15 @@ class History:
 
     def __init__(self, run):
         self.run, self.edges = run, run.grid.faces(run.grid.up)
-        self.times = np.array([s.time for s in run.snapshots])
-        self.fractions = np.array([grain_fractions(s) for s in run.snapshots])
+        self.times = run.times
+        self.fractions = np.array([grain_fractions(s) for s in run])
         if not run.mixed:
             return
-        self.interface = np.array([interface(run.grid, s.cell("composition")) for s in run.snapshots])
+        self.interface = np.array([interface(run.grid, s.cell("composition")) for s in run])
         self.thickness, self.mean = np.array([trapped_layer(self.edges, fractions, floor) for fractions, floor
                                               in zip(self.fractions, self.interface)]).T
         self.below = np.array([np.sum(s.grain("position")[:, run.grid.up] < height)
-                               for s, height in zip(run.snapshots, self.interface)])
+                               for s, height in zip(run, self.interface)])
 
     def fallen(self, unit):
         """Between snapshots: middle times [s] and grains that have come below the interface per `unit` seconds."""

@@ -6,8 +6,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.lines import Line2D
 
-import figures
-from melt import levels_of
+from peperite.drawing import style
+from peperite.drawing.melts import levels_of
 
 TINTS = LinearSegmentedColormap.from_list("melts", ["#fbf6ea", "#cfdfee"])  # first and second melt
 WARMTH = LinearSegmentedColormap.from_list("warmth", plt.get_cmap("inferno")(np.linspace(0.15, 0.8, 64)))
@@ -16,11 +16,11 @@ INTERFACE = "#1b6ca8"
 
 def time_scale(run):
     """Size of the unit and its name."""
-    return (run.clock[1], run.clock[0]) if run.clock else figures.unit_for(run.snapshots[-1].time, "s")
+    return (run.clock[1], run.clock[0]) if run.clock else style.unit_for(run[-1].time, "s")
 
 
 def grain_colours(run):
-    return dict(zip(run.grains, ("#555555", *figures.GROUPS)))
+    return dict(zip(run.grains, ("#555555", *style.GROUPS)))
 
 
 def handles_of(run):
@@ -44,7 +44,7 @@ def draw_isotherms(run, snapshots):
     """Grains over the melts, isotherms over both; one panel a snapshot."""
     plane = run.plane
     size = plane.high - plane.low
-    metre, length = figures.unit_for(size.max(), "m")
+    metre, length = style.unit_for(size.max(), "m")
     height = min(4.2 * size[1] / size[0], 6.2)
     width = max(height * size[0] / size[1], 2.0)
     figure, all_axes = plt.subplots(1, len(snapshots), squeeze=False, layout="compressed", sharey=True,
@@ -56,13 +56,13 @@ def draw_isotherms(run, snapshots):
     levels = levels_of(*limits, ("isotherms", ""))
     for k, (axes, snapshot) in enumerate(zip(all_axes[0], snapshots)):
         axes.set(xlim=extent[:2], ylim=extent[2:], aspect="equal", xlabel=f"{'xyz'[plane.along]} ({length})",
-                 title=f"t = {figures.clock_text(snapshot.time, run.clock)}")
+                 title=f"t = {style.clock_text(snapshot.time, run.clock)}")
         if run.mixed:
             share = plane.of(snapshot.cell("composition"))
             axes.imshow(share, origin="lower", extent=extent, cmap=TINTS, clim=(0, 1), interpolation="nearest")
         centre, diameter, group = plane.discs(snapshot)
         fills = grain_colours(run)
-        figures.circles(axes, centre / metre, diameter / metre, facecolors=[fills[g] for g in group], linewidths=0)
+        style.circles(axes, centre / metre, diameter / metre, facecolors=[fills[g] for g in group], linewidths=0)
         if run.mixed:
             draw_lines(axes, place, share, [0.5], colors=INTERFACE)
         if heat:
@@ -91,7 +91,7 @@ def draw_fractions(history):
     """Horizontal means of the volume fraction of grains against time and height."""
     run = history.run
     size, unit = time_scale(run)
-    metre, length = figures.unit_for(np.ptp(history.edges), "m")
+    metre, length = style.unit_for(np.ptp(history.edges), "m")
     figure, axes = plt.subplots(figsize=(8.5, 4.6), layout="constrained")
     image = axes.pcolormesh(edges_between(history.times / size), history.edges / metre, history.fractions.T,
                             cmap="viridis", vmin=0)
@@ -110,14 +110,14 @@ def draw_layer(history):
     """The layer of grains above the interface, and those that have left it."""
     run = history.run
     size, unit = time_scale(run)
-    metre, length = figures.unit_for(np.nanmax(history.thickness), "m")
+    metre, length = style.unit_for(np.nanmax(history.thickness), "m")
     middle, fallen = history.fallen(size)
     panels = [(f"thickness ({length})", history.times, history.thickness / metre),
               ("mean fraction φ", history.times, history.mean),
               (f"grains fallen\nper {unit}", middle, fallen)]
     figure, all_axes = plt.subplots(3, 1, sharex=True, layout="constrained", figsize=(8, 7))
     marker = "o" if len(history.times) < 30 else None
-    for axes, (label, times, values), colour in zip(all_axes, panels, figures.RUNS):
+    for axes, (label, times, values), colour in zip(all_axes, panels, style.RUNS):
         axes.plot(times / size, values, color=colour, linewidth=1.2, marker=marker, markersize=4)
         axes.set_ylabel(label)
         axes.grid(True)

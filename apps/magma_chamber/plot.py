@@ -10,30 +10,27 @@ interface holds up, where their fraction is at least half of its largest value a
 Without --draw it draws what there is: fraction and layer want grains, layer two melts, series a monitor of melts.
 """
 
+import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
-sys.path.append(str(Path(__file__).resolve().parent.parent / "plotting"))
-from melt import draw_series  # noqa: E402
-from melt_run import Run  # noqa: E402
-from run_folder import BadInput, drawing_parser, given_to, refusing  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from peperite import Error  # noqa: E402
+from peperite.drawing.command import finite, refusing, show  # noqa: E402
+from peperite.drawing.melt_run import Run  # noqa: E402
 
 PICTURES = ("isotherms", "fraction", "series", "layer")
 
 
-def arguments():
-    parser = drawing_parser(__doc__, PICTURES)
-    parser.add_argument("--times", metavar="LIST", help="isotherms: draw the snapshots nearest to these times (s)")
-    given = given_to(parser, PICTURES)
+def times(text):
     try:
-        given.times = [float(t) for t in given.times.split(",")] if given.times is not None else None
+        return [finite(t) for t in text.split(",")]
     except ValueError:
-        parser.error("--times: not a list of numbers")
-    if given.times is not None and not np.all(np.isfinite(given.times)):
-        parser.error("--times: not finite")
-    return given
+        raise argparse.ArgumentTypeError(f"not a list of numbers: \"{text}\"") from None
+
+
+def more_arguments(parser):
+    parser.add_argument("--times", metavar="LIST", type=times, help="isotherms: draw the snapshots nearest to these times (s)")
 
 
 def lacking(run):
@@ -48,37 +45,30 @@ def lacking(run):
     return reasons
 
 
-def drawn(run, names, times):
+def drawn(run, names, given):
     """Names and figures, one after the other."""
     import pictures  # only now: it takes a second, and refusals should not
     from layers import History
+    from peperite.drawing.melts import draw_series
     history = History(run) if {"fraction", "layer"} & set(names) else None
-    snapshots = run.spread(3) if times is None else [run.nearest(t) for t in times]
+    snapshots = run.spread(3) if given.times is None else [run.at(t) for t in given.times]
     draw = {"isotherms": lambda: pictures.draw_isotherms(run, snapshots), "series": lambda: draw_series(run),
             "fraction": lambda: pictures.draw_fractions(history), "layer": lambda: pictures.draw_layer(history)}
     for name in names:
-        yield name, draw[name]()
+        yield f"{name}.png", draw[name]()
 
 
-def main():
-    given = arguments()
-    runs = [Run(folder) for folder in given.runs]
+def pictures(runs, given):
     for run in runs:
         for name, reason in lacking(run).items():
             if given.chosen and name in given.draw:
-                raise BadInput(f"{run.folder}: --draw: no {name}: {reason}")
-    out = given.out or runs[0].folder
-    out.mkdir(parents=True, exist_ok=True)
-    from figures import STYLE, plt, save
-    plt.rcParams.update(STYLE)
+                raise Error(f"{run.folder}: --draw: no {name}: {reason}")
     for run in runs:
         prefix = f"{run.name}_" if len(runs) > 1 else ""
         names = [name for name in PICTURES if name in given.draw and name not in lacking(run)]
-        for name, figure in drawn(run, names, given.times):
-            path = out / f"{prefix}{name}.png"
-            save(figure, path)
-            print(path)
+        for name, figure in drawn(run, names, given):
+            yield prefix + name, figure
 
 
 if __name__ == "__main__":
-    sys.exit(refusing(main))
+    sys.exit(refusing(lambda: show(sys.modules[__name__], sys.argv[1:])))

@@ -7,8 +7,9 @@ class Contacts:
     """Of one snapshot, seen in the x-z plane."""
 
     def __init__(self, snapshot):
-        first, second, force, normal = snapshot.contacts()
-        self.count = len(first)
+        contacts = snapshot.contacts
+        first, second, force, normal = contacts.first, contacts.second, contacts.force, contacts.normal
+        self.count = len(contacts)
         between = second >= 0
         self.coordination = 2 * np.sum(between) / max(1, len(snapshot.id))
         # Normals have no sign: the tensor of their products, whose trace is one.
@@ -32,7 +33,7 @@ def stress_on(grid, snapshot):
     """xx, zz and xz of the stress of the bulk [Pa], compression negative, on the grid; None without contacts. The
     grains' own stresses, weighted with their volume: divided by the volume of the cells, whose share of grains is
     0.6 inside the sand."""
-    stress = snapshot.stress("xx", "zz", "xz")
+    stress = snapshot.stresses("xx", "zz", "xz")
     if stress is None:
         return None
     place, volume = snapshot.position[:, [0, 2]], snapshot.volume

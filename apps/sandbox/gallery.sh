@@ -24,5 +24,5 @@ folders="$runs/sandbox $runs/shear_sand $runs/shear_floor"
 # shellcheck disable=SC2086  # one word a run
 /usr/bin/python3 -B "$here/plot.py" $folders --out "$here/gallery"
 # shellcheck disable=SC2086
-/usr/bin/python3 -B "$here/../plotting/manifest.py" "$here"/gallery/*.png "$here/gallery/summary.txt" --runs $folders \
+/usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here"/gallery/*.png "$here/gallery/summary.txt" --runs $folders \
   --scenes "$here/sandbox.toml" "$here/shear_sand.toml" "$here/shear_floor.toml"

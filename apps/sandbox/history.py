@@ -36,7 +36,7 @@ class History:
         self.speed = float(velocity[0])
         self.wall_start = run.wall("back")["point"][0]
         self.far = run.wall("front")["point"][0]
-        used = [s for s in run.snapshots if s.time >= self.begin * (1 - 1e-9)] or run.snapshots[-1:]
+        used = [run[k] for k in np.flatnonzero(run.times >= self.begin * (1 - 1e-9))] or [run[-1]]
         self.first = used[0]
         edge = 0.25 * (self.far - self.wall_start)
         self.rest = float(np.median(Surface(self.first, run.diameter, self.wall_start + edge, self.far - 5 *

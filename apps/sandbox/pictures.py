@@ -1,14 +1,9 @@
 """The pictures of a sandbox run and of shear boxes."""
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
-from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
-from PIL import Image
 
 from forces import Contacts, principal, stress_on
 from wedge import critical_taper
@@ -17,11 +12,6 @@ from wedge import critical_taper
 LAYERS = ("#8a5a33", "#a87142", "#d9b779", "#ecd39e", "#4f7f78", "#6fa39a")
 FORWARD, BACK, WALL, CHAIN = "#c1272d", "#1b6ca8", "#555555", "#7a1f1f"
 CURVES = ("#8a6d1d", "#3a7d44", "#7a4f9e")
-STYLE = {
-    "font.size": 10, "axes.titlesize": 10, "axes.titlelocation": "left",
-    "axes.edgecolor": "#555555", "axes.linewidth": 0.8, "axes.axisbelow": True, "grid.color": "#dddddd",
-    "xtick.color": "#333333", "ytick.color": "#333333", "legend.frameon": False, "figure.dpi": 110,
-}
 
 
 def chosen_moments(history, number, faulted=False):
@@ -118,7 +108,7 @@ def draw_chains(history):
 
 
 def draw_stress(history):
-    moments = [m for m in chosen_moments(history, 3) if m.snapshot.stress("xx") is not None]
+    moments = [m for m in chosen_moments(history, 3) if "stress" in m.snapshot]
     if not moments:
         return None
     figure, panels = sheet(history, len(moments), bar=True)
@@ -143,7 +133,7 @@ def draw_stress(history):
 
 
 def draw_history(history, sand, floor):
-    table = history.run.series("t", "back_fx", "contacts_z")
+    table = history.run.series
     way = 100 * history.speed * (table["t"] - history.begin)
     moving = way >= 0
     figure, (force, slope, order) = plt.subplots(3, 1, figsize=(9, 8), sharex=True, layout="constrained")
@@ -189,21 +179,3 @@ def draw_shear(boxes):
     axes.legend()
     axes.set_title("Shear box")
     return figure
-
-
-def save(figure, path):
-    """With few colours: a quarter as large. Our own, which may be rare, are among them in two shades."""
-    figure.canvas.draw()
-    rgb = np.asarray(figure.canvas.buffer_rgba())[:, :, :3]
-    own = np.array([to_rgb(c) for c in ("white", "black", *LAYERS, *CURVES, FORWARD, BACK, WALL, CHAIN)])
-    own = np.concatenate([255 * own, 255 * (0.6 * own + 0.4)]).round().astype(np.uint8)
-    frequent = Image.fromarray(rgb).quantize(200, dither=Image.Dither.NONE).getpalette()[:600]
-    palette = np.concatenate([own, np.reshape(frequent, (-1, 3)).astype(np.uint8)])
-    packed = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
-    colours, where = np.unique(packed, return_inverse=True)
-    distance = sum(((colours[:, None] >> shift & 255).astype(np.int32) - palette[None, :, c]) ** 2
-                   for c, shift in enumerate((16, 8, 0)))
-    picture = Image.fromarray(distance.argmin(axis=1).astype(np.uint8)[where].reshape(rgb.shape[:2]), mode="P")
-    picture.putpalette(palette.tobytes())
-    picture.save(path, optimize=True)
-    plt.close(figure)

@@ -13,11 +13,12 @@ import sys
 
 import numpy as np
 
+from grain_run import Run, peperite  # which finds the package
+from peperite.drawing.command import refusing, show
+
 from forces import Contacts
-from grain_run import BadInput, Run
 from history import History
 from shear_box import MEASURED, ShearBox, angles
-from run_folder import drawing_parser, given_to, refusing
 from wedge import critical_taper, thrust_dips
 
 PICTURES = ("layers", "strain", "chains", "stress", "history", "shear")
@@ -54,7 +55,7 @@ def from_contacts(history):
     for moment in (history.moments[0], history.moments[-1]):
         try:
             contacts = Contacts(moment.snapshot)
-        except BadInput:
+        except peperite.Error:
             return
         yield (f"contacts at {100 * moment.shortening:.1f} cm: coordination {contacts.coordination:.2f}, anisotropy "
                f"{contacts.anisotropy:.2f} along {contacts.direction:.0f} deg, mean force "
@@ -65,17 +66,17 @@ def is_shear_box(run):
     return any(wall["name"] == "lid" for wall in run.scene.get("wall", []))
 
 
-def draw():
-    given = given_to(drawing_parser(__doc__, PICTURES), PICTURES)
-    runs = [Run(folder) for folder in given.runs]
+def more_arguments(parser):
+    pass
+
+
+def pictures(runs, given):
+    """Names and figures, one after the other; then the summary."""
     boxes = [ShearBox(run) for run in runs if is_shear_box(run)]
     sandboxes = [run for run in runs if not is_shear_box(run)]
     if len(sandboxes) > 1:
-        raise BadInput("more than one run of the sandbox: draw one after the other")
-    out = given.out or runs[0].folder
-    out.mkdir(parents=True, exist_ok=True)
+        raise peperite.Error("more than one run of the sandbox: draw one after the other")
     import pictures  # only now: it takes a second, and refusals should not
-    pictures.plt.rcParams.update(pictures.STYLE)
 
     sand, floor = (found or known for found, known in zip(angles(boxes), MEASURED))
     lines, drawn = [box.text() for box in boxes], {}
@@ -91,11 +92,10 @@ def draw():
     for name in PICTURES:
         figure = drawn[name]() if name in given.draw and name in drawn else None
         if figure is not None:
-            pictures.save(figure, out / f"{name}.png")
-            print(out / f"{name}.png")
-    (out / "summary.txt").write_text("\n".join(lines) + "\n")
+            yield f"{name}.png", figure
+    ((given.out or runs[0].folder) / "summary.txt").write_text("\n".join(lines) + "\n")
     print(*lines, sep="\n")
 
 
 if __name__ == "__main__":
-    sys.exit(refusing(draw))
+    sys.exit(refusing(lambda: show(sys.modules[__name__], sys.argv[1:])))

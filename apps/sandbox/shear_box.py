@@ -15,7 +15,7 @@ class ShearBox:
         begin, velocity = run.drive("bottom")
         on_floor = run.wall("bottom")["material"] != run.wall("lid")["material"]
         name = "bottom" if on_floor else "lid"
-        table = run.series("t", f"{name}_fx", f"{name}_fz", "lid_z")
+        table = run.series
         moving = table["t"] > begin
         self.name = "floor" if on_floor else "sand"
         self.way = velocity[0] * (table["t"][moving] - begin)

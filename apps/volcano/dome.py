@@ -10,26 +10,23 @@ Runs that are not in RUNS yet are made, on one rank each, side by side: three mi
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 here = Path(__file__).resolve().parent
-sys.path.append(str(here.parent / "plotting"))
-from figures import RUNS, plt, save  # noqa: E402
-from run_folder import refusing  # noqa: E402
-from scene_runs import drawn_from_runs  # noqa: E402
+sys.path.insert(0, str(here.parent / "python"))
+from peperite.drawing.command import refusing  # noqa: E402
+from peperite.drawing.scene_runs import drawn_from_runs  # noqa: E402
+from peperite.drawing.style import RUNS, plt  # noqa: E402
 
 PERMEABILITIES = {"permeable": 1e-10, "tight": 1e-12}
 MAGMA, PLUG, SPRAY = 0, 1, 2
 LAYER = 6.0  # m, of the means over the conduit
 
 
-def state_of(file):
-    with h5py.File(file) as f:
-        p = f["particles"]
-        matter = p["group"][:] <= SPRAY
-        names = ("position", "group", "void_fraction", "viscosity", "dissolved_gas", "pressure")
-        return {"time": f.attrs["time"]} | {name: p[name][matter] for name in names}
+def state_of(snapshot):
+    matter = snapshot["group"] <= SPRAY
+    names = ("position", "group", "void_fraction", "viscosity", "dissolved_gas", "pressure")
+    return {"time": snapshot.time} | {name: snapshot[name][matter] for name in names}
 
 
 def draw_state(axes, state, name):
@@ -50,8 +47,7 @@ def draw_profiles(all_axes, state, color, label):
         axes.plot([values[inside & (layer == k)].mean() for k in layers], y, color=color, label=label)
 
 
-def draw_series(all_axes, folder, color, label):
-    s = np.genfromtxt(folder / "series.csv", delimiter=",", names=True)
+def draw_series(all_axes, s, color, label):
     count = s["spray_n"] + s["magma_n"] + s["plug_n"]
     gone, spray, rise = -100 * s["budget_gas_in"] / s["budget_gas"][0], 100 * s["spray_n"] / count, s["plug_y"] - s["plug_y"][0]
     for axes, values in zip(all_axes, (gone, rise, spray)):
@@ -62,17 +58,16 @@ def draw_series(all_axes, folder, color, label):
           f"{rise[-1]:.0f} m higher at {s['plug_vy'][-1]:.2f} m/s, {spray[-1]:.0f} % is spray")
 
 
-def draw(folders, out):
+def draw(runs):
     figure, axes = plt.subplots(2, 6, figsize=(15, 9), layout="constrained", height_ratios=(3, 2))
-    for row, (name, folder) in enumerate(folders.items()):
-        files = sorted(folder.glob("snapshot_*.h5"))
-        states = [state_of(file) for file in files]
+    for row, (name, run) in enumerate(runs.items()):
+        states = [state_of(snapshot) for snapshot in run]
         last = len(states) - 1
         shown = [states[k * last // 10] for k in (4, 8, 10)]
         for k, state in enumerate(shown):
             drawn = draw_state(axes[0, 3 * row + k], state, name)
         label = f"{name}, {PERMEABILITIES[name]:.0e} m²"
-        draw_series(axes[1, :3], folder, RUNS[row], label)
+        draw_series(axes[1, :3], run.series, RUNS[row], label)
         draw_profiles(axes[1, 3:], shown[1], RUNS[row], f"{label}, {shown[1]['time']:.0f} s")
     draw_profiles(axes[1, 3:], states[0], "#999999", "start")
     figure.colorbar(drawn, ax=axes[0, -1], label="log10 of viscosity (Pa s)")
@@ -83,12 +78,12 @@ def draw(folders, out):
     axes[1, 1].set_ylim(-5, 60)
     axes[1, 0].legend(fontsize=8)
     axes[1, 3].legend(fontsize=7)
-    save(figure, Path(out) / "dome.png")
+    return figure
 
 
 def main():
     drawn_from_runs(__doc__, here / "dome.toml", {name: (name, [f"group.{group}.permeability.coefficient={k}" for group in ("magma", "plug")])
-                                           for name, k in PERMEABILITIES.items()}, draw)
+                                           for name, k in PERMEABILITIES.items()}, draw, "dome")
 
 
 if __name__ == "__main__":

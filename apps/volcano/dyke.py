@@ -11,14 +11,13 @@ import math
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 here = Path(__file__).resolve().parent
-sys.path.append(str(here.parent / "plotting"))
-from figures import plt, save  # noqa: E402
-from run_folder import refusing  # noqa: E402
-from scene_runs import drawn_from_runs  # noqa: E402
+sys.path.insert(0, str(here.parent / "python"))
+from peperite.drawing.command import refusing  # noqa: E402
+from peperite.drawing.scene_runs import drawn_from_runs  # noqa: E402
+from peperite.drawing.style import plt  # noqa: E402
 
 COEFFICIENTS = (100, 1000, 3000)  # W/m2/K
 SOLIDUS, LIQUIDUS, HOT, COLD = 1273, 1423, 1473, 400
@@ -60,42 +59,35 @@ def neumann():
     return *beyond(high)[0], CONDUCTIVITY / (DENSITY * CAPACITY)
 
 
-def margin(file):
+def margin(snapshot):
     """Time and depth of the solidus, of means over a spacing."""
-    with h5py.File(file) as f:
-        p = f["particles"]
-        melt = p["group"][:] == 0
-        x, hot, time = p["position"][melt][:, 0], p["temperature"][melt], f.attrs["time"]
+    melt = snapshot["group"] == 0
+    x, hot = snapshot["position"][melt, 0], snapshot["temperature"][melt]
     depth = np.minimum(x, WIDTH - x)
     layer = np.floor(depth / SPACING).astype(int)
     means = np.array([(hot[layer == k].mean(), depth[layer == k].mean()) for k in range(round(WIDTH / SPACING / 2))])
-    return time, np.interp(SOLIDUS, *means.T, left=0, right=WIDTH / 2)
+    return snapshot.time, np.interp(SOLIDUS, *means.T, left=0, right=WIDTH / 2)
 
 
-def draw_temperatures(axes, folder, title):
-    with h5py.File(sorted(folder.glob("snapshot_*.h5"))[-1]) as f:
-        p = f["particles"]
-        melt = p["group"][:] == 0
-        x, t, time = p["position"][melt], p["temperature"][melt], f.attrs["time"]
+def draw_temperatures(axes, snapshot, title):
+    melt = snapshot["group"] == 0
+    x, t = snapshot["position"][melt], snapshot["temperature"][melt]
     drawn = axes.scatter(100 * x[:, 0], 100 * x[:, 1], c=t, s=9, cmap="inferno", vmin=600, vmax=1473)
     if t.min() < SOLIDUS:
         axes.tricontour(100 * x[:, 0], 100 * x[:, 1], t, levels=[SOLIDUS], colors="white", linewidths=1)
-    axes.set(title=f"{title}, {time:.0f} s", xlabel="x (cm)", ylabel="y (cm)", aspect="equal")
+    axes.set(title=f"{title}, {snapshot.time:.0f} s", xlabel="x (cm)", ylabel="y (cm)", aspect="equal")
     return drawn
 
 
-def pressures(folder):
+def pressures(run):
     """The least and the largest of the melt in any snapshot."""
-    found = []
-    for file in sorted(folder.glob("snapshot_*.h5")):
-        with h5py.File(file) as f:
-            found.append(f["particles/pressure"][:][f["particles/group"][:] == 0])
+    found = [snapshot["pressure"][snapshot["group"] == 0] for snapshot in run]
     return np.min(found), np.max(found)
 
 
-def draw_margin(axes, folder):
+def draw_margin(axes, run):
     solid, liquid, kappa = neumann()
-    times, depths = np.array([margin(file) for file in sorted(folder.glob("snapshot_*.h5"))[1:]]).T
+    times, depths = np.array([margin(snapshot) for snapshot in run[1:]]).T
     wanted = 2 * solid * np.sqrt(kappa * times)
     meets = (WIDTH / 4 / liquid) ** 2 / kappa  # from then on nothing is as hot as it was, and the rest freezes faster
     off = 100 * (depths / wanted - 1)[(wanted > 2 * SPACING) & (times < meets)]
@@ -108,24 +100,24 @@ def draw_margin(axes, folder):
     axes.legend()
 
 
-def draw(folders, out):
+def draw(runs):
     figure, axes = plt.subplots(1, 4, figsize=(13, 5), layout="constrained", width_ratios=(1, 1, 2, 2))
     for panel, coefficient in zip(axes, (COEFFICIENTS[0], COEFFICIENTS[-1])):
-        drawn = draw_temperatures(panel, folders[coefficient], f"{coefficient} W/m²/K")
+        drawn = draw_temperatures(panel, runs[coefficient][-1], f"{coefficient} W/m²/K")
     figure.colorbar(drawn, ax=axes[1], label="temperature (K); white: solidus")
     for coefficient in COEFFICIENTS:
-        series = np.genfromtxt(folders[coefficient] / "series.csv", delimiter=",", names=True)
+        series = runs[coefficient].series
         axes[2].semilogy(series["t"][1:], 100 * series["melt_vy"][1:], label=f"{coefficient} W/m²/K")
         print(f"{coefficient} W/m2/K: {100 * series['melt_vy'][-1]:.3g} cm/s at {series['t'][-1]:.0f} s, pressures from "
-              "{:.0f} to {:.0f} Pa".format(*pressures(folders[coefficient])))
+              "{:.0f} to {:.0f} Pa".format(*pressures(runs[coefficient])))
     axes[2].set(xlabel="time (s)", ylabel="mean rise of the melt (cm/s)", ylim=(1e-3, None), title="what the rock takes")
     axes[2].legend()
-    draw_margin(axes[3], folders["still"])
-    save(figure, Path(out) / "dyke.png")
+    draw_margin(axes[3], runs["still"])
+    return figure
 
 
 def main():
-    drawn_from_runs(__doc__, here / "dyke.toml", {name: (f"h_{name}", settings_of(name)) for name in ("still", *COEFFICIENTS)}, draw)
+    drawn_from_runs(__doc__, here / "dyke.toml", {name: (f"h_{name}", settings_of(name)) for name in ("still", *COEFFICIENTS)}, draw, "dyke")
 
 
 if __name__ == "__main__":

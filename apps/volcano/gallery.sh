@@ -18,13 +18,13 @@ fi
 mkdir -p "$here/gallery"
 /usr/bin/python3 -B "$here/../plot.py" "$runs/conduit" --draw particles --out "$runs/conduit" > /dev/null
 mv "$runs/conduit/particles.png" "$here/gallery/conduit.png"
-/usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/conduit.png" \
+/usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here/gallery/conduit.png" \
   --runs "$runs/conduit" --scenes "$here/conduit.toml"
 
 # picture SCENE NAME: NAME.png, which NAME.py makes of runs of the scene, and its entry.
 picture() {
   /usr/bin/python3 -B "$here/$2.py" "$runs/$2" --programs "$programs" --out "$here/gallery"
-  /usr/bin/python3 -B "$here/../plotting/manifest.py" "$here/gallery/$2.png" --runs "$runs/$2"/* --scenes "$here/$1"
+  /usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here/gallery/$2.png" --runs "$runs/$2"/* --scenes "$here/$1"
 }
 picture conduit.toml map
 picture dyke.toml dyke

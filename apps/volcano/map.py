@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 
 here = Path(__file__).resolve().parent
-sys.path.append(str(here.parent / "plotting"))
-from figures import plt, save  # noqa: E402
-from run_folder import refusing  # noqa: E402
-from scene_runs import drawn_from_runs  # noqa: E402
+sys.path.insert(0, str(here.parent / "python"))
+from peperite.drawing.command import refusing  # noqa: E402
+from peperite.drawing.scene_runs import drawn_from_runs  # noqa: E402
+from peperite.drawing.style import plt  # noqa: E402
 
 UNTIL = {1e5: 4, 3e5: 4, 1e6: 6, 3e6: 14}  # s, by viscosity (Pa s): afterwards little changes
 PERMEABILITIES = (6.3e-12, 6.3e-11, 6.3e-10, 6.3e-9, 6.3e-8)
@@ -35,9 +35,8 @@ def settings_of(viscosity, permeability):
             f"group.magma.permeability.coefficient={permeability}", f"time.until={UNTIL[viscosity]}")
 
 
-def at_the_end(folder):
+def at_the_end(series):
     """Shares: of the particles that are spray, of the gas that got away without it."""
-    series = np.genfromtxt(folder / "series.csv", delimiter=",", names=True)
     spray, magma = series["spray_n"][-1], series["magma_n"][-1]
     return spray / (spray + magma), -series["budget_gas_in"][-1] / series["budget_gas"][0]
 
@@ -84,7 +83,8 @@ def edges(values):
     return 10 ** np.concatenate([[2 * logs[0] - middles[0]], middles, [2 * logs[-1] - middles[-1]]])
 
 
-def draw(values, out):
+def draw(runs):
+    values = {at: at_the_end(run.series) for at, run in runs.items()}
     figure, all_axes = plt.subplots(1, 2, figsize=(11, 4.8), layout="constrained")
     viscosities, magma = np.array(list(UNTIL)), Magma()
     for axes, k, title in zip(all_axes, (0, 1), ("share of the magma that is spray", "share of the gas that got away")):
@@ -97,7 +97,7 @@ def draw(values, out):
                  xlim=edges(PERMEABILITIES)[[0, -1]], ylim=edges(viscosities)[[0, -1]])
         if k == 0:
             draw_boundaries(axes, viscosities, magma, boundary(shares))
-    save(figure, Path(out) / "map.png")
+    return figure
 
 
 def draw_boundaries(axes, viscosities, magma, measured):
@@ -121,7 +121,7 @@ def draw_boundaries(axes, viscosities, magma, measured):
 
 def main():
     drawn_from_runs(__doc__, here / "conduit.toml", {(eta, k): (f"eta_{eta:.0e}_k_{k:.1e}", settings_of(eta, k)) for eta in UNTIL for k in PERMEABILITIES},
-                    lambda folders, out: draw({at: at_the_end(folder) for at, folder in folders.items()}, out))
+                    draw, "map")
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ import numpy as np  # noqa: E402
 import page  # noqa: E402
 from runs import Runner, here, source, write_start  # noqa: E402
 
-sys.path.append(str(source / "apps/plotting"))
+sys.path.append(str(source / "cmake"))
 import manifest  # noqa: E402
 
 CASES = ("taylor_green", "taylor_green_1000", "taylor_green_3d", "gresho", "poiseuille", "couette", "cavity", "cavity_1000",

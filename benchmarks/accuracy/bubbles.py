@@ -16,7 +16,7 @@ import rising_bubble  # noqa: E402
 from runs import Run  # noqa: E402
 
 here = Path(__file__).resolve().parent
-sys.path.append(str(here.parents[1] / "apps/plotting"))
+sys.path.append(str(here.parents[1] / "cmake"))
 import manifest  # noqa: E402
 
 # Time and rise velocity of the groups' bubble 1 (MooNMD), and their largest velocities of bubble 2.

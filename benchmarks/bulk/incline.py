@@ -50,12 +50,12 @@ class Flow:
     def __init__(self, angle, folder):
         used = [s for s in snapshots(folder) if s.time >= START * TAU]
         self.angle = angle
-        group = used[0].field("group")
+        group = used[0].group
         moving = group == 0
         base_top = used[0].position[~moving, 2].max()
         edges = np.arange(0, 60) * D
         z = np.concatenate([s.position[moving, 2] - base_top for s in used])
-        u = np.concatenate([s.field("velocity")[moving, 0] for s in used])
+        u = np.concatenate([s.velocity[moving, 0] for s in used])
         inside = np.digitize(z, edges) - 1
         inside[z < 0] = -1
         count = np.bincount(inside[inside >= 0], minlength=60)[:59]
@@ -65,7 +65,7 @@ class Flow:
         self.fraction = count / len(used) * (np.pi / 6) / SIDE**2
         bulk = self.fraction > 0.3
         self.h = self.z[bulk].max() + 0.5
-        means = np.array([s.field("velocity")[moving, 0].mean() for s in used]) / np.sqrt(G * D)
+        means = np.array([s.velocity[moving, 0].mean() for s in used]) / np.sqrt(G * D)
         self.mean = means.mean()
         half = len(means) // 2
         self.drift = means[half:].mean() / max(means[:half].mean(), 1e-12) - 1

@@ -9,7 +9,7 @@ import numpy as np
 
 here = Path(__file__).resolve().parent
 source = here.parent.parent
-sys.path[:0] = [str(source / folder) for folder in ("apps/sandbox", "apps/plotting", "benchmarks")]
+sys.path[:0] = [str(source / folder) for folder in ("apps/sandbox", "cmake", "benchmarks")]
 from grain_run import Snapshot  # noqa: E402
 from speed import log_of, run_scene  # noqa: E402
 

@@ -100,10 +100,10 @@ const std::vector<Source>& sources() {
                    "group.spray.permeability={coefficient=1e-8}"})},
       // the same by temperatures and pressures of the end of the step, far beyond the explicit limits
       {"implicit2d", "apps/buoyant_cylinder/gas.toml",
-       both(warm, {"group.melt.heat={specific_heat=1200, conductivity=5e9, latent_heat=3e5, solidus=1100, "
+       both(warm, {"group.melt.heat={specific_heat=1200, conductivity=5e8, latent_heat=3e5, solidus=1100, "
                    "liquidus=1250}",
-                   "group.wall.gas_pressure=2e4", "group.cylinder.permeability={coefficient=1e-7}",
-                   "group.spray.permeability={coefficient=1e-6}", "terms.implicit_conduction=true",
+                   "group.wall.gas_pressure=2e4", "group.cylinder.permeability={coefficient=1e-8}",
+                   "group.spray.permeability={coefficient=1e-7}", "terms.implicit_conduction=true",
                    "terms.implicit_gas_flow=true"})},
       // viscosities that follow the state, explicit beside walls, friction that heats, what is warm rises
       {"laws2d", "apps/buoyant_cylinder/gas.toml",
@@ -142,9 +142,9 @@ const std::vector<Source>& sources() {
       {"implicit3d",
        "tests/scenes/box3d_gas.toml",
        {"group.magma.becomes.0.void_fraction_above=0.09",
-        "group.magma.permeability={law=\"percolation\", coefficient=1e-6, threshold=0.01, "
+        "group.magma.permeability={law=\"percolation\", coefficient=1e-7, threshold=0.01, "
         "closing_threshold=0.005}",
-        "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-6, inertial_coefficient=1e-9, "
+        "group.spray.permeability={law=\"kozeny_carman\", coefficient=1e-7, inertial_coefficient=1e-10, "
         "inertial_exponent=0}",
         "group.wall.gas_pressure=0", "terms.implicit_gas_flow=true"}},
       // ideal gases: energy is state, and the time step follows the hottest particle

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Pictures of runs with melts: apps/plotting/melt.py and apps/magma_chamber/plot.py.
+"""Pictures of runs with melts: of the package peperite and of apps/magma_chamber/plot.py.
 
     test_melt_plot.py --programs build/bin --source .
 """
@@ -24,8 +24,9 @@ class MeltPlot(unittest.TestCase):
         cls.folder = cls.run_of.folder
         source = Path(given.source).resolve()
         cls.apps = source / "apps"
-        sys.path += [str(cls.apps / "plotting"), str(cls.apps / "magma_chamber")]
-        cls.melt_run, cls.melt, cls.layers = (importlib.import_module(name) for name in ("melt_run", "melt", "layers"))
+        sys.path += [str(cls.apps / "python"), str(cls.apps / "magma_chamber")]
+        cls.melt_run, cls.melt, cls.layers = (importlib.import_module(name) for name in (
+            "peperite.drawing.melt_run", "peperite.drawing.melts", "layers"))
         for name, scene, *options in (
                 ("flat", source / "tests/scenes/melts2d.toml", "output.snapshot_interval=4"),
                 ("deep", source / "tests/scenes/melts3d.toml", "output.snapshot_interval=2"),
@@ -82,7 +83,7 @@ class MeltPlot(unittest.TestCase):
     def test_cells_stand_where_they_are_in_the_grid(self):
         run = self.melt_run.Run(self.folder / "deep")
         self.assertEqual((run.plane.along, run.plane.depth, run.plane.layer), (1, 0, 8))
-        snapshot = run.snapshots[-1]
+        snapshot = run[-1]
         place = snapshot.cell("position")
         for axis in range(3):
             wanted = run.grid.centres(axis).reshape([-1 if 2 - axis == k else 1 for k in range(3)])
@@ -90,15 +91,15 @@ class MeltPlot(unittest.TestCase):
         self.assertTrue(np.array_equal(run.plane.of(snapshot.cell("temperature")), snapshot.cell("temperature")[:, :, 8]))
         sorted_run, shuffled = (self.melt_run.Run(self.folder / name) for name in ("chamber", "early"))
         for field in ("composition", "velocity"):
-            self.assertTrue(np.array_equal(sorted_run.snapshots[0].cell(field), shuffled.snapshots[0].cell(field)))
-        self.assertTrue(np.array_equal(sorted_run.snapshots[0].grain("position"), shuffled.snapshots[0].grain("position")))
+            self.assertTrue(np.array_equal(sorted_run[0].cell(field), shuffled[0].cell(field)))
+        self.assertTrue(np.array_equal(sorted_run[0].grain("position"), shuffled[0].grain("position")))
 
     def test_flow_at_the_centres(self):
         run = self.melt_run.Run(self.folder / "chamber")
         self.assertEqual((run.plane.along, run.plane.depth), (0, 1))
         x, z = np.meshgrid(*(np.pi * (run.grid.centres(a) - run.grid.low[a]) / (run.grid.high[a] - run.grid.low[a])
                              for a in run.plane.axes))
-        along, up = run.plane.velocity(run.snapshots[0])
+        along, up = run.plane.velocity(run[0])
         self.assertLess(np.abs(along - 2e-4 * np.sin(x) * np.cos(z)).max(), 2e-6)
         self.assertLess(np.abs(up + 2e-4 * np.cos(x) * np.sin(z)).max(), 2e-6)
         wrapped = run.grid.at_centres(np.ones((20, 16, 16, 3)), 1)
@@ -106,7 +107,7 @@ class MeltPlot(unittest.TestCase):
 
     def test_grains_in_the_plane(self):
         run = self.melt_run.Run(self.folder / "chamber")
-        snapshot, plane = run.snapshots[3], run.plane
+        snapshot, plane = run[3], run.plane
         place, diameter, group = plane.discs(snapshot)
         away = np.abs(snapshot.grain("position")[:, 1] - plane.place)
         self.assertEqual(len(place), np.sum(away < 0.012))
@@ -142,13 +143,13 @@ class MeltPlot(unittest.TestCase):
 
     def test_heat_over_conduction(self):
         run = self.melt_run.Run(self.folder / "hot")
-        table = run.series()
+        table = run.series
         curves, quantity = run.heat(table)
         self.assertIn("Nu", quantity)
         self.assertEqual([name for name, _ in curves], ["in at the bottom", "out at the top"])
         for (_, values), column in zip(curves, ("melt_heat_y0", "melt_heat_y1")):
             self.assertTrue(np.allclose(values, np.abs(table[column])))  # kappa, height and difference are 1
-        curves, quantity = self.melt_run.Run(self.folder / "flat").heat(self.melt_run.Run(self.folder / "flat").series())
+        curves, quantity = self.melt_run.Run(self.folder / "flat").heat(self.melt_run.Run(self.folder / "flat").series)
         self.assertEqual(([name for name, _ in curves], quantity),
                          (["in through y0", "in through y1"], "heat in (K m/s)"))
 

@@ -24,7 +24,7 @@ class Pictures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.source = Path(given.source).resolve()
-        sys.path.append(str(cls.source / "apps/plotting"))
+        sys.path.append(str(cls.source / "cmake"))
         global manifest
         import manifest
         cls.manifests = {path.parent: manifest.read(path.parent)

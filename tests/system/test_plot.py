@@ -11,7 +11,6 @@ import shutil
 import subprocess
 import sys
 import unittest
-import unittest.mock
 from pathlib import Path
 
 import numpy as np
@@ -31,9 +30,10 @@ class Plot(unittest.TestCase):
         cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
         cls.folder = cls.run_of.folder
         cases = Path(given.source).resolve() / "apps" / "buoyant_cylinder"
-        sys.path.insert(0, str(cases))
-        cls.script = importlib.import_module("plot")
-        cls.refusing = importlib.import_module("run_folder").refusing
+        cls.program = cases.parent / "plot.py"
+        sys.path.insert(0, str(cases.parent / "python"))
+        cls.script = importlib.import_module("peperite.drawing.flat")
+        cls.command = importlib.import_module("peperite.drawing.command")
         for case in ("solid", "gas"):
             cls.run_of.run(2, "buoyant_cylinder", cases / f"{case}.toml", *OPTIONS, "--out", case)
         scenes = Path(given.source).resolve() / "benchmarks/accuracy"
@@ -47,9 +47,8 @@ class Plot(unittest.TestCase):
     def plot(self, *arguments):
         """Exit code, stdout and stderr, without the second that it takes to start the script."""
         out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), contextlib.chdir(self.folder), \
-                unittest.mock.patch("sys.argv", ["plot.py", *map(str, arguments)]):
-            code = type(self).refusing(self.script.draw)
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), contextlib.chdir(self.folder):
+            code = self.command.refusing(lambda: self.command.show(self.script, [*map(str, arguments)]))
         return code, out.getvalue(), err.getvalue()
 
     def drawn(self, *arguments):
@@ -78,7 +77,7 @@ class Plot(unittest.TestCase):
 
     def test_from_the_shell(self):
         def start(*arguments):
-            return subprocess.run(["/usr/bin/python3", "-B", self.script.__file__, *arguments], cwd=self.folder,
+            return subprocess.run(["/usr/bin/python3", "-B", self.program, *arguments], cwd=self.folder,
                                   capture_output=True, text=True)
         done = start("gas", "--draw", "series")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "gas/series.png\n", ""))
@@ -103,11 +102,11 @@ class Plot(unittest.TestCase):
     def test_pressure_less_hydrostatic_at_the_start(self):
         for case, (density, depth) in {"solid": (2500, 62.5), "gas": (2500, 62.5)}.items():
             run = self.script.Run(self.folder / case)
-            first = run.snapshots[0]
+            first = run[0]
             self.assertEqual(first.step, 0)
             (_, pressure, limits, _, label), (_, excess, *_) = self.script.pressure_maps(run, first)
             self.assertIn("(MPa)", label)
-            movers = ~run.is_wall(first)
+            movers = ~first.where(kind="wall")
             deep = depth - first.position[movers, 1]
             # p + p_0 = K (exp(rho_0 g d / K) - 1) + p_0 exp(rho_0 g d / K), Ida's atmosphere included.
             growth = np.expm1(density * 9.8 * deep / 1e10)
@@ -121,7 +120,7 @@ class Plot(unittest.TestCase):
             self.assertLess(max(np.abs(greater[movers]).max(), np.abs(smaller[movers]).max()), 0.05, case)
 
     def test_layers_at_rest(self):
-        at_rest = importlib.import_module("at_rest")
+        at_rest = importlib.import_module("peperite.drawing.at_rest")
         light = {"name": "light", "kind": "fluid", "density": 1000, "bulk_modulus": 1e10}
         heavy = {"name": "heavy", "kind": "fluid", "density": 2000, "bulk_modulus": 1e10}
         foam = {"name": "foam", "kind": "fluid", "eos": "bubbly", "density": 2500, "bulk_modulus": 1e10,
@@ -144,19 +143,19 @@ class Plot(unittest.TestCase):
         self.assertLess(np.abs(slope / (10 * density) - 1).max(), 1e-3)
         self.assertIsNone(at_rest.pressure_at_rest({**scene, "domain": {}}, places, 0))
         run = self.script.Run(self.folder / "foam")  # which the program starts at rest by an integration of its own
-        first = run.snapshots[0]
-        excess = (first.pressure - run.at_rest(first))[~run.is_wall(first)]
+        first = run[0]
+        excess = (first.pressure - run.at_rest(first))[~first.where(kind="wall")]
         self.assertLess(np.abs(excess).max(), 1e-3 * 1000 * 9.8)
 
     def test_units_fit_the_numbers(self):
-        figures = importlib.import_module("figures")
+        figures = importlib.import_module("peperite.drawing.style")
         for value, name, wanted in ((2.3e9, "Pa", "2.3 GPa"), (1e6, "Pa", "1 MPa"), (999, "Pa", "999 Pa"),
                                     (0.02, "Pa", "20 mPa"), (1500, "m", "1500 m"), (0.0035, "s", "3.5 ms"), (0, "Pa", "0 Pa")):
             self.assertEqual(figures.text_with_unit(value, name), wanted)
         run = self.script.Run(self.folder / "tank")
-        (_, pressure, limits, _, label), _ = self.script.pressure_maps(run, run.snapshots[0])
+        (_, pressure, limits, _, label), _ = self.script.pressure_maps(run, run[0])
         self.assertIn("(kPa)", label)
-        highest = pressure[~run.is_wall(run.snapshots[0])].max()
+        highest = pressure[~run[0].where(kind="wall")].max()
         self.assertTrue(9.5 < highest < 9.8 and 9.5 < limits[1] < 9.8, (highest, limits))
 
     def test_a_scene_that_follows_no_particle(self):
@@ -201,15 +200,15 @@ class Plot(unittest.TestCase):
 
 
 class ThreeDimensions(unittest.TestCase):
-    """apps/plot.py finds the script; plotting/plain.py draws what has no picture of its own."""
+    """apps/plot.py finds what draws it."""
 
     @classmethod
     def setUpClass(cls):
         cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
         cls.folder = cls.run_of.folder
         cls.apps = Path(given.source).resolve() / "apps"
-        sys.path.append(str(cls.apps / "plotting"))
-        cls.script = importlib.import_module("plain")
+        sys.path.append(str(cls.apps / "python"))
+        cls.script = importlib.import_module("peperite.drawing.solid")
         scenes = Path(given.source).resolve() / "tests/scenes"
         for run, scene, interval in (("fluid", "box3d_fluid", 0.02), ("grains", "grains_pour", 0.0005)):
             cls.run_of.run(2, "peperite", "run", scenes / f"{scene}.toml", "--steps", 100, "--set",
@@ -242,9 +241,9 @@ class ThreeDimensions(unittest.TestCase):
 
     def test_slice_of_a_fluid(self):
         run = self.script.Run(self.folder / "fluid")
-        view = self.script.View(run.snapshots[0])
+        view = self.script.View(run[0])
         self.assertEqual((view.along, view.depth, view.up), (0, 1, 2))
-        for snapshot in run.snapshots:
+        for snapshot in run:
             rows, place, diameter, columns = self.script.sliced(run, snapshot, view)
             position, velocity = snapshot["position"], snapshot["velocity"]
             inside = np.flatnonzero(np.abs(position[:, 1] - view.middle) < run.spacing)
@@ -256,7 +255,7 @@ class ThreeDimensions(unittest.TestCase):
 
     def test_grains_from_the_side(self):
         run = self.script.Run(self.folder / "grains")
-        first, last = run.snapshots[:2]
+        first, last = run[:2]
         view = self.script.View(first)
         self.assertEqual((view.along, view.depth, view.up), (0, 1, 2))
         rows, place, diameter, columns = self.script.from_the_side(run, last, view)

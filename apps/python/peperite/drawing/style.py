@@ -1,10 +1,8 @@
-"""What the pictures of all apps share: style, round particles, units that fit the numbers, small files."""
+"""What all pictures share: style, round particles, units that fit the numbers, small files."""
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_rgb
 from PIL import Image
@@ -83,6 +81,7 @@ def to_palette(rgb, flat=112, others=64):
 
 
 def save(figure, path):
-    figure.canvas.draw()
-    to_palette(np.asarray(figure.canvas.buffer_rgba())[:, :, :3]).save(path, optimize=True)
+    canvas = FigureCanvasAgg(figure)  # whatever the backend of who draws
+    canvas.draw()
+    to_palette(np.asarray(canvas.buffer_rgba())[:, :, :3]).save(path, optimize=True)
     plt.close(figure)

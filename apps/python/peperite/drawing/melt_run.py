@@ -1,11 +1,12 @@
 """The files of a run with melts: cells as arrays over their grid, grains among them, a plane through both, series."""
 
-import tomllib
+import functools
 
-import h5py
 import numpy as np
 
-from run_folder import BadInput, RunFolder
+from ..errors import Error
+from ..run import Run as AnyRun
+from ..snapshot import Snapshot as AnySnapshot
 
 CLOCK = (("yr", 365.25 * 86400, 3), ("d", 86400, 3), ("h", 3600, 3), ("min", 60, 10))  # and from how many on
 
@@ -45,42 +46,34 @@ class Grid:
         return 0.5 * (lower + upper)
 
 
-class Snapshot:
-    """Cells and grains at one time; read when they are asked for."""
+class Snapshot(AnySnapshot):
+    """Cells and grains at one time."""
 
     def __init__(self, path):
-        self.path = path
+        super().__init__(path)
         try:
-            with h5py.File(path) as file:
-                self.time, self.step = float(file.attrs["time"]), int(file.attrs["step"])
-                self.scene = tomllib.loads(file.attrs["scene"])
-                self.fields = set(file["particles"])
-                self.grid = Grid(self.scene)
-                kinds = np.array([group["kind"] for group in self.scene["group"]])
-                rows = kinds[file["particles/group"][()]]
-                ids = file["particles/id"][()]
-        except (OSError, KeyError, ValueError, IndexError) as error:
-            raise BadInput(f"{path}: not a snapshot of melts: {error}") from None
-        # In the order of their ids cells run through the grid; long snapshots are in owner order.
-        self._cells, self._grains = (np.flatnonzero(rows == kind) for kind in ("melt", "grain"))
-        self._cells = self._cells[np.argsort(ids[self._cells], kind="stable")]
-        self._grains = self._grains[np.argsort(ids[self._grains], kind="stable")]
-        if len(self._cells) != np.prod(self.grid.cells):
-            raise BadInput(f"{path}: {len(self._cells)} cells, its scene has {np.prod(self.grid.cells)}")
+            self.grid = Grid(self.scene)
+        except KeyError as error:
+            raise Error(f"{path}: not a snapshot of melts: {error}") from None
 
-    def _rows(self, field, rows):
-        try:
-            with h5py.File(self.path) as file:
-                return file["particles"][field][()][rows]
-        except (OSError, KeyError) as error:
-            raise BadInput(f"{self.path}: cannot read {field}: {error}") from None
+    @functools.cached_property
+    def _cells(self):
+        """Rows; in the order of their ids cells run through the grid."""
+        rows = np.flatnonzero(self.where(kind="melt"))
+        if len(rows) != np.prod(self.grid.cells):
+            raise Error(f"{self.path}: {len(rows)} cells, its scene has {np.prod(self.grid.cells)}")
+        return rows
+
+    @functools.cached_property
+    def _grains(self):
+        return np.flatnonzero(self.where(kind="grain"))
 
     def cell(self, field):
-        values = self._rows(field, self._cells)
+        values = self[field][self._cells]
         return values.reshape(*self.grid.cells[::-1], *values.shape[1:])
 
     def grain(self, field):
-        return self._rows(field, self._grains)
+        return self[field][self._grains]
 
     @property
     def grain_count(self):
@@ -124,25 +117,19 @@ class Plane:
         return "" if self.depth is None else f", slice at {'xyz'[self.depth]} = {self.place:.4g} m"
 
 
-class Run(RunFolder):
+class Run(AnyRun):
     """The folder of a run with melts."""
 
+    snapshot_type = Snapshot
+
     def __init__(self, folder):
-        super().__init__(folder, Snapshot)
-        self.grid, self.plane = self.snapshots[-1].grid, Plane(self.snapshots[-1].grid)
-        self.heated = "temperature" in self.snapshots[-1].fields
-        self.mixed = "composition" in self.snapshots[-1].fields
+        super().__init__(folder)
+        last = self[-1]
+        self.grid, self.plane = last.grid, Plane(last.grid)
+        self.heated, self.mixed = "temperature" in last, "composition" in last
         self.melts = [group["name"] for group in self.scene["group"] if group["kind"] == "melt"]
         self.grains = [k for k, group in enumerate(self.scene["group"]) if group["kind"] == "grain"]
-        self.clock = clock(self.snapshots[-1].time)
-
-    def nearest(self, time):
-        return min(self.snapshots, key=lambda s: abs(s.time - time))
-
-    def spread(self, number):
-        """So many snapshots, the first and the last among them."""
-        chosen = np.unique(np.linspace(0, len(self.snapshots) - 1, number).round().astype(int))
-        return [self.snapshots[k] for k in chosen]
+        self.clock = clock(last.time)
 
     def monitor(self):
         """Name of the scene's monitor of melts, or None."""

@@ -15,7 +15,7 @@ import tomllib
 from pathlib import Path
 
 NAME = "pictures.json"
-root = Path(__file__).resolve().parents[2]
+root = Path(__file__).resolve().parents[1]
 
 
 def digest(data):

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Draws runs of two-dimensional scenes: particles with velocities, principal stresses, pressure, time series.
 
     plot.py DIR [DIR ...] [--out DIR] [--time T] [--dynamic] [--average time|space]
@@ -9,18 +8,18 @@ and prints the path of each picture. With several runs their names go before the
 of all are on one sheet. Without --draw the series are left out where the scene follows no particle.
 """
 
-import sys
+import warnings
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgba
 from matplotlib.lines import Line2D
 
-from run_data import BadInput, Run
-from figures import (COMPRESSION, GROUPS, RUNS, SPRAY, STYLE, TENSION, WALL, circles, nice, save, text_with_unit,
-                     time_text, unit_for)
-from run_folder import drawing_parser, given_to, refusing
+from ..errors import Error
+from .command import time_argument
+from .flat_run import Run
+from .style import (COMPRESSION, GROUPS, RUNS, SPRAY, TENSION, WALL, circles, nice, plt, text_with_unit, time_text,
+                    unit_for)
 
 PICTURES = ("particles", "pressure", "strip", "series")
 
@@ -37,10 +36,10 @@ def colours_of(run):
 
 def view_of(run, snapshots):
     """The container, or all particles where there is none, and what rises above it; x and y limits."""
-    walls = run.is_wall(snapshots[0])
-    frame = snapshots[0].position[walls] if walls.any() else snapshots[0].position
+    walls = snapshots[0].where(kind="wall")
+    frame = snapshots[0]["position"][walls] if walls.any() else snapshots[0]["position"]
     low, high = frame.min(axis=0), frame.max(axis=0)
-    top = max(np.quantile(s.position[~run.is_wall(s), 1], 0.995) for s in snapshots)
+    top = max(np.quantile(s["position"][~s.where(kind="wall"), 1], 0.995) for s in snapshots)
     highest = high[1] + 0.25 * (high[1] - low[1])
     high[1] = max(high[1], min(top, highest))
     return np.array([low - 1.5 * run.spacing, high + 1.5 * run.spacing])
@@ -74,7 +73,7 @@ def note(axes, text):
 
 
 def beyond(snapshot, view):
-    count = int(np.sum(np.any((snapshot.position < view[0]) | (snapshot.position > view[1]), axis=1)))
+    count = int(np.sum(np.any((snapshot["position"] < view[0]) | (snapshot["position"] > view[1]), axis=1)))
     return f"{count} not shown" if count else ""
 
 
@@ -102,9 +101,9 @@ BELOW = {"loc": "upper center", "handletextpad": 0.4, "columnspacing": 1.4}
 
 def draw_velocities(axes, run, snapshot):
     """Sticks start at the centres and taper towards where the particle goes."""
-    circles(axes, snapshot.position, snapshot.diameter, facecolors=np.array(colours_of(run))[snapshot.group])
-    movers = ~run.is_wall(snapshot)
-    position, velocity = snapshot.position[movers], snapshot.velocity[movers]
+    circles(axes, snapshot["position"], snapshot.diameter, facecolors=np.array(colours_of(run))[snapshot["group"]])
+    movers = ~snapshot.where(kind="wall")
+    position, velocity = snapshot["position"][movers], snapshot["velocity"][movers]
     speed = np.hypot(*velocity.T)
     fast = np.quantile(speed, 0.98) if speed.any() else 1.0
     metres = 3 * run.spacing / fast  # of stick per m/s
@@ -119,14 +118,14 @@ def draw_stresses(axes, run, snapshot, dynamic):
     """Two lines along the principal axes; none longer than a spacing, so that crosses do not overlap."""
     greater, smaller, angle = snapshot.principal_stresses(run.at_rest(snapshot) if dynamic else None)
     tint = np.array([to_rgba(c, 0.3) for c in colours_of(run)])
-    tint[np.bincount(snapshot.group).argmax(), 3] = 0  # what fills the container stays white
-    circles(axes, snapshot.position, snapshot.diameter, facecolors=tint[snapshot.group])
+    tint[np.bincount(snapshot["group"]).argmax(), 3] = 0  # what fills the container stays white
+    circles(axes, snapshot["position"], snapshot.diameter, facecolors=tint[snapshot["group"]])
     largest = np.quantile(np.maximum(np.abs(greater), np.abs(smaller)), 0.99)
     per_pascal = run.spacing / largest if largest > 0 else 0.0
     for value, turn in ((greater, angle), (smaller, angle + np.pi / 2)):
         length = np.minimum(np.abs(value) * per_pascal, run.spacing)
         arm = 0.5 * length[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
-        ends = np.stack([snapshot.position - arm, snapshot.position + arm], axis=1)
+        ends = np.stack([snapshot["position"] - arm, snapshot["position"] + arm], axis=1)
         axes.add_collection(LineCollection(ends, colors=np.where(value > 0, TENSION, COMPRESSION), linewidths=0.9))
     bar = nice(4 * largest)
     scale_bar(axes, bar * per_pascal, text_with_unit(bar, "Pa"))
@@ -141,7 +140,7 @@ def draw_particles(run, snapshot, dynamic):
     view = view_of(run, [snapshot])
     figure, (left, right) = panels(view, 2, 5.0, 0.95)
     draw_velocities(left, run, snapshot)
-    counts = np.bincount(snapshot.group, minlength=len(run.names))
+    counts = np.bincount(snapshot["group"], minlength=len(run.names))
     left.legend(handles=group_handles(run, counts), ncols=4, bbox_to_anchor=(0.5, -0.06), **BELOW)
     left.set_title("Particles and velocities")
     note(left, beyond(snapshot, view))
@@ -153,11 +152,11 @@ def draw_particles(run, snapshot, dynamic):
 
 def draw_map(figure, axes, run, snapshot, values, limits, colours, label):
     """Movers coloured by value, walls grey; a colour bar below. NaN: the particle's group has no such value."""
-    walls = run.is_wall(snapshot)
+    walls = snapshot.where(kind="wall")
     chosen = ~walls & np.isfinite(values)
     for some, options in ((walls, {"facecolors": WALL}), (~walls & np.isnan(values), {"facecolors": "#e4e4e4"}),
                           (chosen, {"array": values[chosen], "cmap": plt.get_cmap(colours, 16), "clim": limits})):
-        drawn = circles(axes, snapshot.position[some], snapshot.diameter[some], **options)
+        drawn = circles(axes, snapshot["position"][some], snapshot.diameter[some], **options)
     ends = bool(np.any(values[chosen] < limits[0])), bool(np.any(values[chosen] > limits[1]))
     box = axes.get_position()
     inch = 1 / figure.get_figheight()
@@ -168,14 +167,14 @@ def draw_map(figure, axes, run, snapshot, values, limits, colours, label):
 
 def pressure_maps(run, snapshot):
     """Title, values, limits, colours and label of what is drawn of the pressure."""
-    movers = ~run.is_wall(snapshot)
-    low, high = np.quantile(snapshot.pressure[movers], (0.002, 0.998))
+    movers = ~snapshot.where(kind="wall")
+    low, high = np.quantile(snapshot["pressure"][movers], (0.002, 0.998))
     size, unit = unit_for(max(abs(low), abs(high)), "Pa")
-    maps = [("Pressure", snapshot.pressure / size, (min(0, low / size), high / size if high > max(low, 0) else 1.0),
+    maps = [("Pressure", snapshot["pressure"] / size, (min(0, low / size), high / size if high > max(low, 0) else 1.0),
              "viridis", f"p less surface pressure ({unit})")]
     at_rest = run.at_rest(snapshot)
     if at_rest is not None:
-        excess = snapshot.pressure - at_rest
+        excess = snapshot["pressure"] - at_rest
         reach = np.quantile(np.abs(excess[movers]), 0.98)
         size, unit = unit_for(reach, "Pa")
         reach = reach / size if reach > 0 else 1.0
@@ -186,7 +185,7 @@ def pressure_maps(run, snapshot):
 
 def draw_pressure(run, snapshot):
     view = view_of(run, [snapshot])
-    gas = snapshot.void_fraction is not None
+    gas = "void_fraction" in snapshot
     maps = pressure_maps(run, snapshot)
     number = len(maps) + gas
     figure, all_axes = panels(view, number, 3.6 if number == 3 else 4.4, 1.4)
@@ -194,8 +193,8 @@ def draw_pressure(run, snapshot):
         draw_map(figure, axes, run, snapshot, values, limits, colours, label)
         axes.set_title(title)
     if gas:
-        bubbly = np.array([g.get("eos") == "bubbly" for g in run.scene["group"]])[snapshot.group]
-        bar = draw_map(figure, all_axes[-1], run, snapshot, np.where(bubbly, snapshot.void_fraction, np.nan), (0, 0.8),
+        bubbly = np.array([g.get("eos") == "bubbly" for g in run.scene["group"]])[snapshot["group"]]
+        bar = draw_map(figure, all_axes[-1], run, snapshot, np.where(bubbly, snapshot["void_fraction"], np.nan), (0, 0.8),
                        "YlGnBu", "volume fraction of gas ψ")
         for group in run.scene["group"]:
             for row in group.get("becomes", []):
@@ -208,12 +207,11 @@ def draw_pressure(run, snapshot):
 
 
 def draw_strip(run):
-    chosen = np.unique(np.linspace(0, len(run.snapshots) - 1, 6).round().astype(int))
-    snapshots = [run.snapshots[k] for k in chosen]
+    snapshots = run.spread(6)
     view = view_of(run, snapshots)
     figure, all_axes = panels(view, len(snapshots), 2.0, 0.8)
     for axes, snapshot in zip(all_axes, snapshots):
-        circles(axes, snapshot.position, snapshot.diameter, facecolors=np.array(colours_of(run))[snapshot.group])
+        circles(axes, snapshot["position"], snapshot.diameter, facecolors=np.array(colours_of(run))[snapshot["group"]])
         axes.set_title(f"t = {time_text(snapshot.time)}")
         note(axes, beyond(snapshot, view))
     figure.legend(handles=group_handles(run), ncols=len(run.names), bbox_to_anchor=(0.5, 0.3 / figure.get_figheight()),
@@ -238,14 +236,14 @@ def spread(values, least):
 
 
 def follows_a_particle(run):
-    return run.tracked() is not None and f"{run.tracked()}_y" in run.series()
+    return run.tracked() is not None and f"{run.tracked()}_y" in run.series
 
 
 def series_of(run):
     """Times and what is drawn of the tracked particle, in SI units."""
-    table, monitor = run.series(), run.tracked()
+    table, monitor = run.series, run.tracked()
     if not follows_a_particle(run):
-        raise BadInput(f"{run.folder / 'series.csv'}: the scene follows no particle: give it a [[monitor]]")
+        raise Error(f"{run.folder / 'series.csv'}: the scene follows no particle: give it a [[monitor]]")
     return table, {name: table[f"{monitor}_{name}"] for name in ("y", "vy", "rho", "p")}
 
 
@@ -292,50 +290,28 @@ def draw_series(runs):
 # ---- command line -------------------------------------------------------------------------------------------
 
 
-def arguments():
-    parser = drawing_parser(__doc__, PICTURES)
-    parser.add_argument("--time", metavar="T", type=float,
-                        help="draw the snapshot nearest to T seconds (default: last)")
+def more_arguments(parser):
+    time_argument(parser, "draw the snapshot nearest to T seconds (default: last)")
     parser.add_argument("--dynamic", action="store_true", help="stresses: leave the hydrostatic pressure out")
     parser.add_argument("--average", choices=("time", "space"),
                         help="velocity and pressure: draw the averages of output.average_time or average_space")
-    given = given_to(parser, PICTURES)
-    if given.time is not None and not np.isfinite(given.time):
-        parser.error("--time: not a finite number")
-    return given
 
 
 def pictures(runs, given):
     """Names and figures, one after the other."""
     for run in runs:
-        if given.dynamic and run.at_rest(run.snapshots[0]) is None:
-            raise BadInput(f"--dynamic: nothing is hydrostatic in {run.folder}: no gravity, or an ideal gas")
+        if given.dynamic and run.at_rest(run.first) is None:
+            raise Error(f"--dynamic: nothing is hydrostatic in {run.folder}: no gravity, or an ideal gas")
         prefix = f"{run.name}_" if len(runs) > 1 else ""
-        snapshot = run.nearest(given.time).averaged(given.average)
+        snapshot = (run[-1] if given.time is None else run.at(given.time)).averaged(given.average)
         if "particles" in given.draw:
             yield f"{prefix}particles.png", draw_particles(run, snapshot, given.dynamic)
         if "pressure" in given.draw:
             yield f"{prefix}pressure.png", draw_pressure(run, snapshot)
-        if "strip" in given.draw and len(run.snapshots) >= 3:
+        if "strip" in given.draw and len(run) >= 3:
             yield f"{prefix}strip.png", draw_strip(run)
     silent = next((run for run in runs if not follows_a_particle(run)), None) if "series" in given.draw else None
     if silent is not None and not given.chosen:
-        print(f"plot.py: no series.png: the scene of {silent.folder} follows no particle: give it a [[monitor]]",
-              file=sys.stderr)
+        warnings.warn(f"no series.png: the scene of {silent.folder} follows no particle: give it a [[monitor]]", stacklevel=1)
     elif "series" in given.draw:
         yield "series.png", draw_series(runs)
-
-
-def draw():
-    given = arguments()
-    runs = [Run(folder) for folder in given.runs]
-    out = given.out or runs[0].folder
-    out.mkdir(parents=True, exist_ok=True)
-    plt.rcParams.update(STYLE)
-    for name, figure in pictures(runs, given):
-        save(figure, out / name)
-        print(out / name)
-
-
-if __name__ == "__main__":
-    sys.exit(refusing(draw))

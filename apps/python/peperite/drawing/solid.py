@@ -1,7 +1,6 @@
-#!/usr/bin/python3
 """Draws runs in three dimensions: fluids and solids in a slice through their middle, grains from the side.
 
-    plain.py DIR [DIR ...] [--out DIR] [--time T] [--draw slice|side]
+    plot.py DIR [DIR ...] [--out DIR] [--time T] [--draw slice|side]
 
 Rows of the picture are times, the start and the end among them (--time: the snapshot nearest to T seconds alone).
 Columns are the speed and, of fluids and solids, the pressure, of grains their displacement since the first snapshot, of
@@ -9,57 +8,16 @@ grains in a fluid their share of the volume.
 The slice holds the particles within a spacing of the middle, those nearest to it on top.
 """
 
-import sys
-import tomllib
-
-import h5py
 import numpy as np
 
-from run_folder import BadInput, RunFolder, drawing_parser, given_to, refusing
+from ..errors import Error
+from ..run import Run as AnyRun
+from . import style
+from .command import time_argument
+from .style import circles, plt
 
 PICTURES = ("slice", "side")
 TIMES = 3  # rows of a picture
-
-
-class Snapshot:
-    """Particles at one time, by ascending id. Fields are read when they are asked for."""
-
-    def __init__(self, path):
-        self.path = path
-        try:
-            with h5py.File(path) as file:
-                self.time, self.step = float(file.attrs["time"]), int(file.attrs["step"])
-                self.scene = tomllib.loads(file.attrs["scene"])
-                self.fields = set(file["particles"])
-        except (OSError, KeyError, ValueError) as error:
-            raise BadInput(f"{path}: not a snapshot: {error}") from None
-
-    def __getitem__(self, field):
-        try:
-            with h5py.File(self.path) as file:
-                order = np.argsort(file["particles/id"][()], kind="stable")  # long snapshots are in owner order
-                return file["particles"][field][()][order]
-        except (OSError, KeyError) as error:
-            raise BadInput(f"{self.path}: cannot read {field}: {error}") from None
-
-    def speed(self):
-        return np.linalg.norm(self["velocity"], axis=1)
-
-    def moves(self):
-        """Which particles are neither walls nor fixed grains."""
-        free = [g["kind"] != "wall" and not g.get("fixed", False) for g in self.scene["group"]]
-        return np.array(free)[self["group"]]
-
-    def displacement_since(self, first):
-        """Of each particle [m], the shortest way where axes are periodic; NaN if it was not there."""
-        ids, before = self["id"], first["id"]
-        place = np.minimum(np.searchsorted(before, ids), len(before) - 1)
-        way = self["position"] - first["position"][place]
-        domain = self.scene["domain"]
-        length = np.array(domain["upper"]) - np.array(domain["lower"])
-        around = np.array(domain.get("periodic", [False] * len(length)))
-        way -= np.where(around, length * np.round(way / length), 0)
-        return np.where(before[place] == ids, np.linalg.norm(way, axis=1), np.nan)
 
 
 class View:
@@ -71,7 +29,7 @@ class View:
         self.up = int(np.argmax(gravity)) if np.any(gravity) else 2
         moving = snapshot["position"][snapshot.moves()]
         if not len(moving):
-            raise BadInput(f"{snapshot.path}: nothing in it that moves")
+            raise Error(f"{snapshot.path}: nothing in it that moves")
         self.low, self.high = moving.min(axis=0), moving.max(axis=0)
         across = [axis for axis in range(3) if axis != self.up]
         self.along, self.depth = sorted(across, key=lambda axis: self.low[axis] - self.high[axis])
@@ -109,42 +67,32 @@ def from_the_side(run, snapshot, view):
     position = snapshot["position"]
     rows = np.argsort(-position[:, view.depth], kind="stable")
     columns = {"speed": ("m/s", snapshot.speed()[rows])}
-    if len(run.snapshots) > 1:
-        columns["displacement"] = ("m", snapshot.displacement_since(run.snapshots[0])[rows])
+    if len(run) > 1:
+        columns["displacement"] = ("m", np.linalg.norm(snapshot.displacement_since(run[0]), axis=1)[rows])
     return rows, view.flat(position)[rows], 2 * snapshot["radius"][rows], columns
 
 
-class Run(RunFolder):
-    """The folder of a run in three dimensions."""
-
+class Run(AnyRun):
     def __init__(self, folder):
-        super().__init__(folder, Snapshot)
+        super().__init__(folder)
         if self.scene["dimension"] != 3:
-            raise BadInput(f"{folder}: the scene has {self.scene['dimension']} dimensions, this draws 3: take apps/plot.py")
-        fields = self.snapshots[-1].fields
+            raise Error(f"{folder}: the scene has {self.scene['dimension']} dimensions, this draws 3: take apps/plot.py")
+        fields = self[-1].fields
         self.mixed = "radius" in fields and "density" in fields
         self.of_grains = "radius" in fields and not self.mixed
         self.spacing = self.scene["start"]["spacing"] if not self.of_grains else None
 
-    def chosen(self, time):
-        if time is not None:
-            return [min(self.snapshots, key=lambda s: abs(s.time - time))]
-        wanted = np.unique(np.linspace(0, len(self.snapshots) - 1, TIMES).round().astype(int))
-        return [self.snapshots[k] for k in wanted]
-
 
 def draw(run, snapshots):
     """One row a snapshot, one column a quantity, each with a scale of its own."""
-    import figures
-    from figures import circles, plt
-    view = View(run.snapshots[0])
+    view = View(run[0])
     parts = [(from_the_side if run.of_grains else sliced)(run, s, view) for s in snapshots]
     names = list(parts[0][3])
     frame = np.concatenate([view.flat(s["position"][s.moves()]) for s in snapshots])
     low, high = frame.min(axis=0), frame.max(axis=0)
     margin = 0.03 * (high - low).max()
     low, high = low - margin, high + margin
-    metre, length = figures.unit_for((high - low).max(), "m")
+    metre, length = style.unit_for((high - low).max(), "m")
     width = 5.2
     height = min(max(width * (high - low)[1] / (high - low)[0], 1.2), 7.0)
     figure, grid = plt.subplots(len(parts), len(names), squeeze=False, layout="constrained",
@@ -155,16 +103,16 @@ def draw(run, snapshots):
         values = values[np.isfinite(values)]
         bottom, top = np.quantile(values, (0.002, 0.998)) if len(values) else (0.0, 0.0)
         bottom = min(bottom, 0.0)
-        size, unit = figures.unit_for(max(abs(bottom), abs(top)), parts[0][3][name][0])
+        size, unit = style.unit_for(max(abs(bottom), abs(top)), parts[0][3][name][0])
         limits = (bottom / size, top / size) if top > bottom else (0.0, 1.0)
         for axes, snapshot, (_, place, diameter, columns), free in zip(column, snapshots, parts, moving):
             drawn = columns[name][1] / size
             place, diameter = place / metre, diameter / metre
-            circles(axes, place[~free], diameter[~free], facecolors=figures.WALL)
+            circles(axes, place[~free], diameter[~free], facecolors=style.WALL)
             shown = circles(axes, place[free], diameter[free], array=drawn[free], cmap=plt.get_cmap("viridis", 16),
                             clim=limits, linewidths=0)
             axes.set(xlim=(low[0] / metre, high[0] / metre), ylim=(low[1] / metre, high[1] / metre), aspect="equal",
-                     title=f"{name.capitalize()}, t = {figures.time_text(snapshot.time)}",
+                     title=f"{name.capitalize()}, t = {style.time_text(snapshot.time)}",
                      xlabel=f"{view.name(view.along)} ({length})", ylabel=f"{view.name(view.up)} ({length})")
         figure.colorbar(shown, ax=list(column), location="bottom", label=f"{name} ({unit})", extend="both",
                         shrink=0.8, aspect=40)
@@ -173,25 +121,15 @@ def draw(run, snapshots):
     return figure
 
 
-def main():
-    parser = drawing_parser(__doc__, PICTURES)
-    parser.add_argument("--time", metavar="T", type=float, help="draw the snapshot nearest to T seconds alone")
-    given = given_to(parser, PICTURES)
-    if given.time is not None and not np.isfinite(given.time):
-        parser.error("--time: not a finite number")
-    runs = [Run(folder) for folder in given.runs]
-    out = given.out or runs[0].folder
-    out.mkdir(parents=True, exist_ok=True)
-    from figures import STYLE, plt, save  # only now: it takes a second, and refusals should not
-    plt.rcParams.update(STYLE)
+def more_arguments(parser):
+    time_argument(parser, "draw the snapshot nearest to T seconds alone")
+
+
+def pictures(runs, given):
+    """Names and figures, one after the other."""
     for run in runs:
         name = "side" if run.of_grains else "slice"
         if name not in given.draw:
-            raise BadInput(f"{run.folder}: --draw: such a run has the picture {name}")
-        path = out / (f"{run.name}_{name}.png" if len(runs) > 1 else f"{name}.png")
-        save(draw(run, run.chosen(given.time)), path)
-        print(path)
-
-
-if __name__ == "__main__":
-    sys.exit(refusing(main))
+            raise Error(f"{run.folder}: --draw: such a run has the picture {name}")
+        snapshots = run.spread(TIMES) if given.time is None else [run.at(given.time)]
+        yield f"{run.name}_{name}.png" if len(runs) > 1 else f"{name}.png", draw(run, snapshots)

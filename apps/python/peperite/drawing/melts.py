@@ -1,7 +1,6 @@
-#!/usr/bin/python3
 """Draws runs with melts: their cells in a vertical plane, grains where they cross it, and time series.
 
-    melt.py DIR [DIR ...] [--out DIR] [--time T] [--draw plane,series]
+    plot.py DIR [DIR ...] [--out DIR] [--time T] [--draw plane,series]
 
 The columns of the picture of the plane are times, the start and the end among them (--time: the snapshot nearest to T
 seconds alone), its rows the temperature with isotherms and the share of the second melt with the interface, as far as the
@@ -9,12 +8,15 @@ scene has them, else the speed. Arrows are the flow. In three dimensions the pla
 along the longer horizontal axis. Without --draw the series are left out where the scene has no monitor of melts.
 """
 
-import sys
-
 import numpy as np
+from matplotlib import patheffects
+from matplotlib.ticker import MaxNLocator
 
-from melt_run import Run
-from run_folder import BadInput, drawing_parser, given_to, refusing
+from ..errors import Error
+from . import style
+from .command import time_argument
+from .melt_run import Run
+from .style import nice, plt
 
 PICTURES = ("plane", "series")
 TIMES = 3  # columns of a picture
@@ -37,7 +39,6 @@ def rows_of(run, snapshots):
 
 def levels_of(low, high, lines):
     """Of the contour lines: round numbers, or the middle between two melts."""
-    from figures import nice
     if lines is None or not high > low:
         return []
     if lines[0] == "interface":
@@ -47,7 +48,6 @@ def levels_of(low, high, lines):
 
 
 def draw_field(axes, run, values, limits, colours, metre):
-    from figures import plt
     extent = np.stack([run.plane.low, run.plane.high], axis=1).ravel() / metre
     return axes.imshow(values, origin="lower", extent=extent, cmap=plt.get_cmap(colours, 24), clim=limits,
                        interpolation="nearest")
@@ -67,7 +67,6 @@ def fastest(run, snapshots):
 
 def draw_arrows(axes, run, snapshot, fast, metre):
     """Means over blocks of cells; the fastest are as long as a block, and those that would be dots are left out."""
-    from matplotlib import patheffects
     plane = run.plane
     block = max(1, int(np.ceil(max(run.grid.cells[axis] for axis in plane.axes) / ARROWS)))
     counts = [run.grid.cells[axis] // block for axis in plane.axes]
@@ -86,23 +85,20 @@ def draw_arrows(axes, run, snapshot, fast, metre):
 
 def draw_grains(axes, run, snapshot, metre, inch):
     """Discs; with thin edges where they are large enough. `inch`: of the picture, in units of the axes."""
-    import figures
     place, diameter, group = run.plane.discs(snapshot)
     if not len(place):
         return
     points = 72 * np.median(diameter) / metre / inch
-    fills = {k: colour for k, colour in zip(run.grains, ("#e8e8e8", *figures.GROUPS))}
-    figures.circles(axes, place / metre, diameter / metre, facecolors=[fills[k] for k in group], edgecolors="#222222",
+    fills = {k: colour for k, colour in zip(run.grains, ("#e8e8e8", *style.GROUPS))}
+    style.circles(axes, place / metre, diameter / metre, facecolors=[fills[k] for k in group], edgecolors="#222222",
                     linewidths=min(0.6, 0.08 * points))
 
 
 def draw_plane(run, snapshots):
     """One column a snapshot, one row a quantity, each with a scale of its own."""
-    import figures
-    from figures import plt
     plane, rows = run.plane, rows_of(run, snapshots)
     size = plane.high - plane.low
-    metre, length = figures.unit_for(size.max(), "m")
+    metre, length = style.unit_for(size.max(), "m")
     height = min(3.8 * size[1] / size[0], 5.2)
     width = max(height * size[0] / size[1], 2.2)
     figure, grid = plt.subplots(len(rows), len(snapshots), squeeze=False, layout="compressed", sharex=True, sharey=True,
@@ -111,7 +107,7 @@ def draw_plane(run, snapshots):
     fast, arrows = fastest(run, snapshots), []
     for row, (name, unit, colours, lines, values) in zip(grid, rows):
         low, high = (0.0, 1.0) if unit == "1" else (min(v.min() for v in values), max(v.max() for v in values))
-        per, unit = figures.unit_for(high, unit) if unit == "m/s" else (1.0, unit)
+        per, unit = style.unit_for(high, unit) if unit == "m/s" else (1.0, unit)
         limits = (low / per, high / per) if high > low else (low / per - 0.5, low / per + 0.5)
         levels = levels_of(*limits, lines)
         for axes, snapshot, field in zip(row, snapshots, values):
@@ -120,20 +116,20 @@ def draw_plane(run, snapshots):
             if fast > 0:
                 arrows.append(draw_arrows(axes, run, snapshot, fast, metre))
             if len(levels):
-                draw_lines(axes, run, field / per, levels, metre, colors=figures.LINES[lines[1]])
+                draw_lines(axes, run, field / per, levels, metre, colors=style.LINES[lines[1]])
         label = name if unit == "1" else f"{name} ({unit})"
         bar = figure.colorbar(image, ax=list(row), label=f"{label}, {lines[1]}: {lines[0]}" if len(levels) else label,
                               shrink=0.95, aspect=24, pad=0.015)
         if len(levels):
-            bar.ax.hlines(levels, 0, 1, transform=bar.ax.get_yaxis_transform(), colors=figures.LINES[lines[1]], linewidth=1)
+            bar.ax.hlines(levels, 0, 1, transform=bar.ax.get_yaxis_transform(), colors=style.LINES[lines[1]], linewidth=1)
         row[0].set_ylabel(f"{'xyz'[plane.up]} ({length})")
     for axes, snapshot in zip(grid[0], snapshots):
-        axes.set_title(f"t = {figures.clock_text(snapshot.time, run.clock)}")
+        axes.set_title(f"t = {style.clock_text(snapshot.time, run.clock)}")
     for axes in grid[-1]:
         axes.set_xlabel(f"{'xyz'[plane.along]} ({length})")
     if fast > 0:
-        key = figures.nice(fast)
-        grid[0, -1].quiverkey(arrows[len(snapshots) - 1], 0.94, 1.04, key, figures.text_with_unit(key, "m/s"), labelpos="W",
+        key = style.nice(fast)
+        grid[0, -1].quiverkey(arrows[len(snapshots) - 1], 0.94, 1.04, key, style.text_with_unit(key, "m/s"), labelpos="W",
                               coordinates="axes", color="black", labelsep=0.08)
     figure.suptitle(run.title + plane.title(), x=0.01, ha="left", fontsize=13, weight="bold")
     return figure
@@ -141,22 +137,19 @@ def draw_plane(run, snapshots):
 
 def draw_series(run):
     """Root of the mean square of the velocity, heat through the sides, iterations of the flow."""
-    import figures
-    from figures import plt
-    from matplotlib.ticker import MaxNLocator
     name = run.monitor()
-    table = run.series(f"{name}_v_rms", f"{name}_iterations")
+    table = run.series
     heat, quantity = run.heat(table)
-    size, unit = (run.clock[1], run.clock[0]) if run.clock else figures.unit_for(table["t"][-1], "s")
+    size, unit = (run.clock[1], run.clock[0]) if run.clock else style.unit_for(table["t"][-1], "s")
     time = table["t"] / size
-    per, speed = figures.unit_for(np.nanmax(table[f"{name}_v_rms"]), "m/s")
+    per, speed = style.unit_for(np.nanmax(table[f"{name}_v_rms"]), "m/s")
     panels = [(f"$v_{{rms}}$ of the flow ({speed})", [("", table[f"{name}_v_rms"] / per)])]
     panels += [(quantity, heat)] if heat else []
     panels += [("iterations of the flow", [("", table[f"{name}_iterations"])])]
     figure, all_axes = plt.subplots(len(panels), 1, squeeze=False, sharex=True, layout="constrained",
                                     figsize=(8, 0.8 + 2.2 * len(panels)))
     for axes, (label, curves) in zip(all_axes[:, 0], panels):
-        for (text, values), colour in zip(curves, figures.RUNS * len(curves)):
+        for (text, values), colour in zip(curves, style.RUNS * len(curves)):
             # One time alone would be no line.
             axes.plot(time, values, color=colour, linewidth=1.2, label=text, marker="o" if len(time) < 3 else None)
         axes.set_ylabel(label)
@@ -172,36 +165,20 @@ def draw_series(run):
     return figure
 
 
+def more_arguments(parser):
+    time_argument(parser, "draw the snapshot nearest to T seconds alone")
+
+
 def pictures(runs, given):
     """Names and figures, one after the other."""
     for run in runs:
         prefix = f"{run.name}_" if len(runs) > 1 else ""
         if "plane" in given.draw:
-            snapshots = run.spread(TIMES) if given.time is None else [run.nearest(given.time)]
+            snapshots = run.spread(TIMES) if given.time is None else [run.at(given.time)]
             yield f"{prefix}plane.png", draw_plane(run, snapshots)
         if "series" not in given.draw:
             continue
         if run.monitor() is not None:
             yield f"{prefix}series.png", draw_series(run)
         elif given.chosen:
-            raise BadInput(f"{run.folder}: its scene has no [[monitor]] of kind \"melt\"")
-
-
-def main():
-    parser = drawing_parser(__doc__, PICTURES)
-    parser.add_argument("--time", metavar="T", type=float, help="draw the snapshot nearest to T seconds alone")
-    given = given_to(parser, PICTURES)
-    if given.time is not None and not np.isfinite(given.time):
-        parser.error("--time: not a finite number")
-    runs = [Run(folder) for folder in given.runs]
-    out = given.out or runs[0].folder
-    out.mkdir(parents=True, exist_ok=True)
-    from figures import STYLE, plt, save  # only now: it takes a second, and refusals should not
-    plt.rcParams.update(STYLE)
-    for name, figure in pictures(runs, given):
-        save(figure, out / name)
-        print(out / name)
-
-
-if __name__ == "__main__":
-    sys.exit(refusing(main))
+            raise Error(f"{run.folder}: its scene has no [[monitor]] of kind \"melt\"")

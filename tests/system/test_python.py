@@ -1,0 +1,192 @@
+#!/usr/bin/python3
+"""The package peperite (apps/python): runs as they are on disk, by ascending id, nothing read before it is asked for.
+
+    test_python.py --programs build/bin --source .
+"""
+import argparse
+import importlib
+import shutil
+import sys
+import unittest
+import unittest.mock
+from pathlib import Path
+
+import h5py
+import matplotlib
+import numpy as np
+
+from runner import Runner
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
+        cls.folder = cls.run_of.folder
+        source = Path(given.source).resolve()
+        sys.path.insert(0, str(source / "apps/python"))
+        cls.peperite = importlib.import_module("peperite")
+        scenes = source / "tests/scenes"
+        for name, scene, *options in (
+                ("grains", "grains_pour", "output.contacts=true", "output.snapshot_interval=0.0005"),
+                ("owners", "grains_pour", "output.snapshot_interval=0.0005", "output.sort_limit=1"),
+                ("fluid", "box3d_fluid", "output.snapshot_interval=0.02"),
+                ("solid", "bodies2d", "output.snapshot_interval=0.001"),
+                ("silent", "box3d_fluid", "output.snapshot_interval=0")):
+            cls.run_of.run(3, "peperite", "run", scenes / f"{scene}.toml", "--steps", 100, "--out", name,
+                           *(word for option in options for word in ("--set", option)))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.run_of.close()
+
+    def open(self, name):
+        return self.peperite.open(self.folder / name)
+
+    def refused(self, says, work):
+        with self.assertRaises(self.peperite.Error) as caught:
+            work()
+        self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        self.assertIn(says, str(caught.exception))
+
+    def test_particles_stand_by_their_ids_whatever_the_order_in_the_file(self):
+        by_id, by_owner = self.open("grains"), self.open("owners")
+        with h5py.File(by_owner.files[-1]) as file:
+            self.assertTrue(np.any(np.diff(file["particles/id"][()].astype(np.int64)) < 0), "no test: its rows are sorted")
+        for a, b in zip(by_id, by_owner):
+            for field in ("id", "position", "velocity", "spin"):
+                self.assertTrue(np.array_equal(a[field], b[field]), field)
+        with h5py.File(by_id.files[-1]) as file:
+            self.assertTrue(np.array_equal(file["particles/velocity"][()], by_id[-1].velocity))
+
+    def test_nothing_is_read_before_it_is_asked_for(self):
+        opened = []
+        real = h5py.File
+
+        def counting(path, *arguments, **options):
+            opened.append(Path(path).name)
+            return real(path, *arguments, **options)
+        with unittest.mock.patch("h5py.File", counting):
+            run = self.open("grains")
+            self.assertEqual(opened, [run.files[-1].name])
+            self.assertGreater(len(run), 3)
+            snapshot = run[1]
+            self.assertEqual(opened[1:], [run.files[1].name])
+            before = snapshot["position"]
+            self.assertIs(snapshot["position"], before)
+            self.assertIsNot(run[1], snapshot)
+        with self.assertRaises(ValueError):
+            before[0] = 0
+
+    def test_times(self):
+        run = self.open("grains")
+        self.assertTrue(np.array_equal(run.times, [s.time for s in run]))
+        self.assertTrue(np.all(np.diff(run.times) > 0))
+        middle = run.times[2]
+        self.assertEqual(run.at(middle + 1e-6).time, middle)
+        self.assertEqual([s.time for s in run.spread(3)], list(run.times[[0, len(run) // 2, -1]]) if len(run) % 2 else
+                         [s.time for s in run.spread(3)])
+        self.assertEqual([s.step for s in run[1:3]], [run[1].step, run[2].step])
+
+    def test_fields(self):
+        last = self.open("solid")[-1]
+        self.assertEqual((last.unit("pressure"), last.unit("velocity"), last.unit("group")), ("Pa", "m/s", "1"))
+        self.assertTrue(np.array_equal(last.component("stress", "xy"), last["stress"][:, 2]))
+        self.assertTrue(np.array_equal(last.component("velocity", "y"), last.velocity[:, 1]))
+        self.assertTrue(np.abs(last.metres("displacement")).max() < 100 and last.metres("displacement").any())
+        self.assertIn("displacement", dir(last))
+        self.assertIsNone(last.get("void_fraction"))
+        grains = self.open("grains")[-1]
+        self.assertTrue(np.array_equal(grains.component("stress", "xz"), grains.stress[:, 5]))
+
+    def test_groups(self):
+        run = self.open("fluid")
+        names, kinds = ([g[key] for g in run.scene["group"]] for key in ("name", "kind"))
+        for name, kind in zip(names, kinds):
+            chosen = run[-1].where(group=name)
+            self.assertTrue(np.array_equal(chosen, run[-1].group == names.index(name)))
+            self.assertTrue(np.all(run[-1].where(kind=kind)[chosen]))
+        self.assertTrue(np.array_equal(run[-1].moves(), ~run[-1].where(kind="wall")))
+
+    def test_contacts_bear_what_grains_are_given(self):
+        snapshot = self.open("grains")[-1]
+        contacts = snapshot.contacts
+        self.assertGreater(len(contacts), 20)
+        self.assertTrue(np.allclose(np.linalg.norm(contacts.normal, axis=1), 1))
+        between = contacts.second >= 0
+        a, b = contacts.first[between], contacts.second[between]
+        reach = (snapshot.radius[a] + snapshot.radius[b])
+        apart = snapshot.nearest_image(snapshot.position[b] - snapshot.position[a])
+        self.assertTrue(np.all(np.linalg.norm(apart, axis=1) < reach), "what touches overlaps, through periodic faces too")
+        push = np.einsum("ij,ij->i", contacts.force, contacts.normal)
+        self.assertGreater(np.mean(push < 0), 0.9, "a force on the first points away from the second")
+        self.refused("output.contacts = true", lambda: self.open("owners")[-1].contacts)
+
+    def test_displacements_go_through_periodic_faces(self):
+        run = self.open("grains")
+        way = run[-1].displacement_since(run[0])
+        flight = np.array([0.4, 0.1, -0.3]) * (run[-1].time - run[0].time)
+        free = run[0].position[:, 2] > 0.007
+        self.assertLess(np.median(np.linalg.norm(way[free] - flight, axis=1)), 0.2 * np.linalg.norm(flight))
+
+    def test_series(self):
+        run = self.open("fluid")
+        table = np.genfromtxt(self.folder / "fluid/series.csv", delimiter=",", names=True)
+        self.assertEqual(set(run.series), set(table.dtype.names))
+        self.assertTrue(all(np.array_equal(run.series[name], table[name]) for name in run.series))
+        self.refused("no column depth", lambda: run.series["depth"])
+        copy = self.folder / "going_on"
+        shutil.copytree(self.folder / "fluid", copy)
+        text = (copy / "series.csv").read_text()
+        (copy / "series.csv").write_text(text[:-5])
+        self.assertEqual(len(self.peperite.open(copy).series["t"]), len(table) - 1)
+        self.assertEqual(run.perf["steps"], 100)
+
+    def test_what_is_wrong_is_one_line(self):
+        (self.folder / "empty").mkdir()
+        for says, folder in (("no such folder", "nowhere"), ("not the folder of a run", "empty")):
+            self.refused(says, lambda folder=folder: self.open(folder))
+        last = self.open("fluid")[-1]
+        for says, work in (("no field \"void\" in it; there are", lambda: last["void"]),
+                           ("no group \"rock\"; there are", lambda: last.where(group="rock")),
+                           ("no component \"xw\" of velocity; there are x, y, z", lambda: last.component("velocity", "xw"))):
+            self.refused(says, work)
+        with self.assertRaises(AttributeError):
+            last.void
+        broken = self.folder / "broken"
+        shutil.copytree(self.folder / "fluid", broken)
+        path = max(broken.glob("snapshot_*.h5"))
+        path.write_bytes(path.read_bytes()[:1000])
+        self.refused(path.name, lambda: self.peperite.open(broken))
+
+    def test_a_run_that_has_no_snapshot_yet(self):
+        early = self.folder / "early"
+        shutil.copytree(self.folder / "silent", early)
+        for path in early.glob("snapshot_*"):
+            path.unlink()
+        (early / "snapshot_mine.h5").write_bytes(b"")  # no name that a run gives
+        run = self.peperite.open(early)
+        self.assertEqual((len(run), list(run), run.title), (0, [], self.open("silent").title))
+        self.assertGreater(len(run.series["t"]), 0)
+        self.refused("no snapshot_*.h5", lambda: run[-1])
+
+    def test_plot_leaves_the_settings_of_who_calls_it(self):
+        matplotlib.use("pdf")
+        before = dict(matplotlib.rcParams)
+        for name, pictures in (("solid", {"particles.png", "pressure.png", "strip.png"}), ("grains", {"side.png"})):
+            paths = self.open(name).plot(out=self.folder / f"of_{name}")
+            self.assertEqual({path.name for path in paths}, pictures)
+            self.assertTrue(all(path.stat().st_size > 5000 for path in paths))
+        self.assertEqual({key for key, value in matplotlib.rcParams.items() if before[key] != value}, set())
+        (path,) = self.open("solid").plot(draw="particles", time=0)
+        self.assertEqual(path, self.folder / "solid/particles.png")
+        self.refused("stars", lambda: self.open("solid").plot(draw="stars"))
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--programs", required=True)
+    parser.add_argument("--source", required=True)
+    parser.add_argument("--mpirun", default="mpirun")
+    given, names = parser.parse_known_args()
+    unittest.main(argv=sys.argv[:1] + names)
