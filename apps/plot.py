@@ -13,9 +13,8 @@ from pathlib import Path
 
 here = Path(__file__).resolve().parent
 sys.path.insert(0, str(here / "python"))
-import peperite  # noqa: E402
 from peperite.drawing import module_for  # noqa: E402
-from peperite.drawing.command import refusing, show  # noqa: E402
+from peperite.drawing.command import refusing, runs_in, show  # noqa: E402
 
 
 def is_sandbox(scene):
@@ -28,20 +27,11 @@ def is_sandbox(scene):
 
 def main():
     words = sys.argv[1:]
-    folders = [word for k, word in enumerate(words) if not word.startswith("-") and not words[k - 1].startswith("--")]
-    if not folders:
-        if {"-h", "--help"} & set(words):
-            print(__doc__)
-            return
-        raise peperite.Error("the following arguments are required: DIR")
-    os.environ["MPLBACKEND"] = "Agg"
-    scenes = [peperite.open(folder).scene for folder in folders]
-    kinds = {is_sandbox(scene) or module_for(scene) for scene in scenes}
-    if len(kinds) > 1:
-        raise peperite.Error("runs of different kinds: draw one after the other")
-    if is_sandbox(scenes[0]):
+    scenes = [run.scene for run in runs_in(words, __doc__)]
+    if scenes and all(map(is_sandbox, scenes)):
         os.execv(sys.executable, [sys.executable, "-B", str(here / "sandbox/plot.py"), *words])
-    show(module_for(scenes[0]), words)
+    if scenes:
+        show(module_for(*scenes), words)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,6 @@ if(PEPERITE_METIS)
   install(TARGETS metis_partition EXPORT Peperite FILE_SET HEADERS)
 endif()
 install(EXPORT Peperite NAMESPACE Peperite:: DESTINATION ${package_dir} FILE PeperiteTargets.cmake)
-set(PEPERITE_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Where the package of Python goes, below the prefix")
-install(DIRECTORY apps/python/peperite DESTINATION ${PEPERITE_PYTHON_DIR} FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 configure_package_config_file(cmake/PeperiteConfig.cmake.in PeperiteConfig.cmake
   INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(PeperiteConfigVersion.cmake COMPATIBILITY SameMinorVersion)

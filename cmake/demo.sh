@@ -31,9 +31,11 @@ mpirun -np 2 build/bin/sandbox apps/sandbox/sandbox.toml --until "$until_sand" -
 mpirun -np 2 build/bin/magma_chamber apps/magma_chamber/chamber.toml --until "$until_chamber" --out "$out/chamber"
 /usr/bin/python3 apps/magma_chamber/plot.py "$out/chamber"
 
+build/bin/peperite report "$out/cylinder" "$out/sandbox" "$out/chamber"
+
 for run in cylinder sandbox chamber; do
   echo
   echo "In $PWD/$out/$run:"
   ls -1 "$out/$run" | sed 's/^/  /'
 done
-echo "pictures and time series: *.png; numbers: series.csv, summary.txt; final report: perf.json; ParaView: *.xdmf"
+echo "a page of each run: report.html; pictures: *.png; numbers: series.csv, summary.txt, perf.json; ParaView: *.xdmf"

@@ -6,9 +6,9 @@ set -eu
 packages="g++ cmake ninja-build pkg-config git
   libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libeigen3-dev libmetis-dev libtomlplusplus-dev libcli11-dev
   libfmt-dev nlohmann-json3-dev libxxhash-dev libsleef-dev
-  python3 python3-h5py python3-matplotlib python3-numpy python3-pil"
+  python3 python3-h5py python3-jinja2 python3-matplotlib python3-numpy python3-pil libjs-dygraphs"
 if [ "${1-}" = tests ]; then
-  packages="$packages clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy"
+  packages="$packages clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy chromium"
 fi
 
 missing=

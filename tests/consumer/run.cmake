@@ -13,6 +13,8 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
+# Pictures by the installed program, which finds the package below its own prefix.
+run(${CMAKE_COMMAND} -E env PYTHONPATH= ${WORK}/prefix/bin/peperite report --help)
 foreach(scene fluid grains mixture)
   foreach(ranks 1 2)
     run(${MPIEXEC} -n ${ranks} ${WORK}/build/consumer ${SOURCE}/${scene}.toml)

@@ -132,6 +132,9 @@ class Plot(unittest.TestCase):
             "layer": [{"group": "light", "top": 7.0}, {"group": "heavy", "top": 5.0}]}}
         wanted = np.where(depth < 2, 1e4 * depth, 2e4 + 2e4 * (depth - 2))
         self.assertLess(np.abs(at_rest.pressure_at_rest(scene, places, 0) / np.maximum(wanted, 1) - 1)[1:].max(), 5e-5)
+        around = {**scene, "domain": {**domain, "background_density": 1500}}
+        wanted = np.where(depth < 2, -5e3 * depth, -1e4 + 5e3 * (depth - 2))
+        self.assertLess(np.abs(at_rest.pressure_at_rest(around, places, 0) - wanted).max(), 1)
         scene["start"] = {"layer": [{"group": "foam", "top": 7.0}]}
         p = at_rest.pressure_at_rest(scene, places, 0)
         slope = (p[2:] - p[:-2]) / (depth[2:] - depth[:-2])

@@ -2,15 +2,17 @@
 
 import importlib
 
+from ..errors import Error
 from .command import drawn
 
 
-def module_for(scene):
-    if any(group["kind"] == "melt" for group in scene["group"]):
-        name = "melts"
-    else:
-        name = "flat" if scene["dimension"] == 2 else "solid"
-    return importlib.import_module(f".{name}", __name__)
+def module_for(*scenes):
+    """The one that draws all of them."""
+    names = {"melts" if any(group["kind"] == "melt" for group in scene["group"]) else
+             "flat" if scene["dimension"] == 2 else "solid" for scene in scenes}
+    if len(names) > 1:
+        raise Error("runs of different kinds: draw one after the other")
+    return importlib.import_module(f".{names.pop()}", __name__)
 
 
 def draw_run(run, out=None, options=()):

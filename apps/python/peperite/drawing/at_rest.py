@@ -1,4 +1,5 @@
-"""Pressure of the scene's layers of fluid at rest: dp/dd = rho(p) g along the depth d, with each layer's equation of state."""
+"""Pressure of the scene's layers of fluid at rest: dp/dd = (rho(p) - background_density) g along the depth d, with each layer's
+equation of state."""
 
 import numpy as np
 
@@ -21,13 +22,12 @@ def density_of(group, surface_pressure):
     return bubbly if group.get("eos") == "bubbly" else liquid
 
 
-def layers_of(scene, surface):
-    """Groups and heights of their tops, from the surface downwards. A scene that names no layers has one, of its first
-    fluid, or of the first solid where there is none, up to `surface`."""
+def layers_of(scene, surface, filling):
+    """Groups and heights of their tops, from the surface downwards. A scene that names no layers has one, of the group of the
+    number `filling`, up to `surface`."""
     groups = {g["name"]: g for g in scene["group"]}
     named = [(groups[layer["group"]], layer["top"]) for layer in scene["start"].get("layer", [])]
-    matter = [g for kind in ("fluid", "solid") for g in scene["group"] if g["kind"] == kind]
-    return named or [(matter[0], surface)]
+    return named or [(scene["group"][filling], surface)]
 
 
 def height_of(scene, position):
@@ -37,21 +37,25 @@ def height_of(scene, position):
     return None if size == 0 else -position @ (gravity / size)
 
 
-def pressure_at_rest(scene, position, surface):
+def pressure_at_rest(scene, position, surface, filling=0):
     """Above the surface pressure [Pa], at each position; None where nothing can be at rest so: without gravity, or of
     ideal gases. Above the highest layer it goes on as a straight line."""
     height = height_of(scene, position)
-    layers = layers_of(scene, surface)
+    layers = layers_of(scene, surface, filling)
     if height is None or not len(height) or any("bulk_modulus" not in group for group, _ in layers):
         return None
     g = np.linalg.norm(scene["domain"]["gravity"])
-    atmosphere = scene["domain"].get("surface_pressure", 0)
-    top, first = layers[0][1], density_of(layers[0][0], atmosphere)
+    atmosphere, around = (scene["domain"].get(key, 0) for key in ("surface_pressure", "background_density"))
+
+    def weight(group):
+        density = density_of(group, atmosphere)
+        return lambda p: density(p) - around
+    top, first = layers[0][1], weight(layers[0][0])
     above = max(height.max() - top, 0) + 1
     heights, pressures = [np.array([top + above])], [np.array([-first(0) * g * above])]
     for k, (group, upper) in enumerate(layers):
         lower = layers[k + 1][1] if k + 1 < len(layers) else min(height.min(), upper)
-        down, pressure = integrate(density_of(group, atmosphere), g, max(pressures[-1][-1], 0), upper - lower)
+        down, pressure = integrate(weight(group), g, pressures[-1][-1] if k else 0.0, upper - lower)
         heights.append(upper - down)
         pressures.append(pressure)
     return np.interp(-height, -np.concatenate(heights), np.concatenate(pressures))

@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 
 from ..errors import Error
+from ..run import Run
 
 
 class Parser(argparse.ArgumentParser):
@@ -61,13 +62,28 @@ def drawn(module, words):
             yield out / name
 
 
+def runs_in(words, doc):
+    """The runs that a command line names, before it is known which options they have; none where it asks for help alone."""
+    folders = [word for k, word in enumerate(words) if not word.startswith("-") and not words[k - 1].startswith("--")]
+    if not folders and {"-h", "--help"} & set(words):
+        print(doc)
+    elif not folders:
+        raise Error("the following arguments are required: DIR")
+    return [Run(folder) for folder in folders]
+
+
 def show(module, words):
     """Draws for a program, which has no window."""
     os.environ["MPLBACKEND"] = "Agg"
     with warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_: print(f"plot.py: {message}", file=sys.stderr)
+        warnings.showwarning = lambda message, *_: print(f"{program()}: {message}", file=sys.stderr)
         for path in drawn(module, words):
             print(path)
+
+
+def program():
+    name = Path(sys.argv[0]).name
+    return "peperite" if name == "__main__.py" else name
 
 
 def refusing(work):
@@ -75,6 +91,6 @@ def refusing(work):
     try:
         work()
     except (Error, OSError) as error:
-        print(f"plot.py: {error}", file=sys.stderr)
+        print(f"{program()}: {error}", file=sys.stderr)
         return 2
     return 0

@@ -1,7 +1,7 @@
 """Draws runs of two-dimensional scenes: particles with velocities, principal stresses, pressure, time series.
 
-    plot.py DIR [DIR ...] [--out DIR] [--time T] [--dynamic] [--average time|space]
-                          [--draw particles,pressure,strip,series]
+    plot DIR [DIR ...] [--out DIR] [--time T] [--dynamic] [--average time|space]
+                       [--draw particles,pressure,strip,series]
 
 DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Writes into the first DIR, or into --out,
 and prints the path of each picture. With several runs their names go before the pictures'; the time series

@@ -73,8 +73,9 @@ class Run(AnyRun):
         height = height_of(self.scene, self.first["position"])
         if height is None:
             return None
-        surface = height[~self.first.where(kind="wall")].max() + self.spacing / 2
-        return pressure_at_rest(self.scene, snapshot["position"], surface)
+        matter = ~self.first.where(kind="wall")
+        surface, filling = height[matter].max() + self.spacing / 2, np.bincount(self.first["group"][matter]).argmax()
+        return pressure_at_rest(self.scene, snapshot["position"], surface, filling)
 
     def heading(self, snapshot):
         return f"{self.title}, t = {time_text(snapshot.time)}{snapshot.remark}"

@@ -1,6 +1,6 @@
 """Draws runs with melts: their cells in a vertical plane, grains where they cross it, and time series.
 
-    plot.py DIR [DIR ...] [--out DIR] [--time T] [--draw plane,series]
+    plot DIR [DIR ...] [--out DIR] [--time T] [--draw plane,series]
 
 The columns of the picture of the plane are times, the start and the end among them (--time: the snapshot nearest to T
 seconds alone), its rows the temperature with isotherms and the share of the second melt with the interface, as far as the

@@ -1,6 +1,6 @@
 """Draws runs in three dimensions: fluids and solids in a slice through their middle, grains from the side.
 
-    plot.py DIR [DIR ...] [--out DIR] [--time T] [--draw slice|side]
+    plot DIR [DIR ...] [--out DIR] [--time T] [--draw slice|side]
 
 Rows of the picture are times, the start and the end among them (--time: the snapshot nearest to T seconds alone).
 Columns are the speed and, of fluids and solids, the pressure, of grains their displacement since the first snapshot, of

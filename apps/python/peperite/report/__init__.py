@@ -1,0 +1,158 @@
+"""One page of a run: report.html in its folder, which needs no network and nothing beside it.
+
+    python3 -m peperite.report DIR [DIR ...]
+"""
+
+import base64
+import re
+import tomllib
+import warnings
+from pathlib import Path
+
+import jinja2
+import numpy as np
+from markupsafe import Markup
+
+from ..drawing import draw_run
+from ..errors import Error
+from ..run import Run
+
+HERE = Path(__file__).resolve().parent
+CHARTS = (Path("/usr/share/javascript/dygraphs"), HERE / "dygraphs")  # of Debian's libjs-dygraphs
+MOST_POINTS = 2000  # of a curve; of longer ones the extremes between
+
+
+def data_uri(path):
+    return "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode()
+
+
+def groups_of(names):
+    """Columns that share a chart: energies; components along x, y, z; what a budget has and what of it came in."""
+    charts = {}
+    for name in names:
+        monitor, _, quantity = name.partition("_")
+        first = quantity.split("_")[0]
+        stem = re.sub(r"(?<=^.)[xyz]$", "", first) if len(first) == 2 else first
+        one = stem in "xyz" and len(stem) == 1
+        charts.setdefault((monitor, "position" if one else stem), []).append(name)
+    return charts
+
+
+def monitors_of(scene, series):
+    """Columns by monitor, whose names may hold underscores themselves; what no monitor has by its first word."""
+    names = sorted((m["name"] for m in scene.get("monitor", []) if "name" in m), key=len, reverse=True)
+    found = {}
+    for column in series:
+        if column in ("step", "t"):
+            continue
+        monitor = next((name for name in names if column.startswith(name + "_")), column.partition("_")[0])
+        found.setdefault(monitor, []).append(column)
+    return found
+
+
+def charts_of(scene, series):
+    """(monitor, title, columns) of each chart."""
+    kinds = {m.get("name"): m["kind"] for m in scene.get("monitor", [])}
+    for monitor, columns in monitors_of(scene, series).items():
+        if kinds.get(monitor) in ("energy", "momentum"):
+            yield monitor, monitor, columns
+            continue
+        short = {column: column[len(monitor) + 1:] for column in columns}
+        for (_, stem), chosen in groups_of([f"m_{short[column]}" for column in columns]).items():
+            yield monitor, f"{monitor}: {stem}", [f"{monitor}_{name[2:]}" for name in chosen]
+
+
+def thinned(time, columns):
+    """Rows that show every extreme of every column, at most MOST_POINTS or so of each."""
+    n = len(time)
+    if n <= MOST_POINTS:
+        return np.arange(n)
+    edges = np.linspace(0, n, MOST_POINTS // 2 + 1).astype(int)
+    rows = {0, n - 1}
+    for values in columns:
+        finite = np.where(np.isfinite(values), values, np.nanmean(np.where(np.isfinite(values), values, np.nan)))
+        for low, high in zip(edges, edges[1:]):
+            part = finite[low:high]
+            rows |= {low + int(np.argmin(part)), low + int(np.argmax(part))}
+    return np.array(sorted(rows))
+
+
+def curves_of(run):
+    """What report.js draws: title, labels and rows of each chart."""
+    try:
+        series = run.series
+    except Error:
+        return []
+    charts = []
+    for monitor, title, columns in charts_of(run.scene, series):
+        values = [series[name] for name in columns]
+        if not any(np.isfinite(v).any() for v in values):
+            continue
+        rows = thinned(series["t"], values)
+        table = np.array([series["t"][rows], *(v[rows] for v in values)]).T
+        charts.append({"title": title, "labels": ["t", *(name[len(monitor) + 1:] for name in columns)],
+                       "rows": [[x if np.isfinite(x) else None for x in row] for row in table.tolist()]})
+    return charts
+
+
+def chart_code():
+    """The library that draws the curves, and what couples their zoom; or None where it is not installed."""
+    for folder in CHARTS:
+        files = [folder / name for name in ("dygraph.min.js", "src-es5/extras/synchronizer.js", "dygraph.min.css")]
+        if all(path.is_file() for path in files):
+            code, couple, style = (path.read_text() for path in files)
+            return {"script": Markup(code + "\n" + couple), "style": Markup(re.sub(r"/\*#.*?\*/", "", style))}
+    return None
+
+
+def timings_of(perf):
+    """Phase, seconds of a rank on average and at most, share; longest first."""
+    seconds = perf.get("seconds", {})
+    whole = sum(phase["mean"] for phase in seconds.values()) or 1.0
+    rows = [{"name": name, "mean": phase["mean"], "max": phase["max"], "share": phase["mean"] / whole,
+             "computation": phase["computation"]} for name, phase in seconds.items() if phase["max"] > 0]
+    return sorted(rows, key=lambda row: -row["mean"])
+
+
+def facts_of(run):
+    """Label and text of what a run was; without its end what is known."""
+    perf, last = run.perf, run[-1] if run.files else None
+    if perf is None:
+        return [("state", "not finished"), ("last snapshot", f"{last.time:g} s, step {last.step}" if last else "none")]
+    end, build = perf["end"], perf["build"]
+    return [("fingerprint", perf["fingerprint"]), ("end", f"{end['time']:g} s, step {end['step']}"),
+            ("particles", f"{perf['particles']:,}".replace(",", " ")), ("ranks", perf["ranks"]),
+            ("precision, formulation", f"{perf['precision']}, {perf['formulation']}"),
+            ("elapsed", f"{perf['wall_seconds']:.1f} s, of it {perf['setup_seconds']:.1f} s before the first step"),
+            ("particle steps", f"{perf['particle_steps_per_second']:.3g} a second"),
+            ("imbalance", f"{perf['imbalance']:.3f} (largest over mean of the ranks)"),
+            ("lists", f"{perf['rebuilds']} times, {perf['neighbours_per_particle']:.1f} neighbours a particle"),
+            ("balance", f"{perf['balance']['moves']} moves of the cuts, {perf['migrated']} particles migrated"),
+            ("memory", f"{perf['peak_rank_bytes'] / 2**20:.0f} MiB a rank at most"),
+            ("program", f"peperite {build['version']} {build['git']}, {build['compiler']}, {build['flags'].strip()}, {build['mpi']}")]
+
+
+def pictures_of(run, work):
+    if not run.files:
+        return []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what it has no picture of, it has none of
+        return [{"name": path.stem, "uri": data_uri(path)} for path in draw_run(run, work)]
+
+
+def write(folder, out=None):
+    """Writes the report of the run in `folder` to `out` (default: report.html in it); the path."""
+    import tempfile
+    run = Run(folder)
+    path = Path(out) if out else run.folder / "report.html"
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined)
+    scene = run.folder / "scene.toml"
+    library = chart_code()
+    with tempfile.TemporaryDirectory() as work:
+        page = environment.get_template("page.html").render(
+            title=run.title, folder=run.folder.resolve().name, facts=facts_of(run), pictures=pictures_of(run, work),
+            curves=curves_of(run), library=library,
+            timings=timings_of(run.perf or {}), scene=scene.read_text() if scene.is_file() else "",
+            style=Markup((HERE / "page.css").read_text()), script=Markup((HERE / "page.js").read_text()))
+    path.write_text(page)
+    return path
