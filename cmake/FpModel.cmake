@@ -15,6 +15,7 @@ target_compile_features(peperite_fp INTERFACE cxx_std_20)
 add_library(peperite_build INTERFACE)
 target_link_libraries(peperite_build INTERFACE peperite_fp)
 target_compile_options(peperite_build INTERFACE
+  -fno-semantic-interposition  # functions that a shared object exports are inlined in it as in a program
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow -Werror
   # g++ 12 finds its own AVX-512 headers and fmt's at fault; clang keeps these warnings.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized;-Wno-stringop-overflow>)

@@ -1,14 +1,18 @@
 #!/bin/sh
 # Installs the Debian packages that are missing: `packages.sh` for building and running, `packages.sh tests`
-# for the tests too. On a system without apt-get it names them and goes on.
+# for the tests too, `packages.sh docs` for the site of the documents alone. On a system without apt-get it names them and goes on.
 set -eu
 
 packages="g++ cmake ninja-build pkg-config git
   libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libeigen3-dev libmetis-dev libtomlplusplus-dev libcli11-dev
   libfmt-dev nlohmann-json3-dev libxxhash-dev libsleef-dev
-  python3 python3-h5py python3-jinja2 python3-matplotlib python3-numpy python3-pil libjs-dygraphs"
+  python3 python3-h5py python3-jinja2 python3-matplotlib python3-numpy python3-pil libjs-dygraphs
+  python3-dev python3-mpi4py pybind11-dev"
+documents="python3-sphinx python3-myst-parser furo doxygen"
 if [ "${1-}" = tests ]; then
-  packages="$packages clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy chromium"
+  packages="$packages $documents clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy chromium"
+elif [ "${1-}" = docs ]; then
+  packages="python3 python3-h5py python3-jinja2 python3-matplotlib $documents"
 fi
 
 missing=

@@ -3,7 +3,7 @@
 # (cmake/manifest.py; the test `pictures` compares). The tree must be committed.
 #
 #     sh cmake/pictures.sh            galleries and rising bubbles: three quarters of an hour of two cores
-#     sh cmake/pictures.sh all        also the bulk behaviour of grains and the partitions: some hours
+#     sh cmake/pictures.sh all        also dykes in gelatine, the bulk behaviour of grains and the partitions: some hours
 #
 # Runs are kept in out/pictures/COMMIT: what has come to its end there is only drawn.
 set -eu
@@ -30,6 +30,7 @@ sh apps/volcano/gallery.sh build/bin "$runs"
 /usr/bin/python3 -B benchmarks/accuracy/accuracy.py build --cases heat_decay heat_layers barenblatt water_decay \
   --work "$runs/accuracy" --out "$runs/accuracy" --chart benchmarks/accuracy/exchanges.png
 if [ "$which" = all ]; then
+  sh apps/dyke/gallery.sh build/bin "$runs"
   /usr/bin/python3 -B benchmarks/bulk/bulk.py build --work "$runs/bulk"
   /usr/bin/python3 -B benchmarks/partitions.py build --work "$runs/partitions"
 fi

@@ -18,6 +18,7 @@ HIDDEN = {
     r"xxhash\.h": r"libsph/src/(core/fingerprint|files/content_hash|run/self_check)\.cpp",
     r"CLI/.*": r"(libsph/src|apps|benchmarks)/.*\.cpp",
     r"fmt/.*": r"(libsph/src|apps|benchmarks)/.*\.cpp",
+    r"pybind11/.*": r"apps/python/.*\.cpp",
     r"mpi\.h": r"libdecomp/.*|libsph/src/.*|apps/.*|benchmarks/.*",
     r"immintrin\.h": r"libsph/include/sph/core/simd\.hpp|benchmarks/.*",
     r"Eigen/.*": r"libsph/.*|apps/.*|benchmarks/.*|tests/accuracy/.*",

@@ -3,3 +3,15 @@
 
 class Error(Exception):
     """What is wrong with a file, a folder or an argument."""
+
+
+class InputError(Error):
+    """Of a scene: file, line, key, what is wrong, what would be right."""
+
+
+class GuardError(Error):
+    """The physics went wrong: particle, field, place, step."""
+
+
+class OutputError(Error):
+    """A file cannot be written."""

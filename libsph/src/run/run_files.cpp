@@ -33,12 +33,6 @@ void on_root(const decomp::Comm& comm, const std::string& what, Work&& work) {
   });
 }
 
-std::vector<std::string> group_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Group& g : scene.groups) names.push_back(g.name);
-  return names;
-}
-
 }  // namespace
 
 std::string to_json(const RunMemory& memory) {
@@ -131,10 +125,6 @@ void RunFiles::write_scene(const Simulation& s) const {
   write_atomically(dir_ / "scene.toml", to_toml(s.scene()));
 }
 
-Provenance RunFiles::provenance(const Simulation& s) const {
-  return {to_toml(s.scene()), s.fingerprint(), group_names(s.scene())};
-}
-
 void RunFiles::add_series_row(Simulation& s) {
   const std::vector<double> values = monitors_.values(s);
   if (s.comm().rank() != 0 || failed()) return;
@@ -153,18 +143,11 @@ void RunFiles::add_snapshot(Simulation& s, bool scheduled) {
   on_root(s.comm(), "cannot write " + (dir_ / entry.file).string(), [&] {
     if (fs::exists(dir_ / entry.file)) throw OutputError("somebody else has put a file there");
   });
-  const OutputControl& output = s.scene().output;
-  // In this order, since each needs memory: the fingerprint frees its own before the columns are there.
-  const Provenance from = provenance(s);
-  std::vector<ExtraColumn> extra = extra_columns(s);
-  std::optional<ContactColumns> contacts;
-  if (output.contacts) contacts = contact_columns(s);
-  const std::optional<CellMesh> mesh = cell_mesh(s);
-  write_snapshot(s.comm(), dir_ / entry.file, s.particles(), g, s.scale(), s.wrap(), from, std::move(extra),
-                 output.sort_limit, std::move(contacts), mesh);
+  write_snapshot(s, dir_ / entry.file);
   std::vector<SnapshotEntry> listed = snapshots_;
   listed.push_back(entry);
   if (scheduled) snapshots_ = listed;
+  const std::optional<CellMesh> mesh = cell_mesh(s);
   on_root(s.comm(), "particles.xdmf", [&] {
     write_xdmf(dir_ / "particles.xdmf", listed, s.particles(), extra_columns(s.scene()), mesh);
   });
@@ -175,7 +158,7 @@ void RunFiles::write_checkpoint(const Simulation& s) {
   on_root(s.comm(), "series.csv", [&] { sync_to_disk(dir_ / "series.csv"); });
   const RunRecord record{s.global(), s.scale(), to_toml(s.scene()),
                          to_json({monitors_.ids(), series_bytes_, series_hash_, snapshots_})};
-  const Provenance from = provenance(s);  // before the contacts: it packs them too
+  const Provenance from = provenance(s, s.fingerprint());  // before the contacts: it packs them too
   const decomp::Payload contacts = s.contacts();
   sph::write_checkpoint(s.comm(), dir_, s.particles(), s.has_history() ? &contacts : nullptr, record,
                         s.wrap(), from, s.scene().output.checkpoint_files);
@@ -190,7 +173,7 @@ fs::path RunFiles::keep_crashed_state(const Simulation& s, bool together) const 
   fs::create_directories(crash, ignored);
   // The fingerprint of a state that broke a rule means nothing, and computing it may need ranks that are
   // gone.
-  const Provenance from{to_toml(s.scene()), "", group_names(s.scene())};
+  const Provenance from = provenance(s, "");
   const decomp::Comm alone(MPI_COMM_SELF);
   write_snapshot(together ? s.comm() : alone, file, s.particles(), s.global(), s.scale(), s.wrap(), from, {},
                  s.scene().output.sort_limit);

@@ -53,7 +53,6 @@ class RunFiles {
   [[nodiscard]] const std::vector<SnapshotEntry>& snapshots() const { return snapshots_; }
 
  private:
-  [[nodiscard]] Provenance provenance(const Simulation& simulation) const;
   void write_scene(const Simulation& simulation) const;
   void look_at_series();
 

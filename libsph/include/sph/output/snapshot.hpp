@@ -21,6 +21,12 @@
 
 namespace sph {
 
+class Simulation;
+class State;
+
+/// What a file says about the state in it.
+[[nodiscard]] Provenance provenance(const State& state, std::string fingerprint);
+
 /// A column that only snapshots have (time averages, space averages): owned rows, in row order.
 struct ExtraColumn {
   std::string name, unit;
@@ -44,6 +50,8 @@ void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
                     const Provenance& provenance, std::vector<ExtraColumn> extra, std::int64_t sort_limit,
                     std::optional<ContactColumns> contacts = {}, const std::optional<CellMesh>& mesh = {});
+/// The same, with all that the scene asks for in its snapshots. May refresh halo copies and move rows.
+void write_snapshot(Simulation& simulation, const std::filesystem::path& path);
 
 /// Rewrites the XDMF index for the snapshots of a run, atomically (rank 0 only): one entry per file name,
 /// time and row count. `fields` and `mesh` as in the files.

@@ -1,0 +1,13 @@
+#!/bin/sh
+# Runs a dyke that stays and one that rises, and draws both in gallery/: three quarters of an hour on two cores. Runs that have
+# already come to their end in RUNS are only drawn.
+#
+#     sh apps/dyke/gallery.sh [PROGRAMS] [RUNS]     default: build/bin out/gallery
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+programs=${1:-build/bin}
+runs=${2:-out/gallery}
+
+mkdir -p "$here/gallery"
+/usr/bin/python3 -B "$here/rise.py" "$runs/rise" --programs "$programs" --out "$here/gallery"
+/usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here/gallery/rise.png" --runs "$runs/rise"/* --scenes "$here/stall.toml"

@@ -1,0 +1,138 @@
+// The module behind peperite.Simulation (peperite/simulation.py says what it offers): a scene that Python steps. Python's
+// mpi4py owns MPI.
+#include "sph/step/simulation.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "sph/core/error.hpp"
+#include "sph/output/monitors.hpp"
+#include "sph/output/snapshot.hpp"
+#include "sph/run/self_check.hpp"
+#include "sph/scene/scene.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+class Running {
+ public:
+  /// `communicator`: the address of an MPI_Comm, as mpi4py gives it.
+  Running(const sph::Scene& scene, std::uintptr_t communicator)
+      : comm_(*reinterpret_cast<const MPI_Comm*>(communicator)),  // NOLINT: that is how mpi4py hands it on
+        simulation_(comm_, scene),
+        monitors_(simulation_) {}
+
+  void step(std::int64_t steps) {
+    for (std::int64_t k = 0; k < steps; ++k) simulation_.step();
+  }
+  [[nodiscard]] const sph::GlobalState& global() const { return simulation_.global(); }
+  [[nodiscard]] std::string scene() const { return to_toml(simulation_.scene()); }
+  [[nodiscard]] std::string fingerprint() const { return simulation_.fingerprint(); }
+  void save(const std::string& path) { write_snapshot(simulation_, path); }
+
+  [[nodiscard]] std::vector<double> monitors() { return monitors_.values(simulation_); }
+  [[nodiscard]] const std::vector<std::string>& monitor_names() const { return monitors_.names(); }
+
+  [[nodiscard]] std::vector<std::string_view> fields() const {
+    std::vector<std::string_view> names;
+    for (const sph::Field f : simulation_.particles().fields().list()) names.push_back(sph::info(f).name);
+    return names;
+  }
+
+  /// A copy of the owned rows: the next step may move them.
+  [[nodiscard]] py::array field(const std::string& name) const {
+    const sph::Particles& p = simulation_.particles();
+    for (const sph::Field f : p.fields().list()) {
+      if (sph::info(f).name != name) continue;
+      if (f == sph::Field::position) return metres(p);
+      switch (sph::info(f).type) {
+        case sph::Type::f64:
+          return rows<double>(p, f);
+        case sph::Type::i64:
+          return rows<std::int64_t>(p, f);
+        case sph::Type::u64:
+          return rows<std::uint64_t>(p, f);
+        case sph::Type::u32:
+          return rows<std::uint32_t>(p, f);
+      }
+    }
+    throw sph::InputError("no field \"" + name + "\" in this scene");
+  }
+
+ private:
+  static std::vector<py::ssize_t> shape(const sph::Particles& p, sph::Field f) {
+    std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(p.owned())};
+    if (sph::info(f).shape != sph::Shape::scalar) shape.push_back(components(sph::info(f).shape, p.dim()));
+    return shape;
+  }
+
+  template <class T>
+  static py::array rows(const sph::Particles& p, sph::Field f) {
+    py::array_t<T> out(shape(p, f), p.table().as<T>(p.column(f)));
+    constexpr std::size_t six = 6;  // in the order of snapshots: xx yy zz xy yz xz
+    if (sph::info(f).shape == sph::Shape::symmetric && p.dim() == 3)
+      for (T* row = out.mutable_data(); row != out.data() + six * p.owned(); row += six)
+        std::swap(row[4], row[5]);
+    return out;
+  }
+
+  /// Within the periods.
+  [[nodiscard]] py::array metres(const sph::Particles& p) const {
+    py::array_t<double> out(shape(p, sph::Field::position));
+    double* to = out.mutable_data();
+    const std::int64_t* from = p.data<sph::Field::position>();
+    const auto d = static_cast<std::size_t>(p.dim());
+    for (std::size_t k = 0; k < p.owned() * d; ++k)
+      to[k] = simulation_.scale().metres(simulation_.wrap()(static_cast<int>(k % d), from[k]));
+    return out;
+  }
+
+  decomp::Comm comm_;
+  sph::Simulation simulation_;
+  sph::Monitors monitors_;
+};
+
+/// Errors of the library as those of the package, one line each.
+void translate(std::exception_ptr thrown) {
+  const auto raise = [](const char* name, const std::exception& error) {
+    PyErr_SetString(py::module_::import("peperite.errors").attr(name).ptr(), error.what());
+  };
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const sph::InputError& error) {
+    raise("InputError", error);
+  } catch (const sph::GuardError& error) {
+    raise("GuardError", error);
+  } catch (const sph::OutputError& error) {
+    raise("OutputError", error);
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(peperite_simulation, m) {
+  sph::self_check();
+  py::register_exception_translator(&translate);
+  using Released = py::call_guard<py::gil_scoped_release>;
+  py::class_<sph::Scene>(m, "Scene");
+  m.def("read_scene", [](const std::string& path, const std::vector<std::string>& set) {
+    return sph::read_scene(path, set);
+  });
+  m.def("parse_scene", [](const std::string& text, const std::string& name,
+                          const std::vector<std::string>& set) { return sph::parse_scene(text, name, set); });
+  py::class_<Running>(m, "Simulation")
+      .def(py::init<const sph::Scene&, std::uintptr_t>(), Released())
+      .def("step", &Running::step, Released())
+      .def("save", &Running::save, Released())
+      .def("fingerprint", &Running::fingerprint, Released())
+      .def("monitors", &Running::monitors, Released())
+      .def("monitor_names", &Running::monitor_names)
+      .def("fields", &Running::fields)
+      .def("field", &Running::field)
+      .def_property_readonly("scene", &Running::scene)
+      .def_property_readonly("time", [](const Running& r) { return r.global().time; })
+      .def_property_readonly("steps", [](const Running& r) { return r.global().step; })
+      .def_property_readonly("dt", [](const Running& r) { return r.global().dt; });
+}

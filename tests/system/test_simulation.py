@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+"""peperite.Simulation: a scene stepped from Python has the bits that it has from the command line, on 1, 2 and 3 ranks.
+
+    test_simulation.py --programs build/bin --module build/python --source .
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import textwrap
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from runner import Runner
+
+SCENES = ("tests/scenes/open2d.toml", "tests/scenes/grains_in_melt.toml", "tests/scenes/bodies3d.toml", "tests/scenes/chamber.toml")
+STEPS = 30
+# One launch for all scenes: what a scene is in the end, as a line of JSON.
+SCRIPT = """
+import json, sys
+import numpy as np
+import peperite
+from mpi4py import MPI
+for scene in sys.argv[2:]:
+    s = peperite.Simulation(scene, set={"output.snapshot_interval": 0, "output.series_interval": 0})
+    seen = []
+    s.run(steps=%d, each=lambda s: seen.append(s.steps))
+    assert seen == list(range(1, %d + 1)), seen
+    name = scene.rsplit("/", 1)[-1][:-5]
+    s.save(f"{sys.argv[1]}/{name}_{s.comm.size}.h5")
+    particles = {name: s.gather(name) for name in ("id", "position", "velocity", *(["stress"] if "stress" in s.fields else []))}
+    last = {"name": name, "fingerprint": s.fingerprint(), "step": s.steps, "time": s.time, "monitors": s.monitors()}
+    if s.rank == 0:
+        np.savez(f"{sys.argv[1]}/{name}_{s.comm.size}", **particles)
+        print(json.dumps(last), flush=True)
+""" % (STEPS, STEPS)
+
+
+class Simulation(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
+        cls.folder = cls.run_of.folder
+        cls.source = Path(given.source).resolve()
+        paths = [str(cls.source / "apps/python"), str(Path(given.module).resolve())]
+        sys.path[:0] = paths
+        cls.run_of.environment["PYTHONPATH"] = os.pathsep.join(paths)
+        os.environ["PYTHONPATH"] = cls.run_of.environment["PYTHONPATH"]
+        (cls.folder / "script.py").write_text(SCRIPT)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.run_of.close()
+
+    def python(self, ranks, *words, code=0):
+        launch = [given.mpirun, "-n", ranks, "/usr/bin/python3", "-B", "-m", "mpi4py"] if ranks > 1 else ["/usr/bin/python3", "-B"]
+        done = self.run_of.finish(self.run_of.start_command([*launch, *words]))
+        self.assertEqual(done.code, code, done.err[-3000:])
+        return done
+
+    def test_the_bits_are_those_of_the_command_line(self):
+        import peperite
+        scenes = [self.source / scene for scene in SCENES]
+        lines = {}
+        for ranks in (1, 2, 3):
+            for line in self.python(ranks, "script.py", self.folder, *scenes).out.splitlines():
+                last = json.loads(line)
+                lines.setdefault(last["name"], []).append(last)
+        for scene in scenes:
+            run = self.run_of.run(2, "peperite", "run", scene, "--steps", STEPS, "--out", scene.stem, "--set",
+                                  "output.snapshot_interval=0", "--set", "output.series_interval=0")
+            self.assertEqual(len(lines[scene.stem]), 3)
+            recorded = peperite.open(self.folder / scene.stem)
+            for ranks, last in enumerate(lines[scene.stem], 1):
+                self.assertEqual(run.fingerprint.split()[1], last["fingerprint"], f"{scene.stem} on {ranks} ranks")
+                self.assertEqual((last["step"], last["time"]), (STEPS, recorded[-1].time))
+                self.assertEqual({name: recorded.series[name][-1] for name in last["monitors"]}, last["monitors"])
+                saved = self.folder / f"{scene.stem}_{ranks}.h5"
+                self.run_of.run(1, "peperite", "diff", saved, recorded.files[-1])
+                there = recorded[-1]
+                with np.load(saved.with_suffix(".npz")) as gathered:
+                    for name in gathered.files:
+                        self.assertTrue(np.array_equal(gathered[name], there[name]), f"{name} of {scene.stem} on {ranks} ranks")
+
+    def test_a_dictionary_is_a_scene(self):
+        import tomllib
+        import peperite
+        path = self.source / "tests/scenes/box3d_fluid.toml"
+        scene = tomllib.loads(path.read_text())
+        a, b = peperite.Simulation(path), peperite.Simulation(scene)
+        for s in (a, b):
+            s.step(3)
+        self.assertEqual(a.fingerprint(), b.fingerprint())
+        scene["start"]["spacing"] = np.float64(scene["start"]["spacing"])
+        scene["domain"]["lower"] = np.array(scene["domain"]["lower"], dtype=float)
+        c = peperite.Simulation(scene, set=["time.steps=2"])
+        c.run()
+        self.assertEqual(c.steps, 2)
+        self.assertEqual(c.field("velocity").shape, (len(c.field("id")), 3))
+        self.assertEqual(c.field("mass").ndim, 1)
+
+    def test_arrays_are_copies(self):
+        import peperite
+        s = peperite.Simulation(self.source / "tests/scenes/box3d_fluid.toml")
+        before = s.fingerprint()
+        s.field("velocity")[:] = 1e9
+        self.assertEqual(s.fingerprint(), before)
+        kept = s.field("position")
+        again = kept.copy()
+        s.step(5)
+        self.assertTrue(np.array_equal(kept, again))
+
+    def test_what_is_wrong_is_an_exception(self):
+        import peperite
+        path = self.source / "tests/scenes/box3d_fluid.toml"
+        for says, scene, settings in (("time.cfl", path, {"time.cfl": -1}), ("nowhere.toml", "nowhere.toml", {}),
+                                      ("kernell", {"dimension": 2, "kernell": {}}, {}), ("complex", {"dimension": 2j}, {})):
+            with self.assertRaises(peperite.InputError) as caught:
+                peperite.Simulation(scene, set=settings)
+            self.assertIn(says, str(caught.exception))
+            self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        s = peperite.Simulation(path)
+        with self.assertRaises(peperite.InputError):
+            s.field("void")
+        with self.assertRaises(peperite.OutputError) as caught:
+            s.save(self.folder / "nowhere/snapshot.h5")
+        fast = peperite.Simulation(path, set={"start.velocity": [0, 0, 60]})
+        with self.assertRaises(peperite.GuardError) as caught:
+            fast.step(2000)
+        self.assertIn("step", str(caught.exception))
+
+    def test_an_exception_on_one_rank_ends_all(self):
+        (self.folder / "alone.py").write_text(textwrap.dedent("""
+            import sys, peperite
+            s = peperite.Simulation(sys.argv[1])
+            if s.rank == 1:
+                s.field("void")
+            s.step(1000000)
+        """))
+        done = self.run_of.finish(self.run_of.start_command([given.mpirun, "-n", 2, "/usr/bin/python3", "-B", "-m", "mpi4py", "alone.py",
+                                                             self.source / "tests/scenes/box3d_fluid.toml"]), timeout=60)
+        self.assertNotEqual(done.code, 0)
+        self.assertIn("no field \"void\"", done.err)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--programs", required=True)
+    parser.add_argument("--module", required=True)
+    parser.add_argument("--source", required=True)
+    parser.add_argument("--mpirun", default="mpirun")
+    given, names = parser.parse_known_args()
+    unittest.main(argv=sys.argv[:1] + names)
