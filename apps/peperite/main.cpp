@@ -1,4 +1,4 @@
-// peperite: runs, checks, resumes, describes and compares; draws and reports by the package of Python.
+// peperite: runs, checks, resumes, describes and compares; draws, reports and sweeps by the package of Python.
 #include <unistd.h>
 
 #include <array>
@@ -31,6 +31,8 @@ int become(const char* module, int argc, char** argv) {
   const char* theirs = std::getenv("PYTHONPATH");
   const std::string path = package_folder() + (theirs != nullptr ? std::string(":") + theirs : "");
   setenv("PYTHONPATH", path.c_str(), 1);
+  std::error_code none;
+  setenv("PEPERITE_PROGRAM", fs::read_symlink("/proc/self/exe", none).c_str(), 1);
   const char* chosen = std::getenv("PEPERITE_PYTHON");
   const char* python = chosen != nullptr                       ? chosen
                        : access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3"
@@ -46,7 +48,8 @@ int become(const char* module, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr std::array modules{std::pair{"plot", "peperite.drawing"}, std::pair{"report", "peperite.report"}};
+  constexpr std::array modules{std::pair{"plot", "peperite.drawing"}, std::pair{"report", "peperite.report"},
+                               std::pair{"sweep", "peperite.sweep"}};
   for (const auto& [name, module] : modules)
     if (argc > 1 && std::string_view(argv[1]) == name) return become(module, argc, argv);
   return sph::tool_main(argc, argv);

@@ -15,6 +15,15 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/p
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 # Pictures by the installed program, which finds the package below its own prefix.
 run(${CMAKE_COMMAND} -E env PYTHONPATH= ${WORK}/prefix/bin/peperite report --help)
+# The package of Debian holds the same.
+run(cpack --config ${BUILD}/CPackConfig.cmake -B ${WORK}/package)
+file(GLOB package ${WORK}/package/peperite_*.deb)
+run(dpkg-deb --extract ${package} ${WORK}/extracted)
+run(dpkg-deb --field ${package} Depends)
+if(NOT out MATCHES "libfmt9.*openmpi|openmpi.*libfmt9")
+  message(FATAL_ERROR "the package depends on: ${out}")
+endif()
+run(${WORK}/extracted/usr/bin/peperite check ${WORK}/extracted/usr/share/peperite/volcano/conduit.toml)
 foreach(scene fluid grains mixture)
   foreach(ranks 1 2)
     run(${MPIEXEC} -n ${ranks} ${WORK}/build/consumer ${SOURCE}/${scene}.toml)
