@@ -41,8 +41,8 @@ def opening(snapshot):
     then = x - moved
     near = (abs(then[:, 0]) > SPACING) & (abs(then[:, 0]) < 4 * SPACING) & (then[:, 1] > 0.01)
     rows = np.round(then[near, 1] / SPACING).astype(int)
-    heights = np.unique(rows)
     side = then[near, 0] > 0
+    heights = np.intersect1d(rows[side], rows[~side])  # what has failed is melt
     apart = [moved[near, 0][(rows == row) & side].mean() - moved[near, 0][(rows == row) & ~side].mean() for row in heights]
     return heights * SPACING, np.array(apart)
 
