@@ -159,6 +159,47 @@ class Package(unittest.TestCase):
         path.write_bytes(path.read_bytes()[:1000])
         self.refused(path.name, lambda: self.peperite.open(broken))
 
+    def test_damaged_files_are_refused_where_they_are_read(self):
+        def put(name, values):
+            def damage(file):
+                del file["particles"][name]
+                if values is not None:
+                    file["particles"][name] = values
+            return damage
+
+        def scene(value):
+            return lambda file: file.attrs.__setitem__("scene", value)
+        count = len(self.open("fluid")[-1])
+        for says, damage in (("not a snapshot", scene(5)), ("not a snapshot: no 'group'", scene("a = 1")), ("not a snapshot", scene("a = ")),
+                             ("group: the scene has", put("group", np.full(count, 7, dtype=np.uint32))),
+                             ("velocity is not a row", put("velocity", np.zeros(count))),
+                             ("pressure is not a row", put("pressure", np.zeros(count - 5))),
+                             ("pressure is not a row", put("pressure", np.array([b"x"] * count))),
+                             ("id is not", put("id", np.zeros(count))), ("no field \"mass\"", put("mass", None))):
+            broken = self.folder / "damaged"
+            shutil.copytree(self.folder / "fluid", broken, dirs_exist_ok=True)
+            for path in broken.glob("snapshot_*.h5"):
+                with h5py.File(path, "r+") as file:
+                    damage(file)
+            self.refused(says, lambda: self.peperite.open(broken).plot())
+        self.refused("not a snapshot", lambda: self.peperite.open(self.with_directory()))
+
+    def with_directory(self):
+        odd = self.folder / "odd"
+        (odd / "snapshot_000000001.h5").mkdir(parents=True)
+        return odd
+
+    def test_titles_are_no_formulas(self):
+        path = self.folder / "dollars"
+        shutil.copytree(self.folder / "fluid", path)
+        for snapshot in path.glob("snapshot_*.h5"):
+            with h5py.File(snapshot, "r+") as file:
+                text = file.attrs["scene"]
+                file.attrs["scene"] = "title = 'costs $\\frac{$ and _more_'\n" + text[text.index("\n", text.index("title")):]
+        run = self.peperite.open(path)
+        self.assertEqual(run.title, "costs $\\frac{$ and _more_")
+        self.assertEqual(len(run.plot()), 1)
+
     def test_a_run_that_has_no_snapshot_yet(self):
         early = self.folder / "early"
         shutil.copytree(self.folder / "silent", early)

@@ -135,6 +135,15 @@ class Report(unittest.TestCase):
             path.unlink()
         self.assertIn("not finished", self.page("early"))
 
+    def test_a_report_of_a_run_that_is_damaged(self):
+        broken = self.folder / "broken"
+        for content in (b"", b"{", b"[1]", b"{}", b"\xff", b'{"end": {"time": null}}'):
+            shutil.copytree(self.folder / "gas", broken, dirs_exist_ok=True)
+            (broken / "perf.json").write_bytes(content)
+            done = self.peperite("report", "broken")
+            self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1), done.stderr)
+            self.assertIn("perf.json", done.stderr)
+
     def test_without_the_library_of_charts(self):
         there = self.report.CHARTS
         try:

@@ -70,8 +70,10 @@ class Run(Sequence):
         path = self.folder / "scene.toml"
         try:
             return tomllib.loads(path.read_text())
-        except (OSError, ValueError):
+        except OSError:
             raise Error(f"{self.folder}: no snapshot_*.h5 in it, nor a scene.toml: not the folder of a run") from None
+        except ValueError as error:
+            raise Error(f"{path}: not a scene: {error}") from None
 
     def __len__(self):
         return len(self.files)
@@ -91,7 +93,7 @@ class Run(Sequence):
             try:
                 with h5py.File(path) as file:
                     return float(file.attrs["time"])
-            except (OSError, KeyError) as error:
+            except (OSError, KeyError, TypeError, ValueError) as error:
                 raise Error(f"{path}: not a snapshot: {error}") from None
         return np.array([time_of(path) for path in self.files])
 
@@ -111,7 +113,12 @@ class Run(Sequence):
     def perf(self):
         """The report that a run leaves at its end, or None before."""
         path = self.folder / "perf.json"
-        return json.loads(path.read_text()) if path.is_file() else None
+        if not path.is_file():
+            return None
+        try:
+            return dict(json.loads(path.read_text()))
+        except (OSError, ValueError, TypeError) as error:
+            raise Error(f"{path}: cannot read it: {error}") from None
 
     def plot(self, out=None, **options):
         """Draws what its scene has, into `out` or into its folder; paths of the pictures. Options are those of plot.py:

@@ -25,7 +25,11 @@ class Snapshot:
                 self.time, self.step = float(file.attrs["time"]), int(file.attrs["step"])
                 self.scene = scene_of_text(file.attrs["scene"])
                 self.fields = tuple(file["particles"])
-        except (OSError, KeyError, ValueError) as error:
+                for key in ("group", "dimension", "domain"):
+                    self.scene[key]
+        except KeyError as error:
+            raise Error(f"{path}: not a snapshot: no {error} in it") from None
+        except (OSError, ValueError, TypeError, AttributeError) as error:
             raise Error(f"{path}: not a snapshot: {error}") from None
 
     def __repr__(self):
@@ -42,6 +46,7 @@ class Snapshot:
             raise Error(f"{self.path}: no field \"{field}\" in it; there are {', '.join(self.fields)}")
         if field not in self._kept:
             values = self._read(field)
+            self._check(field, values)
             self._kept[field] = values if self._order is None else values[self._order]
             self._kept[field].setflags(write=False)
         return self._kept[field]
@@ -62,13 +67,29 @@ class Snapshot:
         try:
             with h5py.File(self.path) as file:
                 return file["particles"][field][()]
-        except (OSError, KeyError) as error:
+        except (OSError, KeyError, TypeError) as error:
             raise Error(f"{self.path}: cannot read {field}: {error}") from None
+
+    def _check(self, field, values):
+        """A damaged file is refused here, not where its numbers are used."""
+        vector = field in ("position", "velocity")
+        if not isinstance(values, np.ndarray) or values.dtype.kind not in "iuf" or len(values) != len(self._ids) or (
+                vector and values.shape[1:] != (self.scene["dimension"],)):
+            raise Error(f"{self.path}: {field} is not a row of numbers for each particle")
+        if field == "group" and len(values) and values.max() >= len(self.scene["group"]):
+            raise Error(f"{self.path}: group: the scene has {len(self.scene['group'])} groups, not {values.max() + 1}")
+
+    @functools.cached_property
+    def _ids(self):
+        ids = self._read("id")
+        if not isinstance(ids, np.ndarray) or ids.ndim != 1 or ids.dtype.kind not in "iu":
+            raise Error(f"{self.path}: id is not an integer for each particle")
+        return ids
 
     @functools.cached_property
     def _order(self):
         """Rows by ascending id; None where they are so already. Long snapshots are in the order of their owners."""
-        ids = self._read("id")
+        ids = self._ids
         return None if np.all(ids[:-1] <= ids[1:]) else np.argsort(ids, kind="stable")
 
     def _attribute(self, field, name, without):

@@ -53,6 +53,8 @@ def drawn(module, words):
     """Paths of the pictures, one after the other, each as it is written."""
     given = given_to(module, words)
     runs = [module.Run(folder) for folder in given.runs]
+    for run in runs:
+        run.title = str(run.title).replace("$", r"\$")  # matplotlib takes what is between dollars for formulas
     out = given.out or runs[0].folder
     out.mkdir(parents=True, exist_ok=True)
     from .style import STYLE, plt, save  # only now: it takes a second, and refusals should not

@@ -90,7 +90,7 @@ def draw(run, snapshots):
     names = list(parts[0][3])
     frame = np.concatenate([view.flat(s["position"][s.moves()]) for s in snapshots])
     low, high = frame.min(axis=0), frame.max(axis=0)
-    margin = 0.03 * (high - low).max()
+    margin = 0.03 * (high - low).max() or 1.0  # of one point
     low, high = low - margin, high + margin
     metre, length = style.unit_for((high - low).max(), "m")
     width = 5.2

@@ -149,10 +149,14 @@ def write(folder, out=None):
     scene = run.folder / "scene.toml"
     library = chart_code()
     with tempfile.TemporaryDirectory() as work:
+        try:
+            facts, timings = facts_of(run), timings_of(run.perf or {})
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise Error(f"{run.folder / 'perf.json'}: not the report of a run of this version: {error}") from None
         page = environment.get_template("page.html").render(
-            title=run.title, folder=run.folder.resolve().name, facts=facts_of(run), pictures=pictures_of(run, work),
+            title=run.title, folder=run.folder.resolve().name, facts=facts, pictures=pictures_of(run, work),
             curves=curves_of(run), library=library,
-            timings=timings_of(run.perf or {}), scene=scene.read_text() if scene.is_file() else "",
+            timings=timings, scene=scene.read_text(errors="replace") if scene.is_file() else "",
             style=Markup((HERE / "page.css").read_text()), script=Markup((HERE / "page.js").read_text()))
     path.write_text(page)
     return path
