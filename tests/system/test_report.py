@@ -71,7 +71,7 @@ class Report(unittest.TestCase):
         """What a browser shows of it; what it writes on its console is an error."""
         page = self.folder / "page.html"
         page.write_text(text.replace("</body>", CHECK + "</body>"))
-        done = subprocess.run(["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", f"--window-size={width},{height}",
+        done = subprocess.run(["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--window-size={width},{height}",
                                f"--user-data-dir={self.folder / 'browser'}", "--enable-logging=stderr", "--dump-dom",
                                "--virtual-time-budget=10000", page.as_uri()], capture_output=True, text=True, timeout=120)
         self.assertEqual([line for line in done.stderr.splitlines() if "CONSOLE" in line], [])
