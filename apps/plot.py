@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""Draws any run, by what its scene has.
+"""Draws any run: the sandbox and its shear boxes by sandbox/plot.py, all else by the package peperite, which is in python/.
 
-    plot.py DIR [DIR ...] [--out DIR] [--time T] [--draw LIST]
+    plot.py DIR [DIR ...] [--out DIR] [--draw LIST] [--time T] [--dynamic] [--average time|space]
 
-DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Which options there are depends on the run: plot.py DIR --help.
-The sandbox and its shear boxes are drawn by sandbox/plot.py, all else by the package peperite, which is in python/.
+DIR is the folder of a run. What there is to draw: `peperite plot --help`, sandbox/plot.py --help.
 """
 
 import os
@@ -13,8 +12,9 @@ from pathlib import Path
 
 here = Path(__file__).resolve().parent
 sys.path.insert(0, str(here / "python"))
-from peperite.drawing import module_for  # noqa: E402
-from peperite.drawing.command import refusing, runs_in, show  # noqa: E402
+import peperite  # noqa: E402
+from peperite.drawing import draw, parser  # noqa: E402
+from peperite.drawing.command import refusing, show  # noqa: E402
 
 
 def is_sandbox(scene):
@@ -26,12 +26,10 @@ def is_sandbox(scene):
 
 
 def main():
-    words = sys.argv[1:]
-    scenes = [run.scene for run in runs_in(words, __doc__)]
-    if scenes and all(map(is_sandbox, scenes)):
-        os.execv(sys.executable, [sys.executable, "-B", str(here / "sandbox/plot.py"), *words])
-    if scenes:
-        show(module_for(*scenes), words)
+    given = parser(__doc__).parse_args()
+    if all(is_sandbox(peperite.open(folder).scene) for folder in given.runs):
+        os.execv(sys.executable, [sys.executable, "-B", str(here / "sandbox/plot.py"), *sys.argv[1:]])
+    show(draw(given))
 
 
 if __name__ == "__main__":

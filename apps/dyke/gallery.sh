@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs a dyke that stays and one that rises, and draws both in gallery/: three quarters of an hour on two cores. Runs that have
+# Runs a dyke that stays and one that rises, and draws both in gallery/: half an hour on two cores. Runs that have
 # already come to their end in RUNS are only drawn.
 #
 #     sh apps/dyke/gallery.sh [PROGRAMS] [RUNS]     default: build/bin out/gallery

@@ -20,7 +20,7 @@ def time_scale(run):
 
 
 def grain_colours(run):
-    return dict(zip(run.grains, ("#555555", *style.GROUPS)))
+    return dict(zip(run.grains, ("#555555", *style.GROUPS) * len(run.grains)))
 
 
 def handles_of(run):

@@ -16,7 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 from peperite import Error  # noqa: E402
-from peperite.drawing.command import finite, refusing, show  # noqa: E402
+from peperite.drawing.command import drawn, finite, parser_of, refusing, show  # noqa: E402
 from peperite.drawing.melt_run import Run  # noqa: E402
 
 PICTURES = ("isotherms", "fraction", "series", "layer")
@@ -29,8 +29,10 @@ def times(text):
         raise argparse.ArgumentTypeError(f"not a list of numbers: \"{text}\"") from None
 
 
-def more_arguments(parser):
+def arguments():
+    parser = parser_of(__doc__)
     parser.add_argument("--times", metavar="LIST", type=times, help="isotherms: draw the snapshots nearest to these times (s)")
+    return parser.parse_args()
 
 
 def lacking(run):
@@ -45,7 +47,7 @@ def lacking(run):
     return reasons
 
 
-def drawn(run, names, given):
+def figures(run, names, given):
     """Names and figures, one after the other."""
     import pictures  # only now: it takes a second, and refusals should not
     from layers import History
@@ -66,9 +68,14 @@ def pictures(runs, given):
     for run in runs:
         prefix = f"{run.name}_" if len(runs) > 1 else ""
         names = [name for name in PICTURES if name in given.draw and name not in lacking(run)]
-        for name, figure in drawn(run, names, given):
+        for name, figure in figures(run, names, given):
             yield prefix + name, figure
 
 
+def main():
+    given = arguments()
+    show(drawn(sys.modules[__name__], [Run(folder) for folder in given.runs], given))
+
+
 if __name__ == "__main__":
-    sys.exit(refusing(lambda: show(sys.modules[__name__], sys.argv[1:])))
+    sys.exit(refusing(main))

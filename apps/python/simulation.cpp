@@ -25,14 +25,25 @@ class Running {
         monitors_(simulation_) {}
 
   void step(std::int64_t steps) {
+    look();
+    whole_ = false;  // until all of it is done: a step that throws leaves half of one behind
     for (std::int64_t k = 0; k < steps; ++k) simulation_.step();
+    whole_ = true;
   }
   [[nodiscard]] const sph::GlobalState& global() const { return simulation_.global(); }
   [[nodiscard]] std::string scene() const { return to_toml(simulation_.scene()); }
-  [[nodiscard]] std::string fingerprint() const { return simulation_.fingerprint(); }
-  void save(const std::string& path) { write_snapshot(simulation_, path); }
-
-  [[nodiscard]] std::vector<double> monitors() { return monitors_.values(simulation_); }
+  [[nodiscard]] std::string fingerprint() const {
+    look();
+    return simulation_.fingerprint();
+  }
+  void save(const std::string& path) {
+    look();
+    write_snapshot(simulation_, path);
+  }
+  [[nodiscard]] std::vector<double> monitors() {
+    look();
+    return monitors_.values(simulation_);
+  }
   [[nodiscard]] const std::vector<std::string>& monitor_names() const { return monitors_.names(); }
 
   [[nodiscard]] std::vector<std::string_view> fields() const {
@@ -89,6 +100,11 @@ class Running {
     return out;
   }
 
+  void look() const {
+    if (!whole_) throw sph::GuardError("this simulation ended in the middle of a step; begin another");
+  }
+
+  bool whole_ = true;
   decomp::Comm comm_;
   sph::Simulation simulation_;
   sph::Monitors monitors_;
@@ -116,7 +132,9 @@ PYBIND11_MODULE(peperite_simulation, m) {
   sph::self_check();
   py::register_exception_translator(&translate);
   using Released = py::call_guard<py::gil_scoped_release>;
-  py::class_<sph::Scene>(m, "Scene");
+  py::class_<sph::Scene>(m, "Scene").def_property_readonly("record", [](const sph::Scene& s) {
+    return s.decomposition.record;
+  });
   m.def("read_scene", [](const std::string& path, const std::vector<std::string>& set) {
     return sph::read_scene(path, set);
   });

@@ -14,7 +14,7 @@ import sys
 import numpy as np
 
 from grain_run import Run, peperite  # which finds the package
-from peperite.drawing.command import refusing, show
+from peperite.drawing.command import drawn, parser_of, refusing, show
 
 from forces import Contacts
 from history import History
@@ -66,10 +66,6 @@ def is_shear_box(run):
     return any(wall["name"] == "lid" for wall in run.scene.get("wall", []))
 
 
-def more_arguments(parser):
-    pass
-
-
 def pictures(runs, given):
     """Names and figures, one after the other; then the summary."""
     boxes = [ShearBox(run) for run in runs if is_shear_box(run)]
@@ -79,23 +75,28 @@ def pictures(runs, given):
     import pictures  # only now: it takes a second, and refusals should not
 
     sand, floor = (found or known for found, known in zip(angles(boxes), MEASURED))
-    lines, drawn = [box.text() for box in boxes], {}
+    lines, drawings = [box.text() for box in boxes], {}
     if boxes:
-        drawn["shear"] = lambda: pictures.draw_shear(boxes)
+        drawings["shear"] = lambda: pictures.draw_shear(boxes)
     if sandboxes:
         history = History(sandboxes[0])
         lines += [*measured(history), *from_contacts(history)]
         for name in ("layers", "strain", "chains", "stress"):
-            drawn[name] = lambda draw=getattr(pictures, f"draw_{name}"): draw(history)
-        drawn["history"] = lambda: pictures.draw_history(history, sand, floor)
+            drawings[name] = lambda draw=getattr(pictures, f"draw_{name}"): draw(history)
+        drawings["history"] = lambda: pictures.draw_history(history, sand, floor)
     lines += theory(sand, floor)
     for name in PICTURES:
-        figure = drawn[name]() if name in given.draw and name in drawn else None
+        figure = drawings[name]() if name in given.draw and name in drawings else None
         if figure is not None:
             yield f"{name}.png", figure
     ((given.out or runs[0].folder) / "summary.txt").write_text("\n".join(lines) + "\n")
     print(*lines, sep="\n")
 
 
+def main():
+    given = parser_of(__doc__).parse_args()
+    show(drawn(sys.modules[__name__], [Run(folder) for folder in given.runs], given))
+
+
 if __name__ == "__main__":
-    sys.exit(refusing(lambda: show(sys.modules[__name__], sys.argv[1:])))
+    sys.exit(refusing(main))

@@ -30,6 +30,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, ClampReaction>(),
       List::template fuse<Quintic, WettedExtrapolation>(),
       List::template fuse<Quintic, FlowOntoSolids>(),
+      List::template fuse<Quintic, CrackedFlowOntoSolids>(),
       List::template fuse<Quintic, Divergence, DensityDiffusion, FlowFromSolids>(),
       List::template fuse<Quintic, WettedPressure, WettedViscosity>(),
       List::template fuse<Quintic, NumberDensity, GasMoments>(),

@@ -60,7 +60,12 @@ class Exchanges:
             for a, (low, high) in enumerate(zip(domain["lower"], domain["upper"])):
                 ends = sorted(b_d.real(f"{a}/{side}", low, high) for side in "lu")
                 box["lower"].append(ends[0]), box["upper"].append(ends[1] + 1e-3 * self.dx)
-            if presses:
+            if presses and b_d.chance("flows in", 0.4):
+                volume = math.prod(u - l for l, u in zip(box["lower"], box["upper"]))
+                rate = self.rho * volume * b_d.log("inflow", 1e-5, 1e-2) * self.c / self.h
+                end = b_d.log("inflow until", 1, 300) * self.h / self.c
+                box["inflow"] = [[0, rate], [end, 0.0]] if b_d.chance("inflow ends", 0.5) else rate
+            elif presses:
                 box["pressure"] = self.rho * self.c**2 * b_d.log("p", 1e-5, 0.1)
                 if b_d.chance("rises", 0.5):
                     box["rise_time"] = b_d.log("rise", 1, 300) * self.h / self.c

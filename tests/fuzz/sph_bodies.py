@@ -54,6 +54,10 @@ class TotalBodies:
                 row["friction_angle"] = d.one("phi", [0.0, 20.0, 30.0, 60.0])
         if body["density"] != fluid["density"] or d.chance("of volume", 0.5):
             row["keeps"] = "volume"
+        elif d.chance("of both", 0.4):
+            row["keeps"] = "both"
+        if d.chance("mean", 0.3):
+            row["average"] = d.log("mean over", 0.3, 100) * self.dx / self.c
         return row
 
     def around(self, d):

@@ -23,12 +23,11 @@ bool PairOracle::faces(const Pair& pair, double cosine) const {
   return at_i > least * pair.i.crack.norm() && at_j > least * pair.j.crack.norm() && at_i > 0 && at_j > 0;
 }
 
-bool PairOracle::presses_across(const Pair& pair) const {
+bool PairOracle::are_faces(const Pair& pair) const {
   const PairParticle &i = pair.i, &j = pair.j;
   const double reach = scene_.bond_width() / h_ * scene_.kernel_radius();
   const bool bonded = i.body == j.body && bond(pair).X.norm() < reach && !faces(pair, 0.8);
-  return i.shears && j.shears && i.wet_pressure != 0 && j.wet_pressure != 0 && !bonded &&
-         i.crack.dot(j.crack) < 0 && faces(pair, 0);
+  return i.shears && j.shears && !bonded && i.crack.dot(j.crack) < 0 && faces(pair, 0);
 }
 
 // `weight`: of a bond to a particle of any body, without its unit.

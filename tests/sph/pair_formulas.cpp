@@ -126,13 +126,17 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       return vector(Field::wall_sums, 2 + dim_, part * x / h_);
     }
     case key("BorneByFluid"): {
-      if (i.shears && j.shears && !presses_across(pair)) return;
+      if (i.shears && j.shears && !are_faces(pair)) return;
       const double pressure = 0.5 * j.volume * (i.wet_pressure + j.wet_pressure) * slope / r / h_;
       for (int a = 0; a < dim_; ++a)
         for (int b = a; b < dim_; ++b)
           one(Field::borne_by_fluid, symmetric_index(a, b, dim_), pressure * x(a) * x(b));
       return;
     }
+    case key("CrackedFlowOntoSolids"):
+      if (are_faces(pair))
+        return one(Field::flux_sums, 1, bare(j.volume / lattice_volume * h_ * dv.dot(grad)));
+      [[fallthrough]];
     case key("FlowOntoSolids"):
       if (j.shears) return;
       one(Field::flux_sums, 0, bare(w_ij));
@@ -302,7 +306,7 @@ void PairOracle::add_force(const Pair& pair, Term term, PairSums& sums) const {
       case key("IdaStress"):
         return both * j.stress * grad;
       case key("CrackedWettedPressure"):
-        if (presses_across(pair)) return Vec(-both * (i.wet_pressure + j.wet_pressure) * grad);
+        if (are_faces(pair)) return Vec(-both * (i.wet_pressure + j.wet_pressure) * grad);
         [[fallthrough]];
       case key("WettedPressure"):
         return i.shears && j.shears ? Vec(Vec::Zero())

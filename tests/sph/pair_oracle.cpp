@@ -24,7 +24,7 @@ PairOracle::PairOracle(const PairCase& of)
   fourth_ = moment(3);
   looks_back_ = std::ranges::any_of(of.fusion().terms, [](Term t) {
     return t.name == "Divergence" || t.name == "WeightedDivergence" || t.name == "VelocityGradient" ||
-           t.name == "SlippingGradient" || t.name == "FlowOntoSolids";
+           t.name == "SlippingGradient" || t.name == "FlowOntoSolids" || t.name == "CrackedFlowOntoSolids";
   });
   load();
 }
@@ -195,6 +195,7 @@ bool PairOracle::defined(Term term, std::size_t row) const {
       return !p.mover;
     case key("WettedExtrapolation"):
     case key("FlowOntoSolids"):
+    case key("CrackedFlowOntoSolids"):
       return p.shears;
     case key("Deformation"):
     case key("CrackedDeformation"):

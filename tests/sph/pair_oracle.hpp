@@ -75,7 +75,7 @@ class PairOracle {
   void load();
   [[nodiscard]] Bond bond(const Pair& pair) const;
   [[nodiscard]] bool faces(const Pair& pair, double cosine) const;  ///< both see the other across a crack
-  [[nodiscard]] bool presses_across(const Pair& pair) const;
+  [[nodiscard]] bool are_faces(const Pair& pair) const;
   void add_crack(const Pair& pair, double weight, PairSums& sums) const;
   [[nodiscard]] double w(double r, double h) const;         ///< W
   [[nodiscard]] double dw(double r, double h) const;        ///< dW/dr

@@ -1,12 +1,15 @@
 """Runs the programs under mpirun and looks at what they leave."""
+import argparse
 import os
 import random
 import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
+import unittest
 from pathlib import Path
 
 ENVIRONMENT = {
@@ -160,3 +163,33 @@ def run_all(cases, names):
         print(f"{name}: {verdict} ({time.monotonic() - begin:.1f} s)", flush=True)
     cases.run.close()
     return 1 if failed else 0
+
+
+def path(text):
+    return Path(text).resolve()
+
+
+given = argparse.Namespace()  # what main() has read: programs, source, mpirun
+
+
+class Case(unittest.TestCase):
+    """A test case with programs to run, in a folder of its own."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.run_of = Runner(given.programs, given.mpirun)
+        cls.folder, cls.source = cls.run_of.folder, given.source
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.run_of.close()
+
+
+def main(*folders):
+    """Runs the cases of the script that calls this, or those that its command line names."""
+    parser = argparse.ArgumentParser()
+    for name in ("programs", "source", *folders):
+        parser.add_argument(f"--{name}", type=path, required=True)
+    parser.add_argument("--mpirun", default="mpirun")
+    _, names = parser.parse_known_args(namespace=given)
+    unittest.main(argv=sys.argv[:1] + names)

@@ -3,43 +3,34 @@
 
     test_melt_plot.py --programs build/bin --source .
 """
-import argparse
 import importlib
 import subprocess
 import sys
-import unittest
-from pathlib import Path
 
 import numpy as np
 
 import made_chamber
 import test_plot
-from runner import Runner
+from runner import Case, main
 
 
-class MeltPlot(unittest.TestCase):
+class MeltPlot(Case):
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        source = Path(given.source).resolve()
-        cls.apps = source / "apps"
+        super().setUpClass()
+        cls.apps = cls.source / "apps"
         sys.path += [str(cls.apps / "python"), str(cls.apps / "magma_chamber")]
         cls.melt_run, cls.melt, cls.layers = (importlib.import_module(name) for name in (
             "peperite.drawing.melt_run", "peperite.drawing.melts", "layers"))
         for name, scene, *options in (
-                ("flat", source / "tests/scenes/melts2d.toml", "output.snapshot_interval=4"),
-                ("deep", source / "tests/scenes/melts3d.toml", "output.snapshot_interval=2"),
-                ("hot", source / "benchmarks/accuracy/blankenbach.toml", "melt.cells=[16, 16]", "time.until=0.004"),
-                ("cold", source / "benchmarks/accuracy/van_keken.toml", "melt.cells=[16, 16]", "time.until=2")):
+                ("flat", cls.source / "tests/scenes/melts2d.toml", "output.snapshot_interval=4"),
+                ("deep", cls.source / "tests/scenes/melts3d.toml", "output.snapshot_interval=2"),
+                ("hot", cls.source / "benchmarks/accuracy/blankenbach.toml", "melt.cells=[16, 16]", "time.until=0.004"),
+                ("cold", cls.source / "benchmarks/accuracy/van_keken.toml", "melt.cells=[16, 16]", "time.until=2")):
             cls.run_of.run(2, "peperite", "run", scene, "--out", name, *(w for o in options for w in ("--set", o)))
         cls.times = np.linspace(0, 7 * made_chamber.HOUR, 8)
         cls.heights = made_chamber.write(cls.folder / "chamber", cls.times)
         made_chamber.write(cls.folder / "early", [0.0], heat=False, shuffled=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def plot(self, *arguments, script="plot.py"):
         return subprocess.run(["/usr/bin/python3", "-B", self.apps / script, *map(str, arguments)], cwd=self.folder,
@@ -155,9 +146,4 @@ class MeltPlot(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
-    unittest.main(argv=sys.argv[:1] + names)
+    main()

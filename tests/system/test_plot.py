@@ -3,20 +3,19 @@
 
     test_plot.py --programs build/bin --source .
 """
-import argparse
 import contextlib
 import importlib
 import io
 import shutil
 import subprocess
 import sys
-import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 from PIL import Image
 
-from runner import Runner
+from runner import Case, main
 
 STEPS = 40
 OPTIONS = ["--steps", STEPS, "--set", "output.snapshot_interval=0.002", "--set", "output.series_interval=0",
@@ -24,31 +23,26 @@ OPTIONS = ["--steps", STEPS, "--set", "output.snapshot_interval=0.002", "--set",
 ALL = {"particles.png", "pressure.png", "strip.png", "series.png"}
 
 
-class Plot(unittest.TestCase):
+class Plot(Case):
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        cases = Path(given.source).resolve() / "apps" / "buoyant_cylinder"
+        super().setUpClass()
+        cases = cls.source / "apps" / "buoyant_cylinder"
         cls.program = cases.parent / "plot.py"
         sys.path.insert(0, str(cases.parent / "python"))
-        cls.script = importlib.import_module("peperite.drawing.flat")
-        cls.command = importlib.import_module("peperite.drawing.command")
+        cls.drawing, cls.script, cls.command = (importlib.import_module(name) for name in (
+            "peperite.drawing", "peperite.drawing.flat", "peperite.drawing.command"))
         for case in ("solid", "gas"):
             cls.run_of.run(2, "buoyant_cylinder", cases / f"{case}.toml", *OPTIONS, "--out", case)
-        scenes = Path(given.source).resolve() / "benchmarks/accuracy"
+        scenes = cls.source / "benchmarks/accuracy"
         cls.run_of.run(2, "peperite", "run", scenes / "hydrostatic.toml", "--steps", 10, "--out", "tank")
         cls.run_of.run(1, "peperite", "run", scenes / "magma_column.toml", "--steps", 1, "--out", "foam")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def plot(self, *arguments):
         """Exit code, stdout and stderr, without the second that it takes to start the script."""
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), contextlib.chdir(self.folder):
-            code = self.command.refusing(lambda: self.command.show(self.script, [*map(str, arguments)]))
+            code = self.command.refusing(lambda: self.command.show(self.drawing.draw(self.drawing.parser().parse_args([*map(str, arguments)]))))
         return code, out.getvalue(), err.getvalue()
 
     def drawn(self, *arguments):
@@ -91,11 +85,15 @@ class Plot(unittest.TestCase):
     def test_several_runs_on_one_sheet(self):
         names = {p.name for p in self.drawn("solid", "gas", "--out", "both", "--draw", "pressure,series")}
         self.assertEqual(names, {"solid_pressure.png", "gas_pressure.png", "series.png"})
+        for name, folder in (("solid", "a"), ("gas", "b")):
+            shutil.copytree(self.folder / name, self.folder / folder / "run")
+        names = [p.name for p in self.drawn("a/run", "b/run", "--out", "both", "--draw", "pressure")]
+        self.assertEqual(names, ["run_pressure.png", "run_2_pressure.png"])
 
     def test_time_and_averages_change_the_picture(self):
         pictures = set()
-        for more in ([], ["--time", 0.004], ["--average", "time"], ["--dynamic"]):
-            (path,) = self.drawn("gas", "--draw", "particles", "--out", "gas_one", *more)
+        for words in (["gas"], ["gas", "--time", 0.004], ["--average=time", "gas"], ["gas", "--dynamic"]):
+            (path,) = self.drawn("--draw", "particles", "--out", "gas_one", *words)
             pictures.add((self.folder / path).read_bytes())
         self.assertEqual(len(pictures), 4)
 
@@ -161,6 +159,35 @@ class Plot(unittest.TestCase):
         highest = pressure[~run[0].where(kind="wall")].max()
         self.assertTrue(9.5 < highest < 9.8 and 9.5 < limits[1] < 9.8, (highest, limits))
 
+    def test_colours_are_those_of_the_scale_beside_them(self):
+        style = importlib.import_module("peperite.drawing.style")
+        for colours in ("viridis", "RdBu_r", "YlGnBu"):
+            figure, axes = style.plt.subplots()
+            axes.imshow(np.linspace(0, 1, 256)[None], cmap=colours)
+            levels = (255 * style.plt.get_cmap(colours)(np.arange(256))[:, :3]).round().astype(np.uint8)
+            # Each of them rare among much else, as in a picture of discs.
+            noise = np.random.default_rng(5).integers(0, 256, (400, 256, 3)).astype(np.uint8)
+            few = np.asarray(style.to_palette(np.concatenate([levels[None], noise]), style.exact_colours(figure)).convert("RGB"))
+            style.plt.close(figure)
+            self.assertLess(np.abs(few[0].astype(int) - levels).max(), 12, colours)
+
+    def test_all_particles_are_in_the_picture(self):
+        self.run_of.run(1, "peperite", "run", self.source / "tests/scenes/slope2d.toml", "--steps", 1, "--out", "slope")
+        run = self.script.Run(self.folder / "slope")
+        (low, high), position = self.script.view_of(run, [run[0]]), run[0]["position"]
+        self.assertTrue(np.all((low < position) & (position < high)))
+
+    def test_a_run_whose_particles_have_left(self):
+        shutil.copytree(self.folder / "solid", self.folder / "left")
+        with h5py.File(max((self.folder / "left").glob("snapshot_*.h5")), "r+") as file:
+            for name, rows in [*file["particles"].items()]:
+                kept, about = rows[()][:0], dict(rows.attrs)
+                del file["particles"][name]
+                file["particles"][name] = kept
+                file["particles"][name].attrs.update(about)
+        code, out, err = self.plot("left", "--draw", "particles,pressure", "--out", "of_left")
+        self.assertEqual((code, out), (0, "of_left/particles.png\nof_left/pressure.png\n"), err)
+
     def test_a_scene_that_follows_no_particle(self):
         code, out, err = self.plot("tank")
         self.assertEqual((code, out), (0, "tank/particles.png\ntank/pressure.png\n"))
@@ -185,6 +212,7 @@ class Plot(unittest.TestCase):
         self.refused("solid", "--time", "nan", says="--time")
         self.refused("solid", "--draw", "particles,stars", says="stars")
         self.refused("solid", "--average", "space", says="average_space")
+        self.refused("solid", "--out", "", says="--out")
         self.refused(says="DIR")
         (self.folder / "none").mkdir()
         self.refused("none", says="no snapshot")
@@ -202,24 +230,19 @@ class Plot(unittest.TestCase):
         self.refused("broken", "--draw", "series", says="series.csv")
 
 
-class ThreeDimensions(unittest.TestCase):
+class ThreeDimensions(Case):
     """apps/plot.py finds what draws it."""
 
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        cls.apps = Path(given.source).resolve() / "apps"
+        super().setUpClass()
+        cls.apps = cls.source / "apps"
         sys.path.append(str(cls.apps / "python"))
         cls.script = importlib.import_module("peperite.drawing.solid")
-        scenes = Path(given.source).resolve() / "tests/scenes"
+        scenes = cls.source / "tests/scenes"
         for run, scene, interval in (("fluid", "box3d_fluid", 0.02), ("grains", "grains_pour", 0.0005)):
             cls.run_of.run(2, "peperite", "run", scenes / f"{scene}.toml", "--steps", 100, "--set",
                            f"output.snapshot_interval={interval}", "--out", run)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def plot(self, *arguments):
         return subprocess.run(["/usr/bin/python3", "-B", self.apps / "plot.py", *map(str, arguments)], cwd=self.folder,
@@ -273,7 +296,7 @@ class ThreeDimensions(unittest.TestCase):
         self.assertGreater(np.mean(np.abs(columns["displacement"][1][high] / flight - 1) < 1e-3), 0.95)
 
 
-class Sandbox(unittest.TestCase):
+class Sandbox(Case):
     """apps/sandbox/plot.py, on a box a quarter as long with a block of sand half as high, pushed fast."""
 
     SMALL = ["domain.upper=[0.1, 0.0076, 0.12]", "start.spacing=0.0019", "start.upper=[0.0988, 0.0076, 0.0285]",
@@ -282,17 +305,12 @@ class Sandbox(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        cls.cases = Path(given.source).resolve() / "apps" / "sandbox"
+        super().setUpClass()
+        cls.cases = cls.source / "apps" / "sandbox"
         small = [word for value in cls.SMALL for word in ("--set", value)]
         cls.run_of.run(1, "sandbox", *small, "--until", 0.16, "--out", "small")
         cls.run_of.run(1, "sandbox", cls.cases / "shear_floor.toml", "--until", 0.06, "--set", "stage.lower.begin=0.02",
                        "--set", "stage.press.begin=0.03", "--set", "stage.shear.begin=0.04", "--out", "box")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def plot(self, *arguments):
         return subprocess.run(["/usr/bin/python3", "-B", self.cases / "plot.py", *arguments], cwd=self.folder,
@@ -330,9 +348,4 @@ class Sandbox(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
-    unittest.main(argv=sys.argv[:1] + names)
+    main()

@@ -3,7 +3,6 @@
 
     test_python.py --programs build/bin --source .
 """
-import argparse
 import importlib
 import shutil
 import sys
@@ -15,18 +14,16 @@ import h5py
 import matplotlib
 import numpy as np
 
-from runner import Runner
+from runner import Case, main
 
 
-class Package(unittest.TestCase):
+class Package(Case):
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        source = Path(given.source).resolve()
-        sys.path.insert(0, str(source / "apps/python"))
+        super().setUpClass()
+        sys.path.insert(0, str(cls.source / "apps/python"))
         cls.peperite = importlib.import_module("peperite")
-        scenes = source / "tests/scenes"
+        scenes = cls.source / "tests/scenes"
         for name, scene, *options in (
                 ("grains", "grains_pour", "output.contacts=true", "output.snapshot_interval=0.0005"),
                 ("owners", "grains_pour", "output.snapshot_interval=0.0005", "output.sort_limit=1"),
@@ -35,10 +32,6 @@ class Package(unittest.TestCase):
                 ("silent", "box3d_fluid", "output.snapshot_interval=0")):
             cls.run_of.run(3, "peperite", "run", scenes / f"{scene}.toml", "--steps", 100, "--out", name,
                            *(word for option in options for word in ("--set", option)))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def open(self, name):
         return self.peperite.open(self.folder / name)
@@ -94,6 +87,8 @@ class Package(unittest.TestCase):
         self.assertTrue(np.array_equal(last.component("stress", "xy"), last["stress"][:, 2]))
         self.assertTrue(np.array_equal(last.component("velocity", "y"), last.velocity[:, 1]))
         self.assertTrue(np.abs(last.metres("displacement")).max() < 100 and last.metres("displacement").any())
+        self.refused("velocity is in m/s", lambda: last.metres("velocity"))
+        self.refused("pressure has no components", lambda: last.component("pressure", "x"))
         self.assertIn("displacement", dir(last))
         self.assertIsNone(last.get("void_fraction"))
         grains = self.open("grains")[-1]
@@ -170,7 +165,7 @@ class Package(unittest.TestCase):
         def scene(value):
             return lambda file: file.attrs.__setitem__("scene", value)
         count = len(self.open("fluid")[-1])
-        for says, damage in (("not a snapshot", scene(5)), ("not a snapshot: no 'group'", scene("a = 1")), ("not a snapshot", scene("a = ")),
+        for says, damage in (("not a snapshot", scene(5)), ("not a snapshot: no group in it", scene("a = 1")), ("not a snapshot", scene("a = ")),
                              ("group: the scene has", put("group", np.full(count, 7, dtype=np.uint32))),
                              ("velocity is not a row", put("velocity", np.zeros(count))),
                              ("pressure is not a row", put("pressure", np.zeros(count - 5))),
@@ -209,7 +204,10 @@ class Package(unittest.TestCase):
         run = self.peperite.open(early)
         self.assertEqual((len(run), list(run), run.title), (0, [], self.open("silent").title))
         self.assertGreater(len(run.series["t"]), 0)
-        self.refused("no snapshot_*.h5", lambda: run[-1])
+        for work in (lambda: run[-1], lambda: run.at(0), lambda: run.plot()):
+            self.refused("no snapshot_*.h5", work)
+        (early / "scene.toml").write_text("title = 'no resolved one'")
+        self.refused("scene.toml: not a resolved scene: no group", lambda: self.peperite.open(early))
 
     def test_plot_leaves_the_settings_of_who_calls_it(self):
         matplotlib.use("pdf")
@@ -225,9 +223,4 @@ class Package(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
-    unittest.main(argv=sys.argv[:1] + names)
+    main()

@@ -3,19 +3,17 @@
 
     test_report.py --programs build/bin --source .
 """
-import argparse
 import html.parser
 import json
 import re
 import shutil
 import subprocess
 import sys
-import unittest
-from pathlib import Path
 
+import h5py
 import numpy as np
 
-from runner import Runner
+from runner import Case, given, main
 
 # What the page says of itself when all of it is drawn; put behind its own scripts.
 CHECK = """<script>
@@ -41,23 +39,17 @@ class Links(html.parser.HTMLParser):
         self.outside += [value for name, value in attrs if name in ("src", "href") and not value.startswith("data:")]
 
 
-class Report(unittest.TestCase):
+class Report(Case):
     @classmethod
     def setUpClass(cls):
-        cls.programs = Path(given.programs).resolve()
-        cls.run_of = Runner(cls.programs, given.mpirun)
-        cls.folder = cls.run_of.folder
-        source = Path(given.source).resolve()
-        sys.path.insert(0, str(source / "apps/python"))
+        cls.programs = given.programs
+        super().setUpClass()
+        sys.path.insert(0, str(cls.source / "apps/python"))
         import peperite.report
         cls.report = peperite.report
-        cls.run_of.run(2, "peperite", "run", source / "apps/buoyant_cylinder/gas.toml", "--steps", 40, "--out", "gas",
+        cls.run_of.run(2, "peperite", "run", cls.source / "apps/buoyant_cylinder/gas.toml", "--steps", 40, "--out", "gas",
                        "--set", "output.series_interval=0", "--set", 'title="Bubbles </script> & <b>fire</b>"')
-        cls.run_of.run(2, "peperite", "run", source / "tests/scenes/grains_pour.toml", "--steps", 20, "--out", "grains")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
+        cls.run_of.run(2, "peperite", "run", cls.source / "tests/scenes/grains_pour.toml", "--steps", 20, "--out", "grains")
 
     def peperite(self, *words):
         return subprocess.run([self.programs / "peperite", *words], cwd=self.folder, capture_output=True, text=True)
@@ -135,6 +127,44 @@ class Report(unittest.TestCase):
             path.unlink()
         self.assertIn("not finished", self.page("early"))
 
+    def test_what_state_a_run_is_in(self):
+        on = self.folder / "on"
+        shutil.copytree(self.folder / "gas", on)
+        fingerprint = json.loads((on / "perf.json").read_text())["fingerprint"]
+
+        def state():
+            text = self.page("on")
+            return re.search("<dt>state</dt><dd>(.*?)</dd>", text)[1], fingerprint in text
+        self.assertEqual(state(), ("finished", True))
+        (on / "run.lock").touch()
+        self.assertEqual(state(), ("not finished", False), "the fingerprint was that of the part before")
+        (on / "run.lock").unlink()
+        last = max(on.glob("snapshot_*.h5"))
+        with h5py.File(last, "r+") as file:  # as if the machine had stopped it
+            file.attrs["scene"] = file.attrs["scene"].replace("\nsteps = 40\n", "\nsteps = 400\n")
+        self.assertEqual(state(), ("stopped before its end; `peperite resume` goes on", True))
+        shutil.copy(last, on / "snapshot_000000099.h5")
+        with h5py.File(on / "snapshot_000000099.h5", "r+") as file:
+            file.attrs["step"] = 99
+        self.assertEqual(state(), ("not finished", False))
+
+    def test_a_module_where_somebody_stands_is_not_run(self):
+        for name in ("numpy", "json", "peperite"):
+            (self.folder / f"{name}.py").write_text("raise SystemExit(9)")
+        self.page("gas")
+
+    def test_charts_hold_what_belongs_together(self):
+        quantity = self.report.quantity_of
+        self.assertEqual([quantity(c, "particle") for c in ("x", "y", "vx", "vy", "p", "rho")],
+                         ["position", "position", "v", "v", "p", "rho"])
+        self.assertEqual([quantity(c, "contacts") for c in ("z", "number")], ["z", "number"])
+
+    def test_gaps_stay_gaps(self):
+        values = np.ones(100_000)
+        values[40_000:40_003] = np.nan
+        rows = self.report.thinned(np.arange(100_000.0), [values])
+        self.assertTrue({40_000, 40_003} <= set(rows))
+
     def test_a_report_of_a_run_that_is_damaged(self):
         broken = self.folder / "broken"
         for content in (b"", b"{", b"[1]", b"{}", b"\xff", b'{"end": {"time": null}}'):
@@ -166,9 +196,4 @@ class Report(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
-    unittest.main(argv=sys.argv[:1] + names)
+    main()

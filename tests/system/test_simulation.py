@@ -3,18 +3,14 @@
 
     test_simulation.py --programs build/bin --module build/python --source .
 """
-import argparse
 import json
 import os
-import subprocess
 import sys
 import textwrap
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-from runner import Runner
+from runner import Case, given, main
 
 SCENES = ("tests/scenes/open2d.toml", "tests/scenes/grains_in_melt.toml", "tests/scenes/bodies3d.toml", "tests/scenes/chamber.toml")
 STEPS = 30
@@ -39,21 +35,15 @@ for scene in sys.argv[2:]:
 """ % (STEPS, STEPS)
 
 
-class Simulation(unittest.TestCase):
+class Simulation(Case):
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        cls.source = Path(given.source).resolve()
-        paths = [str(cls.source / "apps/python"), str(Path(given.module).resolve())]
+        super().setUpClass()
+        paths = [str(cls.source / "apps/python"), str(given.module)]
         sys.path[:0] = paths
         cls.run_of.environment["PYTHONPATH"] = os.pathsep.join(paths)
         os.environ["PYTHONPATH"] = cls.run_of.environment["PYTHONPATH"]
         (cls.folder / "script.py").write_text(SCRIPT)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def python(self, ranks, *words, code=0):
         launch = [given.mpirun, "-n", ranks, "/usr/bin/python3", "-B", "-m", "mpi4py"] if ranks > 1 else ["/usr/bin/python3", "-B"]
@@ -117,7 +107,8 @@ class Simulation(unittest.TestCase):
         import peperite
         path = self.source / "tests/scenes/box3d_fluid.toml"
         for says, scene, settings in (("time.cfl", path, {"time.cfl": -1}), ("nowhere.toml", "nowhere.toml", {}),
-                                      ("kernell", {"dimension": 2, "kernell": {}}, {}), ("complex", {"dimension": 2j}, {})):
+                                      ("kernell", {"dimension": 2, "kernell": {}}, {}), ("complex", {"dimension": 2j}, {}), ("set: not", path, "time.steps=2"), ("set: not", path, [1]),
+                                      ("no rock in it, ?", {"dimension": 2, "no rock in it, \x7f": 1}, {})):
             with self.assertRaises(peperite.InputError) as caught:
                 peperite.Simulation(scene, set=settings)
             self.assertIn(says, str(caught.exception))
@@ -131,6 +122,34 @@ class Simulation(unittest.TestCase):
         with self.assertRaises(peperite.GuardError) as caught:
             fast.step(2000)
         self.assertIn("step", str(caught.exception))
+        for work in (lambda: fast.step(), fast.fingerprint, fast.monitors, lambda: fast.save(self.folder / "half.h5")):
+            with self.assertRaises(peperite.GuardError) as caught:
+                work()
+            self.assertIn("in the middle of a step", str(caught.exception))
+        self.assertFalse((self.folder / "half.h5").exists())
+
+    def test_nothing_is_overwritten(self):
+        import peperite
+        path = self.source / "tests/scenes/box3d_fluid.toml"
+        s = peperite.Simulation(path)
+        saved, letter, record = (self.folder / name for name in ("saved.h5", "letter.txt", "record.txt"))
+        s.save(saved)
+        before = saved.read_bytes()
+        s.step()
+        letter.write_text("dear reader")
+        (self.folder / "link.h5").symlink_to(saved)
+        for place, overwrite in ((saved, False), (letter, True), (self.folder, True), (self.folder / "link.h5", True)):
+            with self.assertRaises(peperite.OutputError) as caught:
+                s.save(place, overwrite)
+            self.assertIn(f"{place} exists", str(caught.exception))
+        self.assertEqual((saved.read_bytes(), letter.read_text()), (before, "dear reader"))
+        s.save(saved, overwrite=True)
+        self.assertNotEqual(saved.read_bytes(), before)
+        record.write_text("cuts of another run")
+        with self.assertRaises(peperite.InputError) as caught:
+            peperite.Simulation(path, set={"decomposition.record": str(record)})
+        self.assertIn("record.txt exists", str(caught.exception))
+        self.assertEqual(record.read_text(), "cuts of another run")
 
     def test_an_exception_on_one_rank_ends_all(self):
         (self.folder / "alone.py").write_text(textwrap.dedent("""
@@ -147,10 +166,4 @@ class Simulation(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--module", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
-    unittest.main(argv=sys.argv[:1] + names)
+    main("module")

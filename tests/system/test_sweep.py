@@ -3,28 +3,19 @@
 
     test_sweep.py --programs build/bin --source .
 """
-import argparse
 import csv
 import json
 import sys
-import unittest
-from pathlib import Path
 
-from runner import Runner
+from runner import Case, main
 
 
-class Sweep(unittest.TestCase):
+class Sweep(Case):
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        source = Path(given.source).resolve()
-        cls.scene = source / "tests/scenes/box3d_fluid.toml"
-        sys.path.insert(0, str(source / "apps/python"))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
+        super().setUpClass()
+        cls.scene = cls.source / "tests/scenes/box3d_fluid.toml"
+        sys.path.insert(0, str(cls.source / "apps/python"))
 
     def sweep(self, *words, code=0):
         return self.run_of.run(1, "peperite", "sweep", self.scene, *words, code=code)
@@ -83,7 +74,7 @@ class Sweep(unittest.TestCase):
 
     def test_refusals(self):
         for words, says in ((["--out", "x"], "--vary"), (["--vary", "time.cfl", "--out", "x"], "KEY=VALUE"),
-                            (["--vary", "time.cfl=1,,2", "--out", "x"], "KEY=VALUE"), (["--vary", "a=1"], "--out"),
+                            (["--vary", "time.cfl=1,,2", "--out", "x"], "KEY=VALUE"), (["--vary", "a=1"], "--out"), (["--vary", "a=1", "--out", ""], "--out"),
                             (["--vary", "a=1", "--out", "x", "--ranks", 0], "--ranks")):
             done = self.sweep(*words, code=2)
             self.assertEqual(len(done.err.splitlines()), 1, done.err)
@@ -92,9 +83,4 @@ class Sweep(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
-    unittest.main(argv=sys.argv[:1] + names)
+    main()

@@ -4,15 +4,11 @@ comes comes: the lines of a block of text, in their order, "..." for anything.
 
     test_tutorials.py --programs build/bin --source .
 """
-import argparse
 import os
 import re
 import subprocess
-import sys
-import unittest
-from pathlib import Path
 
-from runner import Runner
+from runner import Case, given, main
 
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.M | re.S)
 
@@ -29,22 +25,17 @@ def pattern_of(line):
     return ".*".join(map(re.escape, line.split("...")))
 
 
-class Tutorials(unittest.TestCase):
+class Tutorials(Case):
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.source = Path(given.source).resolve()
+        super().setUpClass()
         cls.pages = cls.source / "apps/tutorials"
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def follow(self, name):
         folder = self.run_of.folder / name
         folder.mkdir()
         (folder / "build").mkdir()
-        for link, there in (("build/bin", Path(given.programs).resolve()), ("build/python", Path(given.module).resolve()),
+        for link, there in (("build/bin", given.programs), ("build/python", given.module),
                             ("apps", self.source / "apps"), ("benchmarks", self.source / "benchmarks")):
             (folder / link).symlink_to(there)
         out, variables = "", {key: value for key, value in self.run_of.environment.items() if key != "PYTHONPATH"}
@@ -92,11 +83,5 @@ class Tutorials(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--module", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
     os.environ.pop("PYTHONPATH", None)
-    unittest.main(argv=sys.argv[:1] + names)
+    main("module")

@@ -3,17 +3,13 @@
 
     test_xdmf.py --programs build/bin --source .
 """
-import argparse
 import shutil
-import sys
-import unittest
 import xml.etree.ElementTree as ElementTree
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-from runner import Runner
+from runner import Case, main
 
 PARAVIEW = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"]  # what ParaView calls the six components of an array
 NUMBERS = {("Float", 8): "f8", ("Int", 8): "i8", ("UInt", 4): "u4"}
@@ -24,14 +20,12 @@ MESHES = {  # cells, lower corner and edges of the scenes' grids
 }
 
 
-class Xdmf(unittest.TestCase):
+class Xdmf(Case):
     @classmethod
     def setUpClass(cls):
-        cls.run_of = Runner(Path(given.programs).resolve(), given.mpirun)
-        cls.folder = cls.run_of.folder
-        source = Path(given.source).resolve()
-        cls.scenes = source / "tests/scenes"
-        cls.run_of.run(2, "buoyant_cylinder", source / "apps/buoyant_cylinder/solid.toml", "--steps", 6, "--set",
+        super().setUpClass()
+        cls.scenes = cls.source / "tests/scenes"
+        cls.run_of.run(2, "buoyant_cylinder", cls.source / "apps/buoyant_cylinder/solid.toml", "--steps", 6, "--set",
                        "output.snapshot_interval=0.0005", "--out", "flat")
         cls.run_of.run(2, "peperite", "run", cls.scenes / "box3d_solid.toml", "--steps", 5, "--out", "solid")
         cls.run_of.run(2, "peperite", "run", cls.scenes / "grains_pour.toml", "--steps", 100, "--set",
@@ -40,10 +34,6 @@ class Xdmf(unittest.TestCase):
             cls.run_of.run(2, "peperite", "run", cls.scenes / f"{scene}.toml", "--steps", 2, "--out", scene)
         cls.run_of.run(2, "peperite", "run", cls.scenes / "melts2d.toml", "--steps", 1, "--set",
                        "output.sort_limit=100", "--out", "long")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of.close()
 
     def snapshot(self, run):
         return max((self.folder / run).glob("snapshot_*.h5"))
@@ -168,9 +158,4 @@ class Xdmf(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--programs", required=True)
-    parser.add_argument("--source", required=True)
-    parser.add_argument("--mpirun", default="mpirun")
-    given, names = parser.parse_known_args()
-    unittest.main(argv=sys.argv[:1] + names)
+    main()

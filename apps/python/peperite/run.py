@@ -3,7 +3,6 @@
 import functools
 import json
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -11,7 +10,7 @@ import h5py
 import numpy as np
 
 from .errors import Error
-from .snapshot import Snapshot
+from .snapshot import Snapshot, resolved
 
 
 class Series(Mapping):
@@ -69,11 +68,11 @@ class Run(Sequence):
         """The scene of a run that has written no snapshot."""
         path = self.folder / "scene.toml"
         try:
-            return tomllib.loads(path.read_text())
+            return resolved(path.read_text())
         except OSError:
             raise Error(f"{self.folder}: no snapshot_*.h5 in it, nor a scene.toml: not the folder of a run") from None
         except ValueError as error:
-            raise Error(f"{path}: not a scene: {error}") from None
+            raise Error(f"{path}: not a resolved scene: {error}") from None
 
     def __len__(self):
         return len(self.files)
@@ -99,7 +98,7 @@ class Run(Sequence):
 
     def at(self, time):
         """The snapshot nearest to `time` [s]."""
-        return self[int(np.argmin(np.abs(self.times - time)))]
+        return self[int(np.argmin(np.abs(self.times - time))) if self.files else 0]
 
     def spread(self, number):
         """So many snapshots, the first and the last among them."""
@@ -108,6 +107,11 @@ class Run(Sequence):
     @functools.cached_property
     def series(self):
         return Series(self.folder / "series.csv")
+
+    @property
+    def goes_on(self):
+        """A program is writing to it, or died there."""
+        return (self.folder / "run.lock").exists()
 
     @functools.cached_property
     def perf(self):
@@ -121,7 +125,7 @@ class Run(Sequence):
             raise Error(f"{path}: cannot read it: {error}") from None
 
     def plot(self, out=None, **options):
-        """Draws what its scene has, into `out` or into its folder; paths of the pictures. Options are those of plot.py:
+        """Draws what its scene has, into `out` or into its folder; paths of the pictures. Options are those of `peperite plot`:
         plot(time=0.5, draw="particles")."""
         from .drawing import draw_run
-        return draw_run(self, out, options)
+        return list(draw_run(self, out, **options))

@@ -1,10 +1,19 @@
 """A scene that Python steps, on one rank or many: python3 script.py, or mpirun -n 4 python3 -m mpi4py script.py."""
 
 import json
+import os
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 
-from .errors import Error, InputError
+import h5py
+
+from .errors import Error, InputError, OutputError
+
+
+def quoted(text):
+    """A string of TOML: one of JSON, but for characters that it writes in pairs, and for DEL."""
+    return json.dumps(str(text), ensure_ascii=False).replace("\x7f", "\\u007f").encode(errors="replace").decode()
 
 
 def toml_of(value):
@@ -12,12 +21,12 @@ def toml_of(value):
     value = value.tolist() if hasattr(value, "tolist") else value
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{json.dumps(str(key))} = {toml_of(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{quoted(key)} = {toml_of(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(toml_of, value)) + "]"
     if isinstance(value, (str, Path)):
-        return json.dumps(str(value), ensure_ascii=False)
+        return quoted(value)
     if isinstance(value, (int, float)):
         return repr(value)
     raise InputError(f"a scene has no values of the type {type(value).__name__}")
@@ -25,7 +34,18 @@ def toml_of(value):
 
 def settings(values):
     """What --set takes: of {"time.dt": 1e-4}, or already so."""
-    return [f"{key}={toml_of(value)}" for key, value in values.items()] if isinstance(values, dict) else list(values)
+    if isinstance(values, Mapping):
+        return [f"{key}={toml_of(value)}" for key, value in values.items()]
+    if isinstance(values, str) or not all(isinstance(value, str) for value in values):
+        raise InputError("set: not a dictionary of keys, nor a list of texts like \"time.dt=1e-4\"")
+    return list(values)
+
+
+def is_snapshot(path):
+    if os.path.islink(path) or not os.path.isfile(path) or not h5py.is_hdf5(path):
+        return False
+    with h5py.File(path) as file:
+        return str(file.attrs.get("format", "")).startswith("peperite snapshot")
 
 
 class Simulation:
@@ -40,11 +60,13 @@ class Simulation:
         except ImportError as error:
             raise Error(f"Simulation needs mpi4py and peperite_simulation, which -DPEPERITE_PYTHON=ON builds: {error}") from None
         self.comm = MPI.COMM_WORLD if comm is None else comm
-        if isinstance(scene, dict):
-            text = "".join(f"{json.dumps(key)} = {toml_of(value)}\n" for key, value in scene.items())
+        if isinstance(scene, Mapping):
+            text = "".join(f"{quoted(key)} = {toml_of(value)}\n" for key, value in scene.items())
             read = module.parse_scene(text, "scene", settings(set))
         else:
             read = module.read_scene(str(scene), settings(set))
+        if read.record:
+            self._refuse(InputError, lambda: Path(read.record).exists() and os.path.getsize(read.record) > 0, read.record)
         self._running = module.Simulation(read, MPI._addressof(self.comm))
         self.scene = tomllib.loads(self._running.scene)
 
@@ -108,6 +130,13 @@ class Simulation:
         """Of every bit of the state."""
         return self._running.fingerprint()
 
-    def save(self, path):
-        """Writes a snapshot, as runs do."""
-        self._running.save(str(path))
+    def save(self, path, overwrite=False):
+        """Writes a snapshot, as runs do; instead of another one where that is said."""
+        path = os.fspath(path)
+        self._refuse(OutputError, lambda: os.path.lexists(path) and not (overwrite and is_snapshot(path)), path)
+        self._running.save(path)
+
+    def _refuse(self, error, exists, path):
+        """Collective: what the first rank finds."""
+        if self.comm.bcast(self.rank == 0 and exists()):
+            raise error(f"{path} exists and would be overwritten; name another file, or move it away")

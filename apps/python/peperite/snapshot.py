@@ -10,7 +10,15 @@ import numpy as np
 from .contacts import Contacts
 from .errors import Error
 
-scene_of_text = functools.lru_cache(maxsize=8)(tomllib.loads)  # the same text in all snapshots of a run
+
+@functools.lru_cache(maxsize=8)  # the same text in all snapshots of a run
+def resolved(text):
+    """The scene that files hold, as a dictionary; ValueError where it is none."""
+    scene = tomllib.loads(text)
+    for key in ("group", "dimension", "domain"):
+        if key not in scene:
+            raise ValueError(f"no {key} in it")
+    return scene
 
 
 class Snapshot:
@@ -23,13 +31,9 @@ class Snapshot:
         try:
             with h5py.File(path) as file:
                 self.time, self.step = float(file.attrs["time"]), int(file.attrs["step"])
-                self.scene = scene_of_text(file.attrs["scene"])
+                self.scene = resolved(file.attrs["scene"])
                 self.fields = tuple(file["particles"])
-                for key in ("group", "dimension", "domain"):
-                    self.scene[key]
-        except KeyError as error:
-            raise Error(f"{path}: not a snapshot: no {error} in it") from None
-        except (OSError, ValueError, TypeError, AttributeError) as error:
+        except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
             raise Error(f"{path}: not a snapshot: {error}") from None
 
     def __repr__(self):
@@ -107,15 +111,19 @@ class Snapshot:
 
     def metres(self, field):
         """Of a field whose unit is the quantum of length."""
+        if self.unit(field) != "quantum":
+            raise Error(f"{self.path}: {field} is in {self.unit(field)}, no number of quanta")
         with h5py.File(self.path) as file:
             return self[field] * file.attrs["quantum"]
 
     def component(self, field, name):
         """One of a vector ("x") or of a symmetric tensor ("xz"), in the order that the file names."""
         values = self[field]
+        if values.ndim != 2:
+            raise Error(f"{self.path}: {field} has no components")
         usual = {1: "x", 2: "x y", 3: "x y z" if self.scene["dimension"] == 3 else "xx yy xy", 6: "xx yy zz xy xz yz"}
-        names = self._attribute(field, "components", usual[values.shape[-1]]).split()
-        if values.ndim != 2 or name not in names:
+        names = self._attribute(field, "components", usual.get(values.shape[1], "")).split()
+        if name not in names:
             raise Error(f"{self.path}: no component \"{name}\" of {field}; there are {', '.join(names)}")
         return values[:, names.index(name)]
 

@@ -18,7 +18,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from .drawing.command import Parser, refusing
+from .drawing.command import Parser, folder, refusing
 from .errors import Error
 from .run import Run
 
@@ -98,7 +98,7 @@ def arguments(words):
     parser = Parser(prog="peperite sweep", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", metavar="SCENE", type=Path)
     parser.add_argument("--vary", metavar="KEY=VALUES", type=varied, action="append", required=True)
-    parser.add_argument("--out", metavar="DIR", type=Path, required=True)
+    parser.add_argument("--out", metavar="DIR", type=folder, required=True)
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="for all runs")
     parser.add_argument("--steps", metavar="N")
     parser.add_argument("--until", metavar="T")

@@ -143,6 +143,8 @@ std::string to_text(const Manifest& m) {
   for (const BodyState& body : g.bodies) bodies.push_back(json_of(body));
   Json passages = Json::array();
   for (const Passage& passage : g.throughput.passages) passages.push_back(json_of(passage));
+  Json inflows = Json::array();
+  for (const Inflow& inflow : g.inflows) inflows.push_back({inflow.receivers, exact(inflow.due)});
   Json parts = Json::array();
   for (const Part& part : m.parts) parts.push_back(json_of(part));
   const Json json{{"format", format},
@@ -158,6 +160,7 @@ std::string to_text(const Manifest& m) {
                   {"flow", {exact(g.flow.interval), g.flow.left, g.flow.iterations, exact(g.flow.residual)}},
                   {"passages", passages},
                   {"id_stride", g.throughput.id_stride},
+                  {"inflows", inflows},
                   {"quantum", exact(m.record.scale.quantum)},
                   {"origin", m.record.scale.origin},
                   {"dim", m.dim},
@@ -204,6 +207,8 @@ Manifest manifest_from_text(const std::string& text) {
   for (const Json& passage : json.at("passages"))
     m.record.global.throughput.passages.push_back(passage_of(passage));
   m.record.global.throughput.id_stride = json.at("id_stride").get<std::uint64_t>();
+  for (const Json& inflow : json.at("inflows"))
+    m.record.global.inflows.push_back({inflow.at(0).get<std::int64_t>(), exact(inflow.at(1))});
   m.record.scale.quantum = exact(json.at("quantum"));
   m.record.scale.origin = json.at("origin").get<std::array<std::int64_t, 3>>();
   m.record.scene_toml = json.at("scene").get<std::string>();

@@ -116,6 +116,10 @@ XXH128_hash_t hash_of(const GlobalState& global, const PositionScale& scale) {
     words.push_back(std::bit_cast<std::uint64_t>(passage.kinetic_energy));
     words.push_back(std::bit_cast<std::uint64_t>(passage.beside));
   }
+  for (const Inflow& inflow : global.inflows) {
+    words.push_back(static_cast<std::uint64_t>(inflow.receivers));
+    words.push_back(std::bit_cast<std::uint64_t>(inflow.due));
+  }
   for (const WallState& wall : global.walls)
     for (std::size_t a = 0; a < 3; ++a) {
       words.push_back(std::bit_cast<std::uint64_t>(wall.offset[a]));

@@ -73,7 +73,7 @@ inline constexpr auto reset_keys = std::to_array<Key>({
      required},
     {"upper", Vector{dimension::length}, "Its other corner.", at<&Reset::upper>, required},
     {"temperature", Number{dimension::temperature, not_negative}, "Of fluids and solids in it.",
-     at<&Reset::temperature>, Default{"as it is; one of the three is required"}},
+     at<&Reset::temperature>, Default{"as it is; one of the four is required"}},
     {"gas_content",
      Number{dimension::none,
             {.least = 0, .most = 1, .below_most = true, .is = "it is a mass per mass of liquid,"}},
@@ -83,6 +83,11 @@ inline constexpr auto reset_keys = std::to_array<Key>({
      "Not of ideal "
      "gases.",
      at<&Reset::pressure>, Default{"as it is"}},
+    {"inflow", curve_of_time,
+     "What comes into the fluids in it, together [kg/s; in two dimensions of a metre of depth], at constant "
+     "volume, as from a pump; "
+     "0 or more, straight between times. Not of ideal gases.",
+     Default{"none"}},
     {"until", Number{dimension::time, positive}, "Then the box does nothing any more.", at<&Reset::until>,
      Default{"the end"}},
     {"rise_time", Number{dimension::time, not_negative},
@@ -90,7 +95,8 @@ inline constexpr auto reset_keys = std::to_array<Key>({
 });
 inline constexpr Table<Reset> reset{
     {"reset", true,
-     "A box in which particles have another temperature, gas content or pressure after each step: what flows "
+     "A box in which particles have another temperature, gas content or pressure after each step, or more "
+     "mass: what flows "
      "along a "
      "period comes in as new, a chamber feeds what leaves it. Velocity stays; a budget counts what comes in.",
      reset_keys}};

@@ -43,7 +43,9 @@ inline constexpr auto becomes_keys = std::to_array<Key>({
      "phi in degrees.", at<&Transition::failure, &FailureLimits::friction_angle>},
     {"keeps", Words{conserved_words},
      "Of what fails: its mass, where the fluid is as dense as it was; or its volume, and the budget has what "
-     "it lost.",
+     "it lost; both at the pressure of the fluid beside it. \"both\": its mass and its volume, of a liquid "
+     "as dense, "
+     "and the pressure follows: tips suck, as the space that opens is filled by what flows in.",
      at<&Transition::keeps>},
     {"hold", Number{dimension::time, not_negative},
      "For so long without a break, against noise. The first row of the table that holds counts alone.",
@@ -51,7 +53,9 @@ inline constexpr auto becomes_keys = std::to_array<Key>({
     {"average", Number{dimension::time, not_negative},
      "The limit is one of the running mean over so long, exponential, anew in each group; rows of one table "
      "that have "
-     "one of the same quantity have the same.",
+     "one of the same quantity have the same. Of failure: a crack that is to grow slowly wants some 20 "
+     "spacings over the speed "
+     "of sound, or each particle that fails sends a wave that breaks the next ones.",
      at<&Transition::average>},
 });
 inline constexpr Table<Transition> becomes{

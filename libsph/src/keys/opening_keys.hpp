@@ -5,10 +5,6 @@
 
 namespace sph::keys {
 
-inline constexpr Special curve_of_time{
-    "a value, or an array of times and values", R"([["0 s", 1.0], ["2 s", 3.0]])",
-    R"({"type": ["number", "string", "array"], "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["number", "string"]}}})"};
-
 inline constexpr auto inlet_keys = std::to_array<Key>({
     {"lower", Vector{dimension::length}, "A corner of the box: lower <= x < upper.", at<&Inlet::lower>,
      required},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "keys/scene_resolve.hpp"
+#include "keys/time_curve.hpp"
 #include "sph/laws/eos/law.hpp"
 
 namespace sph {
@@ -50,20 +51,27 @@ void read_domain(const DomainReader& table, Scene& scene) {
 }
 
 void read_resets(const TopReader& top, Scene& scene) {
+  using Name = Reader<keys::reset>::Name<>;
   for (const auto& table : top.tables<keys::reset>()) {
     Reset box;
     table.read(box);
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
       if (!(box.lower[a] < box.upper[a]))
         table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
-    if (!box.temperature && !box.gas_content && !box.pressure)
-      table.fail_missing("temperature", "give it, gas_content or pressure");
+    box.inflow = read_curve(table.value("inflow"), dimension::mass_rate);
+    for (const auto& [t, rate] : box.inflow)
+      if (!(rate >= 0)) table.fail("inflow", fmt::format("is {} kg/s", rate), "it must be 0 or more");
+    if (!box.temperature && !box.gas_content && !box.pressure && box.inflow.empty())
+      table.fail_missing("temperature", "give it, gas_content, pressure or inflow");
+    table.not_both("pressure", "inflow");
     if (box.rise_time > 0 && !box.pressure)
       table.fail("rise_time", fmt::format("is {} s", box.rise_time), "it is of a pressure: give that");
-    table.only_if(scene.has_kind(GroupKind::fluid) && !has_eos(scene, EosKind::ideal_gas), "pressure",
-                  "it is of liquids and bubbly fluids");
-    table.only_if(!scene.is_mixture() && scene.terms.exchange.motion, "pressure",
-                  "it is of fluids that move, without grains");
+    for (const Name& key : {Name("pressure"), Name("inflow")}) {
+      table.only_if(scene.has_kind(GroupKind::fluid) && !has_eos(scene, EosKind::ideal_gas), key,
+                    "it is of liquids and bubbly fluids");
+      table.only_if(!scene.is_mixture() && scene.terms.exchange.motion, key,
+                    "it is of fluids that move, without grains");
+    }
     table.only_if(scene.has_heat(), "temperature", "there is no heat: give group.heat");
     table.only_if(has_eos(scene, EosKind::bubbly), "gas_content", "no group has gas: set eos = \"bubbly\"");
     if (box.gas_content) check_content(table, *box.gas_content, scene.groups);

@@ -125,14 +125,13 @@ void check_failure(const BecomesReader& row, const Transition& change, const Gro
   if (change.failure.friction_angle != 0 && !change.failure.cohesion)
     row.fail("friction_angle", "is given without cohesion", "give that too");
   if (!change.of_failure()) {
-    if (change.keeps == Conserved::volume)
-      row.fail("keeps", "is \"volume\"", "what does not fail keeps its mass: remove it");
+    if (change.keeps != Conserved::mass)
+      row.fail("keeps", change.keeps == Conserved::volume ? "is \"volume\"" : "is \"both\"",
+               "what does not fail keeps its mass: remove it");
     return;
   }
   if (change.hold > 0)
     row.fail("hold", fmt::format("is {} s", change.hold), "what fails does so at once: remove it");
-  if (change.average > 0)
-    row.fail("average", fmt::format("is {} s", change.average), "failure knows no mean: remove it");
   if (change.failure.toughness && change.failure.tensile_strength)
     row.fail("tensile_strength", "is given with toughness", "give one of them");
   for (const Transition& other : group.becomes)
@@ -143,6 +142,11 @@ void check_failure(const BecomesReader& row, const Transition& change, const Gro
     row.fail(
         "group", fmt::format("is of {} kg/m3, and what fails of {}", to.density, group.density),
         "with its mass it would have another volume at once: give keeps = \"volume\", or a fluid as dense");
+  if (change.keeps == Conserved::both && (to.density != group.density || to.eos.law->kind == EosKind::bubbly))
+    row.fail(
+        "keeps",
+        fmt::format("is \"both\" where a fluid of {} kg/m3 comes of {} kg/m3", to.density, group.density),
+        "its pressure would jump: give keeps = \"volume\", or a liquid as dense");
 }
 
 void read_becomes(const GroupReader& table, std::size_t self, std::vector<Group>& groups) {

@@ -7,6 +7,7 @@
 
 #include "keys/scene_resolve.hpp"
 #include "keys/scene_writer.hpp"
+#include "keys/time_curve.hpp"
 
 namespace sph {
 namespace {
@@ -15,25 +16,6 @@ constexpr std::array axis_names{"x", "y", "z"};
 constexpr double settles_in = 1000;  // h / c: a pulse of 40 h leaves all but 4 %
 
 std::string face_name(std::size_t face) { return fmt::format("{}{}", axis_names[face / 2], face % 2); }
-
-/// A value, or times and values.
-TimeCurve read_curve(const std::optional<KeyValue>& value, Dimension dim) {
-  if (!value) return {};
-  const toml_tree::Array* points = value->node().array();
-  if (points == nullptr) return {{0, value->number_in(value->node(), dim)}};
-  TimeCurve out;
-  for (const toml_tree::Node& point : *points) {
-    const toml_tree::Array* pair = point.array();
-    if (pair == nullptr || pair->size() != 2)
-      value->fail("has a point that is no pair", "give [[time, value], ...]");
-    out.push_back({value->number_in((*pair)[0], dimension::time), value->number_in((*pair)[1], dim)});
-    if (out.size() > 1 && !(out[out.size() - 2][0] < out.back()[0]))
-      value->fail(fmt::format("goes from {} s to {} s", out[out.size() - 2][0], out.back()[0]),
-                  "times must ascend");
-  }
-  if (out.empty()) value->fail("is an empty array", "give [[time, value], ...]");
-  return out;
-}
 
 /// Of a box whose fluid is led along its direction.
 template <class Table, class Box>
@@ -180,20 +162,14 @@ void write_leaves(SceneWriter& out, const Domain& domain) {
 }
 
 void write_openings(SceneWriter& out, const Domain& domain) {
-  const auto curve = [&](std::string_view key, const TimeCurve& points) {
-    std::vector<std::string> texts;
-    for (const auto& [t, value] : points)
-      texts.push_back(fmt::format("[{}, {}]", SceneWriter::real(t), SceneWriter::real(value)));
-    if (!points.empty()) out.raw(key, fmt::format("[{}]", fmt::join(texts, ", ")));
-  };
   for (const Inlet& inlet : domain.openings.inlets) {
     out.table(keys::inlet, inlet);
-    curve("velocity", inlet.velocity);
-    curve("pressure", inlet.pressure);
+    write_curve(out, "velocity", inlet.velocity);
+    write_curve(out, "pressure", inlet.pressure);
   }
   for (const Outlet& outlet : domain.openings.outlets) {
     out.table(keys::outlet, outlet);
-    curve("pressure", outlet.pressure);
+    write_curve(out, "pressure", outlet.pressure);
   }
 }
 

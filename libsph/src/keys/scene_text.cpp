@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "keys/scene_writer.hpp"
+#include "keys/time_curve.hpp"
 #include "sph/laws/eos/law.hpp"
 #include "sph/terms/added_term.hpp"
 
@@ -95,7 +96,10 @@ std::string to_toml(const Scene& scene) {
       write_group(out, g, scene.dim);
   if (scene.has_grains()) write_walls(out, scene);
   if (scene.has_melt()) write_melt(out, scene.domain.melt);
-  for (const Reset& box : scene.domain.resets) out.table(keys::reset, box);
+  for (const Reset& box : scene.domain.resets) {
+    out.table(keys::reset, box);
+    write_curve(out, "inflow", box.inflow);
+  }
   write_openings(out, scene.domain);
   write_start(out, scene);
   if (scene.has_matter()) write_terms(out, scene.terms);

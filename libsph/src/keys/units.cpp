@@ -81,6 +81,7 @@ constexpr std::array named{
     NamedDimension{dimension::viscosity, "a viscosity", "Pa s"},
     NamedDimension{dimension::specific_energy, "an energy per mass", "m2/s2"},
     NamedDimension{mass, "a mass", "kg"},
+    NamedDimension{dimension::mass_rate, "a mass per time", "kg/s"},
     NamedDimension{dimension::force, "a force", "N"},
     NamedDimension{dimension::stiffness, "a stiffness", "N/m"},
     NamedDimension{dimension::speed_per_force, "a speed per force", "m/s/N"},

@@ -53,8 +53,8 @@ inline constexpr auto pressure_weights_words =
     std::to_array<Word>({{"volume", PressureWeights::volume}, {"density", PressureWeights::density}});
 inline constexpr auto tension_form_words =
     std::to_array<Word>({{"stress", TensionForm::stress}, {"jump", TensionForm::jump}});
-inline constexpr auto conserved_words =
-    std::to_array<Word>({{"mass", Conserved::mass}, {"volume", Conserved::volume}});
+inline constexpr auto conserved_words = std::to_array<Word>(
+    {{"mass", Conserved::mass}, {"volume", Conserved::volume}, {"both", Conserved::both}});
 inline constexpr auto viscosity_form_words =
     std::to_array<Word>({{"laplacian", ViscosityForm::laplacian}, {"symmetric", ViscosityForm::symmetric}});
 inline constexpr auto viscosity_law_words =

@@ -78,6 +78,12 @@ double tension_across(const CrackPlane& plane, const SymmetricTensor& s) {
   return dot(plane.normal, traction(s, plane.normal));
 }
 
+double strain_across(const CrackPlane& plane, const SymmetricTensor& deviator, double pressure,
+                     const Group& rock) {
+  return tension_across(plane, deviator) / (2 * rock.solid.shear_modulus) -
+         pressure / (3 * rock.eos.bulk_modulus);
+}
+
 CrackPlane turned(const CrackPlane& plane, const SymmetricTensor& s, double inside) {
   const Vector t = traction(s, plane.normal);
   const double across = dot(plane.normal, t) + inside;

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "sph/laws/principal_stress.hpp"
+#include "sph/scene/scene.hpp"
 
 namespace sph {
 
@@ -28,6 +29,9 @@ struct CrackPlane {
 [[nodiscard]] CrackPlane plane_of_tension(const SymmetricTensor& stress, std::span<const double> along);
 /// m.s m
 [[nodiscard]] double tension_across(const CrackPlane& plane, const SymmetricTensor& stress);
+/// By Hooke's law, of the deviator and what the pressure is more than at the start.
+[[nodiscard]] double strain_across(const CrackPlane& plane, const SymmetricTensor& deviator, double pressure,
+                                   const Group& rock);
 /// So that it is not sheared; `inside`: pressure of what is in the crack.
 [[nodiscard]] CrackPlane turned(const CrackPlane& plane, const SymmetricTensor& stress, double inside);
 /// As a crack that came along `plane` goes on where it would follow `here`.

@@ -27,6 +27,7 @@ constexpr double crumbles = 1e30;     ///< overload of what no longer spans the 
 struct Limits {
   double tension = 0;          ///< s [Pa]
   double shear = 0, sine = 0;  ///< c cos phi [Pa], sin phi
+  double average = 0;          ///< [s]
   bool fails = false;
 };
 
@@ -35,7 +36,7 @@ Limits limits_of(const Group& g, double spacing) {
   if (row == g.becomes.end()) return {};
   const FailureLimits& f = row->failure;
   const double angle = f.friction_angle * (std::numbers::pi / 180);
-  Limits out{.sine = exact_sin(angle), .fails = true};
+  Limits out{.sine = exact_sin(angle), .average = row->average, .fails = true};
   out.tension = f.toughness ? tip_stress * *f.toughness / std::sqrt(spacing) : f.tensile_strength.value_or(0);
   out.shear = f.cohesion ? *f.cohesion * exact_cos(angle) : 0.0;
   return out;
@@ -85,28 +86,26 @@ struct Failures {
       for (std::size_t k = 0; k < planes; ++k) p.get<Field::crack_planes>()[i * planes + k] += s[2 + d + k];
       if (changed) close(p, i);
       if (fails) return follow(p, i);
-      beyond = p.get<Field::bonds>()[i] == 1 ? crumbles : overload_of(p, i, own);
+      const double now = p.get<Field::bonds>()[i] == 1 ? crumbles : overload_of(p, i, own);
+      if (own.average > 0 && now < crumbles)
+        beyond += std::fmin(step.global.dt / own.average, 1.0) * (now - beyond);
+      else
+        beyond = now;
     });
   }
 
-  /// By Hooke's law the strain across the crack is s_nn / 2 mu - p / 3 K, s the deviator.
   void close(const View<reads, writes>& p, std::size_t i) const {
-    const auto d = static_cast<std::size_t>(p.dim()), n = d * (d + 1) / 2;
-    const Group& g = constants->scene->groups[p.get<Field::group>()[i]];
+    const auto d = static_cast<std::size_t>(p.dim());
     const double* crack = p.get<Field::crack>() + i * d;
-    const double* s = p.get<Field::stress>() + i * n;
-    const double before = p.get<Field::prestress>() != nullptr ? p.get<Field::prestress>()[i] : 0.0;
-    double across = 0, square = 0;
-    for (std::size_t a = 0; a < d; ++a) {
-      square += crack[a] * crack[a];
-      for (std::size_t b = 0; b < d; ++b)
-        across +=
-            crack[a] * crack[b] *
-            s[symmetric_index(static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b)), p.dim())];
-    }
+    double square = 0;
+    for (std::size_t a = 0; a < d; ++a) square += crack[a] * crack[a];
     if (!(square > 0)) return;
-    const double strain = across / square / (2 * g.solid.shear_modulus) -
-                          (p.get<Field::pressure>()[i] - before) / (3 * g.eos.bulk_modulus);
+    CrackPlane plane;
+    for (std::size_t a = 0; a < d; ++a) plane.normal[a] = crack[a] / std::sqrt(square);
+    const double before = p.get<Field::prestress>() != nullptr ? p.get<Field::prestress>()[i] : 0.0;
+    const double strain = strain_across(
+        plane, in_space(p.get<Field::stress>() + i * (d * (d + 1) / 2), p.dim()),
+        p.get<Field::pressure>()[i] - before, constants->scene->groups[p.get<Field::group>()[i]]);
     double& closing = p.get<Field::crack_closing>()[i];
     closing = std::max(closing, std::min(-strain, most_closing));
   }

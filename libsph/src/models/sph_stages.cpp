@@ -6,7 +6,6 @@
 #include "sph/models/exsolution.hpp"
 #include "sph/models/failure.hpp"
 #include "sph/models/models.hpp"
-#include "sph/models/resets.hpp"
 #include "sph/models/transitions.hpp"
 #include "sph/models/viscosities.hpp"
 #include "sph/terms/shifting.hpp"
@@ -66,7 +65,7 @@ void add_end_of_step(Builder& b, SphModels& m) {
   if (exsolves_slowly(s)) add_exsolution(b);
   if (has_failure(s)) add_failure(b);
   if (has_transitions(s)) add_transitions(b);
-  if (!s.domain.resets.empty()) add_resets(b);
+  if (m.resets) m.resets->add_to(b);
   if (m.openings) m.openings->add_end_to(b);
   if (m.shifting) m.shifting->add_motion_to(b);
   if (has_eos(b.scene(), EosKind::ideal_gas)) add_heat(b);
@@ -88,7 +87,7 @@ void add_motion(Builder& b, SphModels& m) {
   add_end_of_step(b, m);
 }
 
-void add_still_matter(Builder& b, const SphModels& m) {
+void add_still_matter(Builder& b, SphModels& m) {
   if (has_warm_walls(b.scene()) || has_open_walls(b.scene())) {
     add_wall_share(b);
     add_wall_slopes(b);
@@ -97,7 +96,7 @@ void add_still_matter(Builder& b, const SphModels& m) {
   add_exchanges(b, m);
   if (exsolves_slowly(b.scene())) add_exsolution(b);
   if (has_transitions(b.scene())) add_transitions(b);
-  if (!b.scene().domain.resets.empty()) add_resets(b);
+  if (m.resets) m.resets->add_to(b);
   if (b.scene().output.average_time > 0) add_averages(b);
 }
 
@@ -109,6 +108,7 @@ SphModels::SphModels(std::size_t set, const Builder& b) {
   if (s.has_gas_flow()) degassing.emplace(set, b.constants(), b.materials());
   if (s.has_water_diffusion()) water.emplace(set, b.constants(), b.materials());
   if (s.has_heat()) heat.emplace(set, b.constants());
+  if (!s.domain.resets.empty()) resets.emplace(set, b.constants(), b.materials());
   if (has_rigid_bodies(s) && s.terms.exchange.motion) rigid.emplace(set, b.constants(), b.body_forces());
   if (s.domain.openings.any()) openings.emplace(set, b.constants(), b.materials());
 }
@@ -119,6 +119,7 @@ std::vector<Model*> SphModels::all() {
   if (degassing) out.push_back(&*degassing);
   if (water) out.push_back(&*water);
   if (heat) out.push_back(&*heat);
+  if (resets) out.push_back(&*resets);
   return out;
 }
 

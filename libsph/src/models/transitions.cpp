@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "models/crack_plane.hpp"
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
 #include "sph/laws/eos/bubbly.hpp"
@@ -36,9 +37,9 @@ double elastic_energy(const Group& g, const double* s, std::size_t d) {
 }
 
 struct Transitions {
-  static constexpr FieldSet reads =
-      FaultView::reads | RangeView::reads | Materials::reads |
-      FieldSet{Field::enthalpy, Field::failing, Field::wet_pressure, Field::strain_energy};
+  static constexpr FieldSet reads = FaultView::reads | RangeView::reads | Materials::reads |
+                                    FieldSet{Field::enthalpy,      Field::failing, Field::wet_pressure,
+                                             Field::strain_energy, Field::crack,   Field::prestress};
   static constexpr FieldSet writes = Materials::writes |
                                      FieldSet{Field::plastic_volume, Field::plastic_strain, Field::opening} |
                                      FieldSet{Field::group,
@@ -68,7 +69,7 @@ struct Transitions {
     for_movers(step.ranges, [&](std::size_t i) {
       const std::vector<Transition>& table = constants->scene->groups[p.get<Field::group>()[i]].becomes;
       for (const Transition& row : table) {
-        if (!(row.average > 0) || &row != &first_mean(table, row)) continue;
+        if (!row.of_mean() || &row != &first_mean(table, row)) continue;
         row.of_temperature()
             ? follow(p.get<Field::temperature_mean>()[i], t[i], row.average, step.global)
             : follow(p.get<Field::void_fraction_mean>()[i], psi[i], row.average, step.global);
@@ -86,7 +87,7 @@ struct Transitions {
   /// The first row with a mean of the same quantity.
   static const Transition& first_mean(const std::vector<Transition>& table, const Transition& row) {
     return *std::ranges::find_if(table, [&](const Transition& other) {
-      return other.average > 0 && other.of_temperature() == row.of_temperature();
+      return other.of_mean() && other.of_temperature() == row.of_temperature();
     });
   }
 
@@ -125,15 +126,18 @@ struct Transitions {
                       gas[i], now.name));
       return;
     }
-    if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, mass / rho);
+    const double volume = mass / rho;
+    if (is_bonded(old) && row.keeps == Conserved::both) rho /= 1 + widening(p, i, old);
+    if (double* stress = p.get<Field::stress>()) release(p, i, old, now, stress, volume);
     double* opened = p.get<Field::plastic_volume>();
     // What fails has the pressure of the fluid beside it, or that it was under itself.
+    const bool jumps = is_bonded(old) && row.keeps == Conserved::both;
     if (is_bonded(old)) {
       double& pressure = p.get<Field::pressure>()[i];
       const double wet = p.get<Field::wet_pressure>()[i];
       pressure = wet != 0 ? wet : std::fmax(pressure, 0.0);
     }
-    if (is_bonded(old) || !same_state(old, now) || (opened != nullptr && opened[i] != 0)) {
+    if (!jumps && (is_bonded(old) || !same_state(old, now) || (opened != nullptr && opened[i] != 0))) {
       const double* gas = p.get<Field::gas_content>();
       const double before = rho;
       rho = materials->density_of(p, i, now, gas != nullptr ? gas[i] : 0.0, step);
@@ -156,6 +160,18 @@ struct Transitions {
       p.get<Field::temperature>()[i] = temperature(now.heat.material, h[i]);
     if (double* mean = p.get<Field::void_fraction_mean>()) mean[i] = p.get<Field::void_fraction>()[i];
     if (double* mean = p.get<Field::temperature_mean>()) mean[i] = p.get<Field::temperature>()[i];
+  }
+
+  /// Of what fails: the faces beside it, half a spacing of rock each, are as strained across the crack as it is itself, and come
+  /// back once it bears nothing: the space that it leaves is so much wider.
+  static double widening(const Rows& p, std::size_t i, const Group& rock) {
+    const auto d = static_cast<std::size_t>(p.dim());
+    CrackPlane plane;
+    std::copy_n(p.get<Field::crack>() + i * d, d, plane.normal.begin());
+    const double before = p.get<Field::prestress>() != nullptr ? p.get<Field::prestress>()[i] : 0.0;
+    return std::fmax(0.0,
+                     strain_across(plane, in_space(p.get<Field::stress>() + i * (d * (d + 1) / 2), p.dim()),
+                                   p.get<Field::pressure>()[i] - before, rock));
   }
 
   /// Gives a body's particle, without gas and heat, so many times its mass.
@@ -196,7 +212,7 @@ void add_transitions(Builder& b) {
   if (waits) b.add_fields({Field::waiting_for, Field::waiting_time});
   for (const Group& g : b.scene().groups)
     for (const Transition& row : g.becomes)
-      if (row.average > 0)
+      if (row.of_mean())
         b.add_fields({row.of_temperature() ? Field::temperature_mean : Field::void_fraction_mean});
   for (const Group& g : b.scene().groups)
     if (std::ranges::any_of(g.becomes, [](const Transition& row) { return row.keeps == Conserved::volume; }))

@@ -10,6 +10,7 @@
 #include "pairs/for_rows.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/wall_pressures.hpp"
+#include "sph/terms/crack.hpp"
 
 namespace sph {
 namespace {
@@ -93,7 +94,9 @@ struct BondForces {
 
 void add_flow_onto_solids(Builder& b) {
   b.add_fields({Field::flux});
-  b.add_sums("flow onto solids", {term<FlowOntoSolids>}, Builder::Rows::all);
+  b.add_sums("flow onto solids",
+             {has_failure(b.scene()) ? term<CrackedFlowOntoSolids> : term<FlowOntoSolids>},
+             Builder::Rows::all);
   b.add_update("fluxes", Fluxes{&b.scene(), b.constants().row_scale.inverse_volume});
 }
 

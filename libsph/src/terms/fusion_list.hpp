@@ -103,6 +103,7 @@ struct FusionList {
              fuse<Quintic, CrackedDeformation, CrackedBodyContactEnergy, CrackSums>(),
              fuse<Quintic, WettedExtrapolation>(),
              fuse<Quintic, FlowOntoSolids>(),
+             fuse<Quintic, CrackedFlowOntoSolids>(),
              fuse<Quintic, ClampSums>(),
              fuse<Quintic, ClampReaction>(),
              fuse<Quintic, BodyContact, BodyContactEnergy>(),

@@ -1,11 +1,7 @@
 """Draws runs of two-dimensional scenes: particles with velocities, principal stresses, pressure, time series.
 
-    plot DIR [DIR ...] [--out DIR] [--time T] [--dynamic] [--average time|space]
-                       [--draw particles,pressure,strip,series]
-
-DIR is the folder of a run (snapshot_<step>.h5 and series.csv). Writes into the first DIR, or into --out,
-and prints the path of each picture. With several runs their names go before the pictures'; the time series
-of all are on one sheet. Without --draw the series are left out where the scene follows no particle.
+With several runs their names go before the pictures'; the time series of all are on one sheet. They are left out where the
+scene follows no particle, unless they are asked for.
 """
 
 import warnings
@@ -14,14 +10,15 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgba
 from matplotlib.lines import Line2D
+from matplotlib.transforms import ScaledTranslation
 
 from ..errors import Error
-from .command import time_argument
 from .flat_run import Run
 from .style import (COMPRESSION, GROUPS, RUNS, SPRAY, TENSION, WALL, circles, nice, plt, text_with_unit, time_text,
                     unit_for)
 
 PICTURES = ("particles", "pressure", "strip", "series")
+OPTIONS = ("time", "dynamic", "average")
 
 
 # ---- pieces -------------------------------------------------------------------------------------------------
@@ -35,11 +32,12 @@ def colours_of(run):
 
 
 def view_of(run, snapshots):
-    """The container, or all particles where there is none, and what rises above it; x and y limits."""
-    walls = snapshots[0].where(kind="wall")
-    frame = snapshots[0]["position"][walls] if walls.any() else snapshots[0]["position"]
+    """All particles of the start, and what rises above them; x and y limits."""
+    frame = run.first["position"]
+    if not len(frame):
+        raise Error(f"{run.first.path}: there are no particles in it")
     low, high = frame.min(axis=0), frame.max(axis=0)
-    top = max(np.quantile(s["position"][~s.where(kind="wall"), 1], 0.995) for s in snapshots)
+    top = max(np.quantile(np.append(s["position"][~s.where(kind="wall"), 1], low[1]), 0.995) for s in snapshots)
     highest = high[1] + 0.25 * (high[1] - low[1])
     high[1] = max(high[1], min(top, highest))
     return np.array([low - 1.5 * run.spacing, high + 1.5 * run.spacing])
@@ -62,8 +60,9 @@ def panels(view, number, width, below):
 
 def head(figure, text):
     """Over the left edge of the first panel."""
+    points = 72 * (figure.get_figwidth() - 0.8)
     figure.axes[0].annotate(text, (0, 1), (0, 38), xycoords="axes fraction", textcoords="offset points",
-                            va="center", fontsize=13, weight="bold")
+                            va="center", fontsize=min(13, points / 0.62 / len(text)), weight="bold")
 
 
 def note(axes, text):
@@ -96,16 +95,28 @@ def group_handles(run, counts=None):
 BELOW = {"loc": "upper center", "handletextpad": 0.4, "columnspacing": 1.4}
 
 
+def legend_below(axes, handles, ncols):
+    """Under the name of the axis, however high the panel is."""
+    down = ScaledTranslation(0, -28 / 72, axes.figure.dpi_scale_trans)
+    axes.legend(handles=handles, ncols=ncols, bbox_to_anchor=(0.5, 0), bbox_transform=axes.transAxes + down, **BELOW)
+
+
 # ---- pictures -----------------------------------------------------------------------------------------------
+
+
+def quantile(values, share):
+    """Of what is a number; 0 of nothing."""
+    values = values[np.isfinite(values)]
+    return np.quantile(values, share) if len(values) else 0.0
 
 
 def draw_velocities(axes, run, snapshot):
     """Sticks start at the centres and taper towards where the particle goes."""
     circles(axes, snapshot["position"], snapshot.diameter, facecolors=np.array(colours_of(run))[snapshot["group"]])
-    movers = ~snapshot.where(kind="wall")
+    movers = ~snapshot.where(kind="wall") & np.isfinite(snapshot["velocity"]).all(axis=1)
     position, velocity = snapshot["position"][movers], snapshot["velocity"][movers]
     speed = np.hypot(*velocity.T)
-    fast = np.quantile(speed, 0.98) if speed.any() else 1.0
+    fast = next((fast for fast in (quantile(speed, 0.98), speed.max(initial=0)) if fast > 0), 1.0)
     metres = 3 * run.spacing / fast  # of stick per m/s
     across = np.stack([-velocity[:, 1], velocity[:, 0]], axis=1) / np.maximum(speed, 1e-300)[:, None]
     across *= 0.11 * run.spacing
@@ -118,9 +129,9 @@ def draw_stresses(axes, run, snapshot, dynamic):
     """Two lines along the principal axes; none longer than a spacing, so that crosses do not overlap."""
     greater, smaller, angle = snapshot.principal_stresses(run.at_rest(snapshot) if dynamic else None)
     tint = np.array([to_rgba(c, 0.3) for c in colours_of(run)])
-    tint[np.bincount(snapshot["group"]).argmax(), 3] = 0  # what fills the container stays white
+    tint[np.bincount(snapshot["group"], minlength=1).argmax(), 3] = 0  # what fills the container stays white
     circles(axes, snapshot["position"], snapshot.diameter, facecolors=tint[snapshot["group"]])
-    largest = np.quantile(np.maximum(np.abs(greater), np.abs(smaller)), 0.99)
+    largest = quantile(np.maximum(np.abs(greater), np.abs(smaller)), 0.99)
     per_pascal = run.spacing / largest if largest > 0 else 0.0
     for value, turn in ((greater, angle), (smaller, angle + np.pi / 2)):
         length = np.minimum(np.abs(value) * per_pascal, run.spacing)
@@ -131,7 +142,7 @@ def draw_stresses(axes, run, snapshot, dynamic):
     scale_bar(axes, bar * per_pascal, text_with_unit(bar, "Pa"))
     labels = ("above hydrostatic", "below") if dynamic else ("compression", "tension")
     handles = [Line2D([], [], color=c, label=label) for c, label in zip((COMPRESSION, TENSION), labels)]
-    axes.legend(handles=handles, ncols=2, bbox_to_anchor=(0.5, -0.06), **BELOW)
+    legend_below(axes, handles, 2)
     cut = int(np.sum((np.abs(greater) > largest) | (np.abs(smaller) > largest)))
     return f"{cut} larger ones cut at {text_with_unit(float(f'{largest:.2g}'), 'Pa')}" if cut else ""
 
@@ -141,7 +152,7 @@ def draw_particles(run, snapshot, dynamic):
     figure, (left, right) = panels(view, 2, 5.0, 0.95)
     draw_velocities(left, run, snapshot)
     counts = np.bincount(snapshot["group"], minlength=len(run.names))
-    left.legend(handles=group_handles(run, counts), ncols=4, bbox_to_anchor=(0.5, -0.06), **BELOW)
+    legend_below(left, group_handles(run, counts), 4)
     left.set_title("Particles and velocities")
     note(left, beyond(snapshot, view))
     note(right, draw_stresses(right, run, snapshot, dynamic))
@@ -168,14 +179,14 @@ def draw_map(figure, axes, run, snapshot, values, limits, colours, label):
 def pressure_maps(run, snapshot):
     """Title, values, limits, colours and label of what is drawn of the pressure."""
     movers = ~snapshot.where(kind="wall")
-    low, high = np.quantile(snapshot["pressure"][movers], (0.002, 0.998))
+    low, high = (quantile(snapshot["pressure"][movers], share) for share in (0.002, 0.998))
     size, unit = unit_for(max(abs(low), abs(high)), "Pa")
     maps = [("Pressure", snapshot["pressure"] / size, (min(0, low / size), high / size if high > max(low, 0) else 1.0),
              "viridis", f"p less surface pressure ({unit})")]
     at_rest = run.at_rest(snapshot)
     if at_rest is not None:
         excess = snapshot["pressure"] - at_rest
-        reach = np.quantile(np.abs(excess[movers]), 0.98)
+        reach = quantile(np.abs(excess[movers]), 0.98)
         size, unit = unit_for(reach, "Pa")
         reach = reach / size if reach > 0 else 1.0
         maps.append(("Pressure less hydrostatic", excess / size, (-reach, reach), "RdBu_r",
@@ -263,7 +274,7 @@ def draw_series(runs):
             handles.append(Line2D([], [], color=colour, linestyle=":", label=f"first fragmentation, {broke:.1f} s"))
         for axes, (quantity, _, unit) in zip(grid.flat, quantities):
             values = tracked[quantity] / unit
-            axes.plot(table["t"], values, color=colour, linewidth=0.9)
+            axes.plot(table["t"], values, color=colour, linewidth=0.9, marker="o" if len(values) < 3 else None)
             if broke is not None:
                 axes.axvline(broke, color=colour, linewidth=1, linestyle=":")
             ends[axes].append((table["t"][-1], values[-1]))
@@ -285,16 +296,6 @@ def draw_series(runs):
     figure.text(0.01, 0.975, "Height, velocity, density and pressure of the tracked particle", va="center",
                 fontsize=13, weight="bold")
     return figure
-
-
-# ---- command line -------------------------------------------------------------------------------------------
-
-
-def more_arguments(parser):
-    time_argument(parser, "draw the snapshot nearest to T seconds (default: last)")
-    parser.add_argument("--dynamic", action="store_true", help="stresses: leave the hydrostatic pressure out")
-    parser.add_argument("--average", choices=("time", "space"),
-                        help="velocity and pressure: draw the averages of output.average_time or average_space")
 
 
 def pictures(runs, given):

@@ -74,6 +74,8 @@ class Run(AnyRun):
         if height is None:
             return None
         matter = ~self.first.where(kind="wall")
+        if not matter.any():
+            return None
         surface, filling = height[matter].max() + self.spacing / 2, np.bincount(self.first["group"][matter]).argmax()
         return pressure_at_rest(self.scene, snapshot["position"], surface, filling)
 

@@ -1,11 +1,9 @@
 """Draws runs with melts: their cells in a vertical plane, grains where they cross it, and time series.
 
-    plot DIR [DIR ...] [--out DIR] [--time T] [--draw plane,series]
-
-The columns of the picture of the plane are times, the start and the end among them (--time: the snapshot nearest to T
-seconds alone), its rows the temperature with isotherms and the share of the second melt with the interface, as far as the
+The columns of the picture of the plane are times, the start and the end among them (or the snapshot nearest to
+one time), its rows the temperature with isotherms and the share of the second melt with the interface, as far as the
 scene has them, else the speed. Arrows are the flow. In three dimensions the plane is the layer of cells nearest to the middle,
-along the longer horizontal axis. Without --draw the series are left out where the scene has no monitor of melts.
+along the longer horizontal axis. The series are left out where the scene has no monitor of melts, unless they are asked for.
 """
 
 import numpy as np
@@ -14,11 +12,11 @@ from matplotlib.ticker import MaxNLocator
 
 from ..errors import Error
 from . import style
-from .command import time_argument
 from .melt_run import Run
 from .style import nice, plt
 
 PICTURES = ("plane", "series")
+OPTIONS = ("time",)
 TIMES = 3  # columns of a picture
 ARROWS = 18  # along the longer side
 
@@ -89,7 +87,7 @@ def draw_grains(axes, run, snapshot, metre, inch):
     if not len(place):
         return
     points = 72 * np.median(diameter) / metre / inch
-    fills = {k: colour for k, colour in zip(run.grains, ("#e8e8e8", *style.GROUPS))}
+    fills = dict(zip(run.grains, ("#e8e8e8", *style.GROUPS) * len(run.grains)))
     style.circles(axes, place / metre, diameter / metre, facecolors=[fills[k] for k in group], edgecolors="#222222",
                     linewidths=min(0.6, 0.08 * points))
 
@@ -163,10 +161,6 @@ def draw_series(run):
     all_axes[-1, 0].set_xlabel(f"time t ({unit})")
     figure.suptitle(run.title, x=0.01, ha="left", fontsize=13, weight="bold")
     return figure
-
-
-def more_arguments(parser):
-    time_argument(parser, "draw the snapshot nearest to T seconds alone")
 
 
 def pictures(runs, given):

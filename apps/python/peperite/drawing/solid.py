@@ -1,8 +1,6 @@
 """Draws runs in three dimensions: fluids and solids in a slice through their middle, grains from the side.
 
-    plot DIR [DIR ...] [--out DIR] [--time T] [--draw slice|side]
-
-Rows of the picture are times, the start and the end among them (--time: the snapshot nearest to T seconds alone).
+Rows of the picture are times, the start and the end among them (or the snapshot nearest to one time).
 Columns are the speed and, of fluids and solids, the pressure, of grains their displacement since the first snapshot, of
 grains in a fluid their share of the volume.
 The slice holds the particles within a spacing of the middle, those nearest to it on top.
@@ -13,10 +11,10 @@ import numpy as np
 from ..errors import Error
 from ..run import Run as AnyRun
 from . import style
-from .command import time_argument
 from .style import circles, plt
 
 PICTURES = ("slice", "side")
+OPTIONS = ("time",)
 TIMES = 3  # rows of a picture
 
 
@@ -119,10 +117,6 @@ def draw(run, snapshots):
     where = "from the side" if run.of_grains else f"slice at {view.name(view.depth)} = {view.middle:.4g} m"
     figure.suptitle(f"{run.title}, {where}", x=0.01, ha="left", fontsize=13, weight="bold")
     return figure
-
-
-def more_arguments(parser):
-    time_argument(parser, "draw the snapshot nearest to T seconds alone")
 
 
 def pictures(runs, given):

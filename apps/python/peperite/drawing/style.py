@@ -3,6 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_rgb
 from PIL import Image
@@ -60,22 +61,32 @@ def circles(axes, position, diameter, **options):
     return axes.add_collection(collection) if len(position) else collection
 
 
-def to_palette(rgb, flat=112, others=64):
-    """A picture of few colours, a quarter as large. Exact are our own colours, which may be rare, and the `flat`
-    most frequent ones."""
+def exact_colours(figure):
+    """What must not be mixed with anything: our own colours, which may be rare, and the levels of the colour scales."""
     own = np.array([to_rgb(c) for c in (WALL, SPRAY, TENSION, COMPRESSION, *GROUPS, *RUNS)])
-    own = np.concatenate([255 * (share * own + 1 - share) for share in (1, 0.7, 0.4)]).round().astype(np.uint8)
+    tints = [share * own + 1 - share for share in (1, 0.7, 0.4, 0.3)]
+    scales = {m.get_cmap().name: m.get_cmap() for m in figure.findobj(lambda m: isinstance(m, ScalarMappable)) if m.get_array() is not None}
+    number = min(48, 144 // max(1, len(scales)))
+    levels = [scale(np.linspace(0, 1, min(scale.N, number)))[:, :3] for scale in scales.values()]
+    return np.unique((255 * np.concatenate([*tints, *levels])).round().astype(np.uint8), axis=0)
+
+
+def to_palette(rgb, exact):
+    """A picture of few colours, a quarter as large: the exact ones, the most frequent ones, and some for the edges of discs and letters."""
     packed = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
     colours, where, count = np.unique(packed, return_inverse=True, return_counts=True)
     channels = np.stack([colours >> 16, colours >> 8 & 255, colours & 255], axis=1).astype(np.uint8)
     order = np.argsort(-count, kind="stable")
-    palette, rest = np.concatenate([own, channels[order[:flat]]]), order[flat:]
+    flat = (256 - len(exact)) // 2
+    palette, rest = np.concatenate([exact, channels[order[:flat]]]), order[flat:]
     if rest.size:
+        others = 256 - len(palette)
         edges = np.repeat(channels[rest], np.ceil(np.sqrt(count[rest])).astype(int), axis=0)
         chosen = Image.fromarray(edges[None]).quantize(others).getpalette()[: 3 * others]
         palette = np.concatenate([palette, np.reshape(chosen, (-1, 3)).astype(np.uint8)])
     distance = sum((channels[:, None, c].astype(np.int32) - palette[None, :, c]) ** 2 for c in range(3))
-    picture = Image.fromarray(distance.argmin(axis=1).astype(np.uint8)[where].reshape(rgb.shape[:2]), mode="P")
+    nearest = distance.argmin(axis=1)
+    picture = Image.fromarray(nearest.astype(np.uint8)[where].reshape(rgb.shape[:2]), mode="P")
     picture.putpalette(palette.tobytes())
     return picture
 
@@ -83,5 +94,5 @@ def to_palette(rgb, flat=112, others=64):
 def save(figure, path):
     canvas = FigureCanvasAgg(figure)  # whatever the backend of who draws
     canvas.draw()
-    to_palette(np.asarray(canvas.buffer_rgba())[:, :, :3]).save(path, optimize=True)
+    to_palette(np.asarray(canvas.buffer_rgba())[:, :, :3], exact_colours(figure)).save(path, optimize=True)
     plt.close(figure)

@@ -4,6 +4,7 @@
 """
 
 import base64
+import contextlib
 import re
 import tomllib
 import warnings
@@ -26,16 +27,14 @@ def data_uri(path):
     return "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode()
 
 
-def groups_of(names):
-    """Columns that share a chart: energies; components along x, y, z; what a budget has and what of it came in."""
-    charts = {}
-    for name in names:
-        monitor, _, quantity = name.partition("_")
-        first = quantity.split("_")[0]
-        stem = re.sub(r"(?<=^.)[xyz]$", "", first) if len(first) == 2 else first
-        one = stem in "xyz" and len(stem) == 1
-        charts.setdefault((monitor, "position" if one else stem), []).append(name)
-    return charts
+def quantity_of(column, kind):
+    """What the columns of a chart have in common: components along x, y, z; what a budget has and what of it came in."""
+    first = column.split("_")[0]
+    if kind == "contacts":  # whose z is a number of neighbours
+        return column
+    if first in ("x", "y", "z"):
+        return "position"
+    return first[0] if len(first) == 2 and first[1] in "xyz" else first
 
 
 def monitors_of(scene, series):
@@ -57,9 +56,11 @@ def charts_of(scene, series):
         if kinds.get(monitor) in ("energy", "momentum"):
             yield monitor, monitor, columns
             continue
-        short = {column: column[len(monitor) + 1:] for column in columns}
-        for (_, stem), chosen in groups_of([f"m_{short[column]}" for column in columns]).items():
-            yield monitor, f"{monitor}: {stem}", [f"{monitor}_{name[2:]}" for name in chosen]
+        charts = {}
+        for column in columns:
+            charts.setdefault(quantity_of(column[len(monitor) + 1:], kinds.get(monitor)), []).append(column)
+        for quantity, chosen in charts.items():
+            yield monitor, f"{monitor}: {quantity}", chosen
 
 
 def thinned(time, columns):
@@ -70,10 +71,10 @@ def thinned(time, columns):
     edges = np.linspace(0, n, MOST_POINTS // 2 + 1).astype(int)
     rows = {0, n - 1}
     for values in columns:
-        finite = np.where(np.isfinite(values), values, np.nanmean(np.where(np.isfinite(values), values, np.nan)))
+        low_values, high_values = (np.where(np.isfinite(values), values, other) for other in (np.inf, -np.inf))
         for low, high in zip(edges, edges[1:]):
-            part = finite[low:high]
-            rows |= {low + int(np.argmin(part)), low + int(np.argmax(part))}
+            rows |= {low + int(np.argmin(low_values[low:high])), low + int(np.argmax(high_values[low:high]))}
+        rows |= set(np.flatnonzero(np.diff(np.isfinite(values))) + 1)  # where a gap begins or ends
     return np.array(sorted(rows))
 
 
@@ -114,30 +115,38 @@ def timings_of(perf):
     return sorted(rows, key=lambda row: -row["mean"])
 
 
+def number(value, form):
+    return "no" if value is None else format(value, form)  # of nothing there is no mean
+
+
 def facts_of(run):
     """Label and text of what a run was; without its end what is known."""
     perf, last = run.perf, run[-1] if run.files else None
-    if perf is None:
+    if perf is None or run.goes_on or (last and last.step > perf["end"]["step"]):
         return [("state", "not finished"), ("last snapshot", f"{last.time:g} s, step {last.step}" if last else "none")]
-    end, build = perf["end"], perf["build"]
-    return [("fingerprint", perf["fingerprint"]), ("end", f"{end['time']:g} s, step {end['step']}"),
+    end, build, wanted = perf["end"], perf["build"], run.scene["time"]
+    done = end["time"] >= wanted.get("until", np.inf) or end["step"] >= wanted.get("steps", np.inf)
+    return [("state", "finished" if done else "stopped before its end; `peperite resume` goes on"),
+            ("fingerprint", perf["fingerprint"]), ("end", f"{end['time']:g} s, step {end['step']}"),
             ("particles", f"{perf['particles']:,}".replace(",", " ")), ("ranks", perf["ranks"]),
             ("precision, formulation", f"{perf['precision']}, {perf['formulation']}"),
             ("elapsed", f"{perf['wall_seconds']:.1f} s, of it {perf['setup_seconds']:.1f} s before the first step"),
-            ("particle steps", f"{perf['particle_steps_per_second']:.3g} a second"),
-            ("imbalance", f"{perf['imbalance']:.3f} (largest over mean of the ranks)"),
-            ("lists", f"{perf['rebuilds']} times, {perf['neighbours_per_particle']:.1f} neighbours a particle"),
+            ("particle steps", f"{number(perf['particle_steps_per_second'], '.3g')} a second"),
+            ("imbalance", f"{number(perf['imbalance'], '.3f')} (largest over mean of the ranks)"),
+            ("lists", f"{perf['rebuilds']} times, {number(perf['neighbours_per_particle'], '.1f')} neighbours a particle"),
             ("balance", f"{perf['balance']['moves']} moves of the cuts, {perf['migrated']} particles migrated"),
             ("memory", f"{perf['peak_rank_bytes'] / 2**20:.0f} MiB a rank at most"),
             ("program", f"peperite {build['version']} {build['git']}, {build['compiler']}, {build['flags'].strip()}, {build['mpi']}")]
 
 
 def pictures_of(run, work):
-    if not run.files:
-        return []
-    with warnings.catch_warnings():
+    """As many as there can be: a run that has just begun has no series yet."""
+    found = []
+    with warnings.catch_warnings(), contextlib.suppress(Error):
         warnings.simplefilter("ignore")  # what it has no picture of, it has none of
-        return [{"name": path.stem, "uri": data_uri(path)} for path in draw_run(run, work)]
+        for path in draw_run(run, work):
+            found.append({"name": path.stem, "uri": data_uri(path)})
+    return found
 
 
 def write(folder, out=None):
@@ -156,7 +165,7 @@ def write(folder, out=None):
         page = environment.get_template("page.html").render(
             title=run.title, folder=run.folder.resolve().name, facts=facts, pictures=pictures_of(run, work),
             curves=curves_of(run), library=library,
-            timings=timings, scene=scene.read_text(errors="replace") if scene.is_file() else "",
+            timings=timings, scene=scene.read_text(encoding="utf-8", errors="replace") if scene.is_file() else "",
             style=Markup((HERE / "page.css").read_text()), script=Markup((HERE / "page.js").read_text()))
-    path.write_text(page)
+    path.write_text(page, encoding="utf-8", errors="replace")
     return path

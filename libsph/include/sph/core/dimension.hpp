@@ -34,6 +34,7 @@ inline constexpr Dimension temperature_flux{0, 1, -1, 1};
 inline constexpr Dimension area{0, 2, 0};
 inline constexpr Dimension specific_heat{0, 2, -2, -1};
 inline constexpr Dimension conductivity{1, 1, -3, -1};
+inline constexpr Dimension mass_rate{1, 0, -1};
 inline constexpr Dimension heat_flux{1, 0, -3};
 inline constexpr Dimension heat_transfer{1, 0, -3, -1};
 }  // namespace dimension

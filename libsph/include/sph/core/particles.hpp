@@ -174,6 +174,14 @@ struct Throughput {
   friend bool operator==(const Throughput&, const Throughput&) = default;
 };
 
+/// Of a [[reset]] into which mass flows.
+struct Inflow {
+  std::int64_t receivers =
+      0;           ///< how many particles it went into in the last step, or were in the box at the start
+  double due = 0;  ///< what has not come in yet, as those in the next step are another number [kg]
+  friend bool operator==(const Inflow&, const Inflow&) = default;
+};
+
 /// State that belongs to no particle. Checkpointed and fingerprinted with the particles.
 struct GlobalState {
   std::int64_t step = 0;
@@ -187,6 +195,7 @@ struct GlobalState {
   FlowClock flow;
   std::vector<BodyState> bodies{};  ///< rigid ones, in the order of their groups
   Throughput throughput{};
+  std::vector<Inflow> inflows{};  ///< in the order of the resets that have one
   friend bool operator==(const GlobalState&, const GlobalState&) = default;
 };
 

@@ -10,6 +10,8 @@
 // spacing; C is found with pressurised cracks (Sneddon 1946). A particle that is beyond its strength, and bonded to none
 // that is further, becomes fluid: cracks stay one row wide. It has the pressure beside it; its neighbours' bonds to it are
 // gone, and those across the crack are cut (terms/crack.hpp). One whose bonds left do not span the space follows it.
+// A lattice that breaks at once rings, and the next particle bears up to twice what it would at rest: a crack that has begun to
+// grow runs on down to half of K_Ic. Where the overload is a mean over some times that sound takes to cross a spacing it grows as at rest.
 #pragma once
 
 #include "sph/models/builder.hpp"

@@ -10,6 +10,7 @@
 #include "sph/models/heat.hpp"
 #include "sph/models/model.hpp"
 #include "sph/models/openings.hpp"
+#include "sph/models/resets.hpp"
 #include "sph/models/rigid_bodies.hpp"
 #include "sph/models/shifting.hpp"
 #include "sph/models/water.hpp"
@@ -25,6 +26,7 @@ struct SphModels {
   std::optional<Degassing> degassing;
   std::optional<Water> water;
   std::optional<Heat> heat;
+  std::optional<Resets> resets;
   std::optional<RigidBodies> rigid;
   std::optional<Openings> openings;  ///< that begins before all others
 };

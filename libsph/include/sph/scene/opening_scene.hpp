@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "sph/scene/time_curve.hpp"
+
 namespace sph {
 
 /// Along an axis, up or down.
@@ -16,10 +18,6 @@ enum class Direction : std::uint8_t { x_up, x_down, y_up, y_down, z_up, z_down }
 
 /// How fast it flows in across an inlet, over the mean: the same, or a parabola between faces that are no period.
 enum class InletProfile : std::uint8_t { uniform, parabolic };
-
-/// A value that follows time: straight between points, before the first and after the last as there.
-using TimeCurve = std::vector<std::array<double, 2>>;  ///< t [s], value; t ascends
-[[nodiscard]] double value_at(const TimeCurve& curve, double time);
 
 /// A box full of fluid, lower <= x < upper [m], that moves on along `direction`: what passes its end is free, and
 /// another particle follows at its beginning.

@@ -15,7 +15,8 @@ struct FailureLimits {
   friend bool operator==(const FailureLimits&, const FailureLimits&) = default;
 };
 
-enum class Conserved : std::uint8_t { mass, volume };
+/// Of what fails: the pressure is that of the fluid beside it, or with mass and volume both what follows from these.
+enum class Conserved : std::uint8_t { mass, volume, both };
 
 /// A particle joins `group` once its gas's share of the volume or its temperature has been beyond the limit for `hold`.
 struct Transition {
@@ -25,7 +26,7 @@ struct Transition {
   FailureLimits failure;                                           ///< ... of a total-Lagrangian solid
   Conserved keeps = Conserved::mass;
   double hold = 0;     ///< [s]
-  double average = 0;  ///< the value is a running mean over so long; 0: that of now [s]
+  double average = 0;  ///< the value, or the overload, is a running mean over so long; 0: that of now [s]
 
   [[nodiscard]] int limits() const {
     int n = 0;
@@ -36,6 +37,8 @@ struct Transition {
   [[nodiscard]] bool of_failure() const {
     return failure.toughness || failure.tensile_strength || failure.cohesion;
   }
+  /// By a mean that is a field of its own.
+  [[nodiscard]] bool of_mean() const { return average > 0 && !of_failure(); }
   [[nodiscard]] bool of_temperature() const { return temperature_above || temperature_below; }
   [[nodiscard]] bool holds(double void_fraction, double temperature) const {
     if (void_fraction_above) return void_fraction > *void_fraction_above;

@@ -8,7 +8,7 @@
 // Faces of a crack come no nearer to each other than they were: what failed between them keeps its place, or a crack that
 // closes would press it out, and with it more melt than came in.
 // Across a crack that is narrower than the kernel the faces press on each other with the fluid's pressure, or a row of it
-// would transmit 0.82 to 0.93 of it.
+// would transmit 0.82 to 0.93 of it. The work that does is that of the fluid, whose continuity has the same pairs.
 #pragma once
 
 #include "sph/terms/body_contact.hpp"
@@ -153,7 +153,31 @@ struct CrackSums {
   }
 };
 
-/// As WettedPressure, and between the faces of a crack where both are wet.
+/// 1 for two solids on different faces of a crack, which no bond holds together; else 0.
+template <class P>
+[[nodiscard]] typename P::V across_crack(const P& p) {
+  using V = typename P::V;
+  V turned = V::zero();
+  for (int a = 0; a < P::dim; ++a) turned += p.template i<Value::crack>(a) * p.template j<Value::crack>(a);
+  const V opposite = where_less(turned, V::zero(), faces(p, 0));
+  return (V(1) - is_wet(p)) * (V(1) - p.bond.intact * uncut(p)) * opposite;
+}
+
+/// As FlowOntoSolids, and what the faces of a crack take of the space between them.
+struct CrackedFlowOntoSolids {
+  static constexpr std::string_view name = "CrackedFlowOntoSolids";
+  static constexpr ValueSet reads =
+      FlowOntoSolids::reads | ValueSet{Value::reference, Value::reference_cell, Value::body, Value::crack};
+  static constexpr Field writes = Field::flux_sums;
+  static constexpr Value nothing_without = Value::shears;
+  static constexpr bool half_step_back = true;
+  template <class Kernel, class P, class C, class S>
+  static void add(const P& p, const C&, S& sums) {
+    add_flow<Kernel>(p, across_crack(p), sums);
+  }
+};
+
+/// As WettedPressure, and between the faces of a crack.
 struct CrackedWettedPressure {
   static constexpr std::string_view name = "CrackedWettedPressure";
   static constexpr ValueSet reads =
@@ -164,13 +188,7 @@ struct CrackedWettedPressure {
   static typename P::V both(const P& p) {
     using V = typename P::V;
     const V p_i = p.template i<Value::wet_pressure>(), p_j = p.template j<Value::wet_pressure>();
-    V turned = V::zero();
-    for (int a = 0; a < P::dim; ++a) turned += p.template i<Value::crack>(a) * p.template j<Value::crack>(a);
-    const V across = where_less(turned, V::zero(), faces(p, 0));
-    const V dry = where_equal(p_i, V::zero(), V(1)) + where_equal(p_j, V::zero(), V(1));
-    const V wet = is_wet(p);
-    const V faced = where_equal(dry, V::zero(), (V(1) - wet) * (V(1) - p.bond.intact * uncut(p)) * across);
-    return (wet + faced) * (p_i + p_j);
+    return (is_wet(p) + across_crack(p)) * (p_i + p_j);
   }
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {

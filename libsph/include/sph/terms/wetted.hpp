@@ -42,6 +42,18 @@ struct WettedExtrapolation {
   }
 };
 
+/// `more`: of a solid partner.
+template <class Kernel, class P, class S>
+void add_flow(const P& p, typename P::V more, S& sums) {
+  using V = typename P::V;
+  const V fluid = V(1) - p.template j<Value::shears>();
+  V t = V::zero();
+  for (int k = 0; k < P::dim; ++k)
+    t += (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)) * p.e[k];
+  sums.template add<Field::flux_sums>(0, fluid * Kernel::template value<P::dim>(p.r));
+  sums.template add<Field::flux_sums>(1, (fluid + more) * p.template j<Value::volume>() * p.f * t);
+}
+
 /// What flows onto a body or wall, div v_b, and the sum of W.
 struct FlowOntoSolids {
   static constexpr std::string_view name = "FlowOntoSolids";
@@ -51,13 +63,7 @@ struct FlowOntoSolids {
   static constexpr bool half_step_back = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
-    using V = typename P::V;
-    const V fluid = V(1) - p.template j<Value::shears>();
-    V t = V::zero();
-    for (int k = 0; k < P::dim; ++k)
-      t += (p.template i<Value::velocity>(k) - p.template j<Value::velocity>(k)) * p.e[k];
-    sums.template add<Field::flux_sums>(0, fluid * Kernel::template value<P::dim>(p.r));
-    sums.template add<Field::flux_sums>(1, fluid * p.template j<Value::volume>() * p.f * t);
+    add_flow<Kernel>(p, P::V::zero(), sums);
   }
 };
 

@@ -1,0 +1,13 @@
+// A value that a scene gives as a function of time.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace sph {
+
+/// Straight between points, before the first and after the last as there.
+using TimeCurve = std::vector<std::array<double, 2>>;  ///< t [s], value; t ascends
+[[nodiscard]] double value_at(const TimeCurve& curve, double time);
+
+}  // namespace sph
