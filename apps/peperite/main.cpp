@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,8 +29,11 @@ int become(const char* module, int argc, char** argv) {
   if (const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
       rank != nullptr && std::string_view(rank) != "0")
     return sph::exit_done;
+  std::string path = package_folder();
   const char* theirs = std::getenv("PYTHONPATH");
-  const std::string path = package_folder() + (theirs != nullptr ? std::string(":") + theirs : "");
+  std::istringstream folders(theirs != nullptr ? theirs : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty()) path += ":" + folder;  // an empty one is where somebody stands
   setenv("PYTHONPATH", path.c_str(), 1);
   std::error_code none;
   setenv("PEPERITE_PROGRAM", fs::read_symlink("/proc/self/exe", none).c_str(), 1);

@@ -89,6 +89,9 @@ class Plot(Case):
             shutil.copytree(self.folder / name, self.folder / folder / "run")
         names = [p.name for p in self.drawn("a/run", "b/run", "--out", "both", "--draw", "pressure")]
         self.assertEqual(names, ["run_pressure.png", "run_2_pressure.png"])
+        shutil.copytree(self.folder / "solid", self.folder / "c/run_2")
+        names = [p.name for p in self.drawn("a/run", "b/run", "c/run_2", "--out", "three", "--draw", "pressure")]
+        self.assertEqual(names, ["run_pressure.png", "run_3_pressure.png", "run_2_pressure.png"])
 
     def test_time_and_averages_change_the_picture(self):
         pictures = set()

@@ -5,10 +5,12 @@
 """
 import html.parser
 import json
+import os
 import re
 import shutil
 import subprocess
 import sys
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -147,11 +149,20 @@ class Report(Case):
         with h5py.File(on / "snapshot_000000099.h5", "r+") as file:
             file.attrs["step"] = 99
         self.assertEqual(state(), ("not finished", False))
+        (on / "crash").mkdir()
+        (on / "crash/snapshot_000000120.h5").touch()
+        self.assertEqual(state(), ("stopped by an error in step 120: see crash/", False))
 
     def test_a_module_where_somebody_stands_is_not_run(self):
         for name in ("numpy", "json", "peperite"):
             (self.folder / f"{name}.py").write_text("raise SystemExit(9)")
-        self.page("gas")
+        try:
+            for path in (None, "", ":/nowhere", "/nowhere:"):
+                with unittest.mock.patch.dict(os.environ, {} if path is None else {"PYTHONPATH": path}):
+                    self.page("gas")
+        finally:
+            for name in ("numpy", "json", "peperite"):
+                (self.folder / f"{name}.py").unlink()
 
     def test_charts_hold_what_belongs_together(self):
         quantity = self.report.quantity_of

@@ -145,6 +145,11 @@ class Simulation(Case):
         self.assertEqual((saved.read_bytes(), letter.read_text()), (before, "dear reader"))
         s.save(saved, overwrite=True)
         self.assertNotEqual(saved.read_bytes(), before)
+        torn = self.folder / "torn.h5"
+        torn.write_bytes(before[:4000])
+        with self.assertRaises(peperite.OutputError) as caught:
+            s.save(torn, overwrite=True)
+        self.assertIn("torn.h5 exists", str(caught.exception))
         record.write_text("cuts of another run")
         with self.assertRaises(peperite.InputError) as caught:
             peperite.Simulation(path, set={"decomposition.record": str(record)})

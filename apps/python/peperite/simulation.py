@@ -44,8 +44,11 @@ def settings(values):
 def is_snapshot(path):
     if os.path.islink(path) or not os.path.isfile(path) or not h5py.is_hdf5(path):
         return False
-    with h5py.File(path) as file:
-        return str(file.attrs.get("format", "")).startswith("peperite snapshot")
+    try:
+        with h5py.File(path) as file:
+            return str(file.attrs.get("format", "")).startswith("peperite snapshot")
+    except OSError:  # cut off, say
+        return False
 
 
 class Simulation:
@@ -138,5 +141,11 @@ class Simulation:
 
     def _refuse(self, error, exists, path):
         """Collective: what the first rank finds."""
-        if self.comm.bcast(self.rank == 0 and exists()):
-            raise error(f"{path} exists and would be overwritten; name another file, or move it away")
+        def looked():
+            try:
+                return "exists and would be overwritten; name another file, or move it away" if exists() else None
+            except OSError as problem:
+                return f"cannot be looked at: {problem}"
+        found = self.comm.bcast(looked() if self.rank == 0 else None)
+        if found is not None:
+            raise error(f"{path} {found}")

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* format = "peperite checkpoint 8";
+constexpr const char* format = "peperite checkpoint 9";
 
 /// The bits are what counts; the value is for readers with eyes.
 Json exact(double x) { return {{"bits", to_hex(std::bit_cast<std::uint64_t>(x))}, {"value", x}}; }

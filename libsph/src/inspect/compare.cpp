@@ -165,6 +165,8 @@ std::string global_difference(const StateSummary& a, const StateSummary& b) {
                                   : unequal("passage.mass", x.amounts[0], y.amounts[0]);
     return unequal("id_stride", g.throughput.id_stride, h.throughput.id_stride);
   }
+  if (a.kind == b.kind && g.inflows.size() != h.inflows.size())
+    return unequal("inflows", g.inflows.size(), h.inflows.size());
   if (a.kind == b.kind)
     for (std::size_t k = 0; k < std::min(g.inflows.size(), h.inflows.size()); ++k)
       if (const Inflow& x = g.inflows[k], &y = h.inflows[k]; x != y)

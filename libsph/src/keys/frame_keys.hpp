@@ -86,7 +86,8 @@ inline constexpr auto reset_keys = std::to_array<Key>({
     {"inflow", curve_of_time,
      "What comes into the fluids in it, together [kg/s; in two dimensions of a metre of depth], at constant "
      "volume, as from a pump; "
-     "0 or more, straight between times. Not of ideal gases.",
+     "0 or more, straight between times. There must be fluid in the box as long as any is to come, which "
+     "grows by it and is not split. Not of ideal gases.",
      Default{"none"}},
     {"until", Number{dimension::time, positive}, "Then the box does nothing any more.", at<&Reset::until>,
      Default{"the end"}},

@@ -180,6 +180,13 @@ void check_total_lagrangian(const Tables& tables, const Scene& scene) {
     tables.terms.fail("bond_reach", fmt::format("is {}", *scene.terms.bonds.reach),
                       fmt::format("bonds reach as far as the kernel at most, {:.4g} spacings",
                                   scene.kernel_radius() / scene.start.spacing));
+  const std::vector<GroupReader> groups = tables.top.tables<keys::group>();
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    for (const Transition& row : scene.groups[k].becomes)
+      if (row.of_failure() && row.keeps == Conserved::both && scene.start.pressure != InitialPressure::zero)
+        groups[k].tables<keys::becomes>()[0].fail("keeps", "is \"both\" where start.pressure is not \"zero\"",
+                                                  "what bears a pressure at the start has no mass for it "
+                                                  "that melt could have: give keeps = \"volume\"");
   if (has_dry_bodies(scene) && scene.domain.surface_pressure > 0)
     tables.domain.fail("surface_pressure", fmt::format("is {}", scene.domain.surface_pressure),
                        "solids with lagrangian = \"total\" start free of stress: remove it");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "pairs/for_rows.hpp"
 #include "sph/laws/enthalpy.hpp"
@@ -56,10 +57,11 @@ double Resets::start(const decomp::Comm& comm, Particles& p, GlobalState& global
   const ViewOf<EndStep> rows(p);
   for (const Box& box : boxes_)
     for (std::size_t i = 0; box.inflow && i < p.owned(); ++i)
-      if (is_fluid(p.data<Field::group>()[i]) && contains(*box.reset, rows, i)) ++inside[*box.inflow];
+      if (!is_led(rows, i) && is_fluid(p.data<Field::group>()[i]) && contains(*box.reset, rows, i))
+        ++inside[*box.inflow];
   comm.sum(std::span<std::int64_t>(inside));
   for (std::size_t k = 0; k < boxes_.size(); ++k)
-    if (boxes_[k].inflow && inside[*boxes_[k].inflow] == 0)
+    if (boxes_[k].inflow && inside[*boxes_[k].inflow] == 0 && value_at(boxes_[k].reset->inflow, 0) > 0)
       throw InputError(
           fmt::format("{}: reset.{}.inflow: no fluid is in the box at the start, into which it could come",
                       constants_->scene->file, k));
@@ -67,19 +69,17 @@ double Resets::start(const decomp::Comm& comm, Particles& p, GlobalState& global
   return any_step;
 }
 
-// What inlets lead they renew themselves, and budgets do not have it yet.
 void Resets::end_step(const Rows& p, const Step& step) {
   std::ranges::fill(received_, 0);
-  const std::uint32_t* buffer = p.get<Field::buffer>();
-  const std::size_t inlets = constants_->scene->domain.openings.inlets.size();
   for_movers(step.ranges, [&](std::size_t i) {
-    if (buffer != nullptr && buffer[i] != 0 && buffer[i] <= inlets) return;
+    if (is_led(p, i)) return;
     for (const Box& box : boxes_) {
-      if (!acts(*box.reset, step.global) || !contains(*box.reset, p, i)) continue;
+      if (!contains(*box.reset, p, i)) continue;
+      if (box.inflow) receive(p, i, box, step);
+      if (!acts(*box.reset, step.global)) continue;
       if (box.reset->gas_content) fill(p, i, *box.reset->gas_content, step);
       if (box.reset->temperature) heat(p, i, *box.reset->temperature);
       if (box.reset->pressure) raise(p, i, *box.reset, step);
-      if (box.inflow) receive(p, i, box, step);
     }
   });
 }
@@ -91,27 +91,42 @@ bool Resets::report(const StepState&, Reduction& r) {
 
 void Resets::guard(const decomp::Comm&, const StepState& s, const Reduction& r) const {
   for (std::size_t k = 0; k < boxes_.size(); ++k)
-    if (boxes_[k].inflow && acts(*boxes_[k].reset, s.global) && r[in_][*boxes_[k].inflow] == 0)
-      throw GuardError(
-          fmt::format("step {}: no fluid is in the box of reset.{} any more, into which its inflow could "
-                      "come; enlarge the box, or set until",
-                      s.global.step, k));
+    if (boxes_[k].inflow && due(boxes_[k], s.global) > 0 && r[in_][*boxes_[k].inflow] == 0)
+      throw GuardError(fmt::format(
+          "step {}: no fluid is in the box of reset.{}, into which its inflow could come; enlarge "
+          "the box, or let the inflow end before",
+          s.global.step, k));
 }
 
 void Resets::act(const Reduction& r, GlobalState& global) {
   for (const Box& box : boxes_) {
-    if (!box.inflow || !acts(*box.reset, global)) continue;
+    if (!box.inflow) continue;
     Inflow& inflow = global.inflows[*box.inflow];
-    const double all = due(box, global), share = all / static_cast<double>(inflow.receivers);
+    const double all = due(box, global), each = share(box, global);
     const std::int64_t now = r[in_][*box.inflow];
-    inflow.due = now == inflow.receivers ? 0 : all - static_cast<double>(now) * share;
+    inflow.due = each > 0 && now == inflow.receivers ? 0 : all - static_cast<double>(now) * each;
     inflow.receivers = now;
   }
 }
 
 double Resets::due(const Box& box, const GlobalState& global) {
-  const double rate = value_at(box.reset->inflow, global.time + 0.5 * global.dt);
-  return global.inflows[*box.inflow].due + rate * global.dt;
+  const double until = box.reset->until.value_or(std::numeric_limits<double>::infinity());
+  const double during = std::clamp(until - global.time, 0.0, global.dt);
+  const double rate = value_at(box.reset->inflow, global.time + 0.5 * during);
+  return global.inflows[*box.inflow].due + rate * during;
+}
+
+// Where more came than was to, none comes until that is made up for: a pump takes nothing out.
+double Resets::share(const Box& box, const GlobalState& global) {
+  const double all = due(box, global);
+  const std::int64_t receivers = global.inflows[*box.inflow].receivers;
+  return all > 0 && receivers > 0 ? all / static_cast<double>(receivers) : 0.0;
+}
+
+// What inlets lead they renew themselves, and budgets do not have it yet.
+bool Resets::is_led(const Rows& p, std::size_t i) const {
+  const std::uint32_t* buffer = p.get<Field::buffer>();
+  return buffer != nullptr && buffer[i] != 0 && buffer[i] <= constants_->scene->domain.openings.inlets.size();
 }
 
 bool Resets::is_fluid(std::uint32_t group) const {
@@ -167,10 +182,8 @@ void Resets::press(const Rows& p, std::size_t i, double wanted, const Step& step
 void Resets::receive(const Rows& p, std::size_t i, const Box& box, const Step& step) {
   if (!is_fluid(p.get<Field::group>()[i])) return;
   ++received_[*box.inflow];
-  const double share =
-      due(box, step.global) / static_cast<double>(step.global.inflows[*box.inflow].receivers);
-  const double mass = p.get<Field::mass>()[i];
-  grow(p, i, p.get<Field::density>()[i] * ((mass + share) / mass), step);
+  const double each = share(box, step.global), mass = p.get<Field::mass>()[i];
+  if (each > 0) grow(p, i, p.get<Field::density>()[i] * ((mass + each) / mass), step);
 }
 
 /// To a density at constant volume.

@@ -31,19 +31,23 @@ double ListAge::look_back() const {
   return way;
 }
 
+void ListAge::guard() const {
+  double next = look_back();
+  for (std::size_t set = 0; set < moved_.size(); ++set)
+    next = std::max(next, longest_move(state_.plan(), set, state_.global()));
+  guard_motion(state_, next);
+}
+
 // Lists must hold every pair that a pass of the next step takes, wherever it takes its particles to be: after
 // they have moved in it, or half a step before that. A rebuild in that step finds lists that are wide enough
 // for it, however small the scene's skin (Simulation::rebuild). Grains are looked at again when the bound runs
 // out: one that flies through the sparse part of a scene must not cost rebuilds of the rest.
 bool ListAge::look(const Reduction& reduction, decomp::Timers& timers) {
   const GlobalState& global = state_.global();
-  double next = 0, way = 0, growth = 0;
-  for (std::size_t set = 0; set < moved_.size(); ++set) {
-    const double of_set = longest_move(state_.plan(), set, global);
-    next = std::max(next, of_set);
-    way = std::max(way, moved_[set] + of_set);
-  }
-  guard_motion(state_, std::fmax(next, look_back()));
+  guard();
+  double way = 0, growth = 0;
+  for (std::size_t set = 0; set < moved_.size(); ++set)
+    way = std::max(way, moved_[set] + longest_move(state_.plan(), set, global));
   for (const Model* m : state_.models()) growth = std::max(growth, m->growth(reduction));
   const int every = state_.scene().decomposition.rebuild_every;
   if (growth > 1 || (every > 0 && global.step % every == 0)) return true;

@@ -158,7 +158,10 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
       age_.add(m->set(), *far);
       rows_changed_ = true;
     }
-  if (rows_changed_) rebuild();
+  if (rows_changed_) {
+    age_.guard();  // or lists could reach further than there are cells to look into
+    rebuild();
+  }
   stale_ = age_.look(parts_.reduction, timers_);
   return static_cast<std::int64_t>(parts_.reduction[Reduction::request]);
 }

@@ -44,12 +44,12 @@ def drawn(module, runs, given):
     for name in given.draw:
         if name not in module.PICTURES:
             raise Error(f"--draw: \"{name}\" is not one of {', '.join(module.PICTURES)}")
-    seen = {}
-    for run in runs:
+    names = {run.name for run in runs}
+    for k, run in enumerate(runs):
         run.title = str(run.title).replace("$", r"\$")  # matplotlib takes what is between dollars for formulas
-        seen[run.name] = seen.get(run.name, 0) + 1
-        if seen[run.name] > 1:
-            run.name = f"{run.name}_{seen[run.name]}"
+        if run.name in {other.name for other in runs[:k]}:
+            run.name = next(name for n in range(2, 10**9) if (name := f"{run.name}_{n}") not in names)
+            names.add(run.name)
     out = given.out or runs[0].folder
     out.mkdir(parents=True, exist_ok=True)
     from .style import STYLE, plt, save  # only now: it takes a second, and refusals should not

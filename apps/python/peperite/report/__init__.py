@@ -119,9 +119,18 @@ def number(value, form):
     return "no" if value is None else format(value, form)  # of nothing there is no mean
 
 
+def step_of_crash(run):
+    """Of the state that a run left when it stopped at what none may be; -1 without one."""
+    return max((int(path.stem.rpartition("_")[2]) for path in (run.folder / "crash").glob("snapshot_*.h5")
+                if path.stem.rpartition("_")[2].isdigit()), default=-1)
+
+
 def facts_of(run):
     """Label and text of what a run was; without its end what is known."""
     perf, last = run.perf, run[-1] if run.files else None
+    if (stopped := step_of_crash(run)) > (perf["end"]["step"] if perf else -1) and not run.goes_on:
+        return [("state", f"stopped by an error in step {stopped}: see crash/"),
+                ("last snapshot", f"{last.time:g} s, step {last.step}" if last else "none")]
     if perf is None or run.goes_on or (last and last.step > perf["end"]["step"]):
         return [("state", "not finished"), ("last snapshot", f"{last.time:g} s, step {last.step}" if last else "none")]
     end, build, wanted = perf["end"], perf["build"], run.scene["time"]

@@ -4,7 +4,7 @@
 //   the pressure p, at constant volume: mass comes in, of the matter that is there, or leaves;
 //   the mass grows by its share of what is to come in, at constant volume, of the matter that is there: that is what a pump
 //   at a given rate does. All fluid particles in the box have the same share. How many there are is known of the step before; what
-//   a change of their number leaves over comes in with the next step, so that none is lost;
+//   a change of their number leaves over comes in with the next steps, after `until` too. Particles grow by it and are not split;
 //   the gas content m, its mass M (1 + m), M that of its liquid, at constant temperature, velocity and pressure: the
 //   density follows, and the volume. What can be dissolved is, where that takes time. (At constant volume gas that comes in would be a blow.)
 // What heat, gas and other mass that adds is counted for the particle (heat_inflow, gas_inflow, mass_inflow); its momentum grows as its mass does.
@@ -53,6 +53,9 @@ class Resets final : public Model {
   };
   /// What is to come in with the step at hand [kg].
   [[nodiscard]] static double due(const Box& box, const GlobalState& global);
+  /// ... into each of those that were in the box in the step before.
+  [[nodiscard]] static double share(const Box& box, const GlobalState& global);
+  [[nodiscard]] bool is_led(const Rows& particles, std::size_t row) const;
   [[nodiscard]] bool is_fluid(std::uint32_t group) const;
   template <class V>
   [[nodiscard]] bool contains(const Reset& box, const V& particles, std::size_t row) const;

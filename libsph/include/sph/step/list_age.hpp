@@ -28,8 +28,9 @@ class ListAge {
   /// How far the next step looks back from where a particle is [m].
   [[nodiscard]] double look_back() const;
 
-  /// Must the next step make lists anew? After the reduction of a step; throws GuardError where it could go too far.
-  /// Collective.
+  /// Throws GuardError where the next step could go too far.
+  void guard() const;
+  /// Must the next step make lists anew? After the reduction of a step. Collective; throws GuardError as guard() does.
   [[nodiscard]] bool look(const Reduction& reduction, decomp::Timers& timers);
 
  private:
