@@ -12,10 +12,13 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 
-# Beside the build at hand, g++ -O3 native: both compilers, each with both -march, and -O3 with both.
+# Beside the build at hand, g++ -O3 native: both compilers, -O0 and -O3, both -march. --all: clang++ with the others too.
 # name: compiler, C compiler, optimisation, -march (empty: the compiler's baseline)
 BUILDS = {
     "g++ -O0": ("g++", "gcc", "-O0", ""),
+    "clang++ -O3 native": ("clang++", "clang", "-O3", "native"),
+}
+MORE = {
     "clang++ -O2 native": ("clang++", "clang", "-O2", "native"),
     "clang++ -O3 baseline": ("clang++", "clang", "-O3", ""),
 }
@@ -37,7 +40,7 @@ def needed(native):
 
 
 def build(name, options):
-    cxx, cc, optimise, arch = BUILDS[name]
+    cxx, cc, optimise, arch = (BUILDS | MORE)[name]
     tree = options.work / name.replace(" ", "_")
     call(["cmake", "-S", HERE, "-B", tree, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={cxx}",
           f"-DCMAKE_C_COMPILER={cc}", "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_FLAGS_RELEASE={optimise}",
@@ -58,6 +61,7 @@ def main():
     parser.add_argument("--work", required=True, type=pathlib.Path, help="folder for the build trees")
     parser.add_argument("--mpiexec", type=str.split, default=["mpiexec", "-n"])
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--all", action="store_true", help="more builds than the test has time for")
     options = parser.parse_args()
 
     wanted = run(options.mpiexec, options.native, 1)
@@ -77,7 +81,8 @@ def main():
     flags = pathlib.Path("/proc/cpuinfo").read_text() if os.path.exists("/proc/cpuinfo") else ""
     if masked["libm"] == libm and " fma " in flags:
         bad.append("the mask changed no libm result, so it tested nothing")
-    for name in BUILDS:
+    names = [*BUILDS, *(MORE if options.all else {})]
+    for name in names:
         start = time.monotonic()
         program = build(name, options)
         built = time.monotonic()
@@ -86,7 +91,7 @@ def main():
         print(f"{name}: built in {built - start:.0f} s, ran in {time.monotonic() - built:.0f} s", flush=True)
     if bad:
         sys.exit("\n".join(bad))
-    print(f"{len(wanted)} cases agree in {len(BUILDS) + 1} builds, on 1 and 2 ranks, with CPU features masked")
+    print(f"{len(wanted)} cases agree in {len(names) + 1} builds, on 1 and 2 ranks, with CPU features masked")
 
 
 if __name__ == "__main__":
