@@ -16,10 +16,7 @@ namespace measure {
 
 inline constexpr double nu = 0.25, plane = 1 / (1 - nu * nu);  ///< E'
 
-inline constexpr const char* slab = R"(
-dimension = 2
-domain = { lower = [-200, -10], upper = [200, 10], periodic = [false, true] }
-kernel = { h_over_dx = 1 }
+inline const std::string rock_and_melt = R"(
 [[group]]
 name = "rock"
 kind = "solid"
@@ -35,7 +32,13 @@ kind = "fluid"
 density = 1
 sound_speed = 0.7
 viscosity = 0.05
-[[reset]]
+)";
+
+inline const std::string slab = R"(
+dimension = 2
+domain = { lower = [-200, -10], upper = [200, 10], periodic = [false, true] }
+kernel = { h_over_dx = 1 }
+)" + rock_and_melt + R"([[reset]]
 lower = [-100, -100]
 upper = [100, 100]
 pressure = 1e-3

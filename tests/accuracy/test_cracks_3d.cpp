@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/measure.hpp"
 #include "accuracy/pinned.hpp"
+#include "accuracy/slab.hpp"
 
 namespace {
 
@@ -32,22 +32,7 @@ Crack pressed(int dim) {
                                                (dim == 3 ? ", true" : "") + R"(]
 [kernel]
 h_over_dx = 1
-[[group]]
-name = "rock"
-kind = "solid"
-lagrangian = "total"
-density = 1
-bulk_modulus = 0.6666666666666667
-shear_modulus = 0.4
-viscosity = 0.05
-becomes = [{ group = "melt", toughness = 1, keeps = "volume" }]
-[[group]]
-name = "melt"
-kind = "fluid"
-density = 1
-sound_speed = 0.7
-viscosity = 0.05
-[start]
+)" + measure::rock_and_melt + R"([start]
 spacing = 1
 [[start.region]]
 group = "none"

@@ -57,7 +57,7 @@ Growth pumped(const Row& first, int last, double average) {
   return out;
 }
 
-// Of the overload at hand alone it would be 1.3 times as long: what fails sends waves that break what is next.
+// Of the overload at hand alone it would be 1.46 times as long: what fails sends waves that break what is next.
 TEST(PumpedCracks, GrowAsTheirToughnessSays) {
   const Growth g = pumped({6, 81, false}, 16, 20);
   EXPECT_GE(g.steps, 7);
