@@ -59,7 +59,7 @@ class Run(Sequence):
         self.files = [path for _, path in sorted((int(number[1]), path) for number, path in numbers if number)]
         self.scene = self[-1].scene if self.files else self._resolved()
         self.name = self.folder.resolve().name
-        self.title = self.scene.get("title", self.name)
+        self.title = self.scene.get("title") or self.name
 
     def __repr__(self):
         return f"<run {self.title}, {len(self)} snapshots: {self.folder}>"
