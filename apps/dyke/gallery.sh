@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs a dyke that stays and one that rises, and draws both in gallery/: half an hour on two cores. Runs that have
-# already come to their end in RUNS are only drawn.
+# Runs a dyke that stays, one that rises, and one that turns into a sill, and draws them in gallery/: half an hour on two cores.
+# Runs that have already come to their end in RUNS are only drawn.
 #
 #     sh apps/dyke/gallery.sh [PROGRAMS] [RUNS]     default: build/bin out/gallery
 set -eu
@@ -11,3 +11,5 @@ runs=${2:-out/gallery}
 mkdir -p "$here/gallery"
 /usr/bin/python3 -B "$here/rise.py" "$runs/rise" --programs "$programs" --out "$here/gallery"
 /usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here/gallery/rise.png" --runs "$runs/rise"/* --scenes "$here/stall.toml"
+/usr/bin/python3 -B "$here/sill.py" "$runs/sill" --programs "$programs" --out "$here/gallery"
+/usr/bin/python3 -B "$here/../../cmake/manifest.py" "$here/gallery/sill.png" --runs "$runs/sill"/* --scenes "$here/sill.toml"

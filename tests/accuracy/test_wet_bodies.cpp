@@ -87,6 +87,65 @@ TEST(WetBodies, ClampsHoldTheFace) {
   EXPECT_NEAR(PINNED(bar(10, false)), 0, 0.005);
 }
 
+constexpr const char* layers = R"(
+dimension = 2
+kernel = { h_over_dx = 1 }
+domain = { lower = [0, -5], upper = [16, 45], periodic = [true, false], gravity = [0, -1e-3] }
+[[group]]
+name = "stiff"
+kind = "solid"
+lagrangian = "total"
+density = 1
+bulk_modulus = 4
+shear_modulus = 2
+[[group]]
+name = "soft"
+kind = "solid"
+lagrangian = "total"
+part_of = "stiff"
+density = 2
+bulk_modulus = 1
+shear_modulus = 0.5
+[[group]]
+name = "floor"
+kind = "wall"
+clamps = "soft"
+[start]
+spacing = 1
+region = [{ group = "none" }, { group = "floor", shape = "box", lower = [0, -3], upper = [16, 0] },
+          { group = "soft", shape = "box", lower = [0, 0], upper = [16, 16] },
+          { group = "stiff", shape = "box", lower = [0, 16], upper = [16, 32] }]
+[time]
+cfl = 0.5
+until = 600
+)";
+
+/// Of the row at y at rest, downwards, over g: the integral of the weight above over the modulus.
+double sag(double y) {
+  constexpr double soft = 1 + 4.0 / 3 * 0.5, stiff = 4 * soft, rho = 2, light = 1, half = 16, g = 1e-3;
+  const double below = std::min(y, half), above = std::max(y - half, 0.0);
+  return g * ((light * half * below + rho * (half * below - below * below / 2)) / soft +
+              light * (half * above - above * above / 2) / stiff);
+}
+
+// Two materials in one body: either sags by its own modulus and is bonded to the other.
+TEST(WetBodies, LayersAreOneBody) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s(comm, sph::parse_scene(layers, "layers.toml", {}));
+  const std::array<double, 3> heights{7.5, 15.5, 31.5};
+  std::array<std::uint64_t, 3> rows{};
+  for (std::size_t k = 0; k < 3; ++k) rows[k] = particle_at(s, 8.5, heights[k]);
+  std::vector<SwingMean> mean(3, SwingMean(0, 600));
+  run_until(s, 600, [&] {
+    for (std::size_t k = 0; k < 3; ++k) mean[k].see(s.global().time, heights[k] - place(s, rows[k], 1));
+  });
+  const auto ratio = [&](std::size_t k) { return mean[k].value() / sag(heights[k]); };
+  const double low = ratio(0), joint = ratio(1), top = ratio(2);
+  EXPECT_NEAR(PINNED(low), 1, 0.01);
+  EXPECT_NEAR(PINNED(joint), 1, 0.01);
+  EXPECT_NEAR(PINNED(top), 1, 0.01);
+}
+
 constexpr const char* ball_on_clamp = R"(
 dimension = 2
 kernel = { h_over_dx = 1 }

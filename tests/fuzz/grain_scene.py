@@ -1,6 +1,7 @@
 """Random scenes of grains: both contact laws, walls that rest, move, press and go, all sizes and all starts."""
 
 import math
+from pathlib import Path
 
 import start_rows
 
@@ -36,6 +37,8 @@ class Maker:
         scene["group"] = self.groups()
         scene["contact"] = self.contact()
         scene["wall"] = self.walls()
+        if meshes := self.meshes():
+            scene["mesh"] = meshes
         scene["start"] = self.start()
         dt = 0.04 * self.contact_time
         scene["time"] = {"steps": self.steps}
@@ -184,6 +187,46 @@ class Maker:
                 wall |= {"force": force, "servo_gain": 0.3 * self.speed / force * p.log("gain", 0.1, 10),
                          "largest_speed": 0.3 * self.speed}
             out.append(wall)
+        return out
+
+    def meshes(self):
+        """A drum around the lattice and troughs below or in it, which turn, shake, move, come and go."""
+        d, out = self.d, []
+        if any(self.periodic) or not d.chance("meshes", 0.5):
+            return out
+        extent = [n * self.dx for n in self.n]
+        middle, lasts = [0.5 * e for e in extent], 0.04 * self.contact_time * self.steps
+        for k in range(d.weighted("number of meshes", {1: 3, 2: 2, 3: 1})):
+            m = d.part("mesh", k)
+            shape = m.one("shape", ["drum", "trough"])
+            scale = m.one("scale", [0.5, 0.75, 1.0]) * max(extent)
+            if shape == "drum":
+                at = middle
+            else:
+                at = [middle[a] + m.real(f"at/{a}", -0.3, 0.3) * extent[a] for a in range(3)]
+                at[2] = m.one("height", [0.0, 0.3 * scale, 0.3 * scale, 0.5 * extent[2]])
+            mesh = {"name": f"mesh{k}", "material": m.one("material", ["steel", "sand"]),
+                    "file": str(Path(__file__).resolve().parents[1] / "scenes" / f"{shape}.obj"), "scale": scale,
+                    "origin": at}
+            speed = 0.3 * self.speed
+            if m.chance("smooth", 0.3):
+                mesh["smooth_angle"] = m.one("angle", [0, 1, 16, 50, 89])
+            if m.chance("moves", 0.4):
+                mesh["direction"] = m.vector("direction", 1, 3)
+                mesh["velocity"] = m.one("velocity", [speed, [[0, 0], [0.5 * lasts, speed], [lasts, -speed]]])
+            if m.chance("turns", 0.5):
+                fast = speed / (2 * scale)
+                mesh["spin"] = m.one("spin", [fast, [[0, fast], [0.3 * lasts, -fast]]])
+                mesh["axis"] = m.one("axis", [[0, 1, 0], [0, 0, -2], [1, 1, 0.5]])
+                mesh["centre"] = at
+            if m.chance("shakes", 0.3):
+                mesh["amplitude"] = m.vector("amplitude", 0.1 * self.size, 3)
+                mesh["frequency"] = speed / self.size
+            if m.chance("comes", 0.15):
+                mesh["begin"] = 0.3 * lasts
+            if m.chance("goes", 0.2):
+                mesh["end"] = 0.6 * lasts
+            out.append(mesh)
         return out
 
     def stages(self, walls, dt):

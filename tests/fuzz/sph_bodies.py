@@ -14,6 +14,9 @@ class TotalBodies:
             # The first is painted everywhere: along a period it has no end.
             if (k > 0 or "periodic" not in self.box.ends) and d.chance(f"rigid/{k}", 0.3):
                 out[k] = self.rigid(d.part("rigid", k), out[k], [g for g in out[:k] if g.get("rigid")])
+            whole = [g["name"] for g in out[:k] if not g.get("rigid") and "part_of" not in g]
+            if whole and not out[k].get("rigid") and d.chance(f"layer/{k}", 0.25):
+                out[k]["part_of"] = d.one(f"layer of/{k}", whole)
         if d.chance("in a fluid", 0.5):
             out.append(self.around(d.part("around")))
             for k, body in enumerate(out[:-1]):

@@ -12,6 +12,7 @@ OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "signal.h", "sys/stat.h", "sys/types.
 HIDDEN = {
     r"metis\.h": r"libdecomp/src/metis\.cpp",
     r"hdf5\.h": r"libsph/src/files/(hdf5_file|memory_file)\.cpp|benchmarks/scale_sim/check\.cpp",
+    r"assimp/.*": r"libsph/src/files/mesh_file\.cpp",
     r"toml\+\+/.*": r"libsph/src/keys/toml_tree\.cpp",
     r"nlohmann/.*": r"libsph/src/.*\.cpp|benchmarks/.*\.cpp",
     r"sleef\.h": r"libsph/src/core/exact_math\.cpp",
@@ -34,7 +35,7 @@ FOLDERS = {
     "pairs": "core scene",
     "terms": "core pairs",
     "laws": "core scene pairs",
-    "keys": "stokes core scene terms laws",
+    "keys": "stokes core files scene terms laws",
     "plan": "core scene pairs",
     "start": "core files scene pairs laws plan",
     "models": "stokes core scene pairs terms laws plan start",

@@ -92,18 +92,19 @@ TEST(GrainRuns, LostHistoryIsMissed) {
   const decomp::Payload entries = simulation.contacts();
   const ContactLists& old = simulation.grains()->pairs().lists();
   ASSERT_GT(entries.bytes.size(), 100 * old.entry_bytes());
-  std::vector<PlaneNow> planes;
+  WallsNow walls;
   for (const Wall& wall : simulation.scene().grains.walls) {
-    planes.push_back({{}, wall.normal, {}, 0, true});
-    for (std::size_t a = 0; a < 3; ++a) planes.back().point[a] = simulation.scale().quanta(wall.point[a]);
+    walls.planes.push_back({{}, wall.normal, {}, 0, true});
+    for (std::size_t a = 0; a < 3; ++a)
+      walls.planes.back().point[a] = simulation.scale().quanta(wall.point[a]);
   }
   std::vector<std::uint32_t> order(p.owned());
   std::iota(order.begin(), order.end(), 0u);
   const auto lists_with = [&](const decomp::Payload& payload) {
     ContactLists lists(old.parities());
     lists.build(p, d.grid(), d.own_cells(), d.list_radius(), d.skin(), simulation.scale().quantum,
-                simulation.sets().front().ranges, {false}, planes);
-    const ContactCensus found = lists.unpack(p, payload, order, simulation.scale().quantum, planes);
+                simulation.sets().front().ranges, {false}, walls);
+    const ContactCensus found = lists.unpack(p, payload, order, simulation.scale().quantum, walls);
     return std::pair(std::move(lists), found);
   };
   const ContactCensus sent = ContactLists::census(p, entries, old.history());

@@ -41,7 +41,7 @@ const Table& factors(Family family) {
       {"double", "mixed"});
   // Contacts are always computed in double.
   static const Table grains = table_of({"linear", "hertz", "latched", "smooth", "sizes", "glued", "servo",
-                                        "melts2d", "chamber", "chamber_open"},
+                                        "meshes", "melts2d", "chamber", "chamber_open"},
                                        {"double"});
   return family == Family::grains ? grains : sph;
 }

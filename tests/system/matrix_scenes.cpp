@@ -206,6 +206,8 @@ const std::vector<Source>& sources() {
       {"sizes", "tests/scenes/grains_sizes.toml", {}},
       {"glued", "tests/scenes/grains_glued.toml", {}},
       {"servo", "tests/scenes/grains_servo.toml", {}},
+      // walls of triangles that turn, shake, come and go; contacts pass from facet to facet
+      {"meshes", "tests/scenes/grains_mesh.toml", {}},
       // cells that no cut moves
       {"melts2d", "tests/scenes/melts2d.toml", {"time.dt=0.2"}},
       // grains that the flow on them carries for some steps: what is between two flows is state

@@ -75,6 +75,9 @@ class Tutorials(Case):
     def test_grains(self):
         self.follow("grains")
 
+    def test_drum(self):
+        self.follow("drum")
+
     def test_cluster(self):
         self.follow("cluster")
 

@@ -46,7 +46,9 @@ std::vector<ContactEntry> entries_of(std::span<const std::byte> bytes, std::size
 }
 
 std::string name_of_contact(std::uint64_t id, std::uint64_t key) {
-  if ((key & wall_key) != 0) return fmt::format("contact {}-wall {}", id, key & ~wall_key);
+  if (const WallName name(key); (key & wall_key) != 0)
+    return name.is_facet() ? fmt::format("contact {}-facet {} of mesh {}", id, name.facet + 1, name.wall)
+                           : fmt::format("contact {}-wall {}", id, name.wall);
   return fmt::format("contact {}-{}", std::min(id, key), std::max(id, key));
 }
 

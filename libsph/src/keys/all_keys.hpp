@@ -5,6 +5,7 @@
 #include "keys/grain_keys.hpp"
 #include "keys/group_keys.hpp"
 #include "keys/melt_keys.hpp"
+#include "keys/mesh_keys.hpp"
 #include "keys/opening_keys.hpp"
 #include "keys/run_keys.hpp"
 #include "keys/start_keys.hpp"
@@ -32,6 +33,7 @@ inline constexpr auto top_keys = std::to_array<Key>({
     {"group", Inner{&group}, "The materials.", Default{"required"}},
     {"wall", Inner{&wall}, "Planes and boxes that hold grains.", of_grains},
     {"stage", Inner{&stage}, "Changes of the walls.", of_grains},
+    {"mesh", Inner{&mesh}, "Walls of triangles; fluids would pass through them.", of_grains_alone},
     {"reset", Inner{&reset}, "Boxes where matter is renewed.", of_fluids},
     {"inlet", Inner{&inlet}, "Where fluid comes in.", of_openings},
     {"outlet", Inner{&outlet}, "Where it leaves.", of_openings},
@@ -45,11 +47,11 @@ inline constexpr auto top_keys = std::to_array<Key>({
 });
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
-inline constexpr std::array<const KeyTable*, 33> all{
-    &top,        &domain,       &kernel,        &reset,      &inlet,     &outlet,        &group,
-    &becomes,    &permeability, &viscosity_law, &strength,   &heat,      &heat_transfer, &radiation,
-    &start,      &region,       &layer,         &tile,       &fill,      &terms,         &surface_tension,
-    &contact,    &contact_pair, &drag,          &melt_table, &melt_side, &wall,          &stage,
-    &stage_wall, &time,         &decomposition, &output,     &monitor};
+inline constexpr std::array<const KeyTable*, 34> all{
+    &top,        &domain,       &kernel,        &reset,         &inlet,     &outlet,        &group,
+    &becomes,    &permeability, &viscosity_law, &strength,      &heat,      &heat_transfer, &radiation,
+    &start,      &region,       &layer,         &tile,          &fill,      &terms,         &surface_tension,
+    &contact,    &contact_pair, &drag,          &melt_table,    &melt_side, &wall,          &stage,
+    &stage_wall, &mesh,         &time,          &decomposition, &output,    &monitor};
 
 }  // namespace sph::keys

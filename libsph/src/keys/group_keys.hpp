@@ -282,7 +282,10 @@ inline constexpr auto group_keys = std::to_array<Key>({
      "sums of their forces; sound_speed, or bulk_modulus, is then how stiff its contacts are, if what it "
      "touches is as stiff.",
      at<&Group::solid, &SolidMaterial::body, &RigidMaterial::rigid>, of_sph, solid},
-    {"part_of", NameOf{"group"}, "Of a rigid solid: this rigid group and it are one body.",
+    {"part_of", NameOf{"group"},
+     "Of a solid with lagrangian = \"total\": this group and it are one body. Rigid ones move together; "
+     "particles of "
+     "others, each with the material of its group, are bonded across their common face: layers, inclusions.",
      index_at<&Group::solid, &SolidMaterial::body, &RigidMaterial::part_of>, of_sph, solid},
     {"held",
      Special{R"(an array of "x", "y", "z" and "rotation")", R"(["x", "rotation"])",

@@ -24,7 +24,7 @@ int index_of(const KeyValue& value, const Scene& scene, const std::string& name,
   if (what == "group")
     for (const Group& group : scene.groups) names.push_back(group.name);
   else
-    for (const Wall& wall : scene.grains.walls) names.push_back(wall.name);
+    names = scene.grains.names();
   const auto at = std::find(names.begin(), names.end(), name);
   if (at == names.end())
     value.fail(fmt::format("names the unknown {} \"{}\"", what, name),

@@ -262,7 +262,7 @@ void read_groups(const TopReader& top, Scene& scene) {
     read_becomes(tables[k], k, groups);
     tables[k].finish();
   }
-  check_rigid(tables, groups);
+  check_parts(tables, groups);
 }
 
 std::string read_name(const TableReader& table, std::string_view what,

@@ -1,6 +1,7 @@
 // The steps from a TOML tree to a Scene, one per table; scene_toml.cpp calls them in order.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,7 +37,7 @@ void check_exchange(const std::vector<GroupReader>& tables, const std::vector<Gr
 void read_strength(const GroupReader& table, Group& group, const Scene& scene);
 /// What a solid that may be rigid has of its own, ...
 void read_rigid(const GroupReader& table, Group& group, int dim);
-void check_rigid(const std::vector<GroupReader>& tables, const std::vector<Group>& groups);
+void check_parts(const std::vector<GroupReader>& tables, const std::vector<Group>& groups);
 /// ... and its bulk modulus [Pa] where it gives none: it is as fast as the fastest fluid.
 [[nodiscard]] double stiffness_of_rigid(const GroupReader& table, const Group& group,
                                         const std::vector<Group>& groups);
@@ -75,6 +76,14 @@ void read_drag(const TopReader& top, const Reader<keys::drag>& table, Scene& sce
 /// [[wall]] and [[stage]], once domain and groups are known; stages name walls of `scene`.
 [[nodiscard]] std::vector<Wall> read_walls(const TopReader& top, const Scene& scene);
 [[nodiscard]] std::vector<WallStage> read_stages(const TopReader& top, const Scene& scene);
+/// [[mesh]], whose names are those of walls too
+[[nodiscard]] std::vector<MeshWall> read_meshes(const TopReader& top, const Scene& scene);
+/// Where their files are, from the folder of the scene, and what they hold when a run begins.
+void find_meshes(const TopReader& top, Scene& scene);
+/// Refuses what is no readable file.
+void check_file(const TableReader& table, std::string_view key, const std::string& path);
+/// As it is where its length is 1, so that a scene that is written out and read back keeps its bits; nothing if it is 0.
+[[nodiscard]] std::optional<Double3> unit_vector(Double3 of);
 
 /// Groups of melts, [melt] and the spacing.
 void read_melt(const TopReader& top, const DomainReader& domain, const StartReader& start, Scene& scene);

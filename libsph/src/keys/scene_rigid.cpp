@@ -49,8 +49,9 @@ void read_rigid(const GroupReader& table, Group& group, int dim) {
   RigidMaterial& body = group.solid.body;
   using Name = GroupReader::Name<>;
   if (!body.rigid) {
-    for (const Name key : {Name("part_of"), Name("held"), Name("start_velocity"), Name("start_spin")})
+    for (const Name key : {Name("held"), Name("start_velocity"), Name("start_spin")})
       table.only_if(false, key, "only groups with rigid = true have it");
+    table.only_if(is_bonded(group), "part_of", "only solids with lagrangian = \"total\" have it");
     return;
   }
   if (table.has("lagrangian") && group.solid.lagrangian == Lagrangian::updated)
@@ -71,14 +72,17 @@ void read_rigid(const GroupReader& table, Group& group, int dim) {
   table.only_if(false, "start_spin", "the group that it is part of says so");
 }
 
-void check_rigid(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+void check_parts(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const Group& g = groups[k];
-    if (!is_rigid(g) || g.solid.body.part_of < 0) continue;
+    if (g.solid.body.part_of < 0) continue;
     const Group& whole = groups[static_cast<std::size_t>(g.solid.body.part_of)];
-    if (&whole == &g || !is_rigid(whole) || whole.solid.body.part_of >= 0)
+    if (&whole == &g || !is_body(whole) || is_rigid(whole) != is_rigid(g) || whole.solid.body.part_of >= 0)
       tables[k].fail("part_of", fmt::format("names \"{}\"", whole.name),
-                     "it must name another rigid group that is itself no part of one");
+                     is_rigid(g)
+                         ? "it must name another rigid group that is itself no part of one"
+                         : "it must name another solid with lagrangian = \"total\" that deforms and is "
+                           "itself no part of one");
   }
 }
 

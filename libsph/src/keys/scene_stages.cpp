@@ -19,6 +19,9 @@ WallChange read_change(const Reader<keys::stage_wall>& table, const std::vector<
   WallChange change;
   table.read(change);
   const auto k = static_cast<std::size_t>(change.wall);
+  if (k >= walls.size())
+    table.fail("name", "names a [[mesh]]",
+               "its motion follows time by its own keys: begin, end, velocity, spin");
   if (course.removed[k])
     table.fail("name", fmt::format("names \"{}\", which an earlier stage removed", walls[k].name),
                "a wall does not come back");

@@ -95,6 +95,7 @@ std::string to_toml(const Scene& scene) {
     else
       write_group(out, g, scene.dim);
   if (scene.has_grains()) write_walls(out, scene);
+  write_meshes(out, scene);
   if (scene.has_melt()) write_melt(out, scene.domain.melt);
   for (const Reset& box : scene.domain.resets) {
     out.table(keys::reset, box);

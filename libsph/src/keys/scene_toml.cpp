@@ -54,6 +54,7 @@ struct Tables {
     (void)contact.tables<keys::contact_pair>();
     (void)top.table<keys::melt_table>().tables<keys::melt_side>();
     (void)top.tables<keys::wall>();
+    (void)top.tables<keys::mesh>();
     (void)top.tables<keys::reset>();
     (void)top.tables<keys::inlet>();
     (void)top.tables<keys::outlet>();
@@ -119,20 +120,6 @@ void check_periods(const Tables& tables, const Scene& scene) {
   }
 }
 
-void check_file(const TableReader& table, std::string_view name, const std::string& path) {
-  if (path.empty()) return;
-  const Key& key = table.key(name);
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status))
-    table.fail(key, fmt::format("\"{}\" is a directory", path), "give a file");
-  // A pipe would be opened for ever, a device read for ever.
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    table.fail(key, fmt::format("\"{}\" is a pipe or a device", path), "give a file");
-  if (!std::ifstream(path))
-    table.fail(key, fmt::format("\"{}\" cannot be read", path), "give an existing file");
-}
-
 void read_top(const TopReader& top, Scene& scene) {
   scene.groups = read_group_names(top);
   scene.dim = scene.has_grains() ? 3 : 2;
@@ -167,6 +154,7 @@ void read_grains(const Tables& tables, Scene& scene) {
     check_extent(tables.domain, scene);
   }
   scene.grains.walls = read_walls(tables.top, scene);
+  scene.grains.meshes = read_meshes(tables.top, scene);
   scene.grains.stages = read_stages(tables.top, scene);
 }
 
@@ -235,6 +223,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
     check_file(tables.start, "file", scene.start.file);
     check_file(tables.start.table<keys::tile>(), "file", scene.start.tile.file);
     check_file(tables.decomposition, "replay", scene.decomposition.replay);
+    find_meshes(tables.top, scene);
   }
   return scene;
 }
@@ -247,6 +236,20 @@ Scene parse_and_resolve(const std::string& text, const std::string& name,
 }
 
 }  // namespace
+
+void check_file(const TableReader& table, std::string_view name, const std::string& path) {
+  if (path.empty()) return;
+  const Key& key = table.key(name);
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status))
+    table.fail(key, fmt::format("\"{}\" is a directory", path), "give a file");
+  // A pipe would be opened for ever, a device read for ever.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    table.fail(key, fmt::format("\"{}\" is a pipe or a device", path), "give a file");
+  if (!std::ifstream(path))
+    table.fail(key, fmt::format("\"{}\" cannot be read", path), "give an existing file");
+}
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                   const End& end) {

@@ -16,19 +16,6 @@ using WallReader = Reader<keys::wall>;
 
 constexpr std::array axis_names{"x", "y", "z"};
 
-/// Unit vectors stay as they are, so that a scene that is written out and read back keeps its bits.
-Double3 unit_normal(const WallReader& table, Double3 n) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  const auto square = [&] { return n[0] * n[0] + n[1] * n[1] + n[2] * n[2]; };
-  if (std::fabs(square() - 1) <= rounding) return n;
-  const double largest = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
-  if (!(largest > 0)) table.fail("normal", "has no direction", "it points to the side of the grains");
-  for (double& c : n) c /= largest;
-  const double length = std::sqrt(square());
-  for (double& c : n) c /= length;
-  return n;
-}
-
 /// The corner of the domain furthest along the normal must be in front of the plane.
 void check_plane(const WallReader& table, const Scene& scene, const Wall& wall) {
   double room = 0;
@@ -56,7 +43,9 @@ void read_drive(const WallReader& table, Wall& wall) {
 }
 
 Wall read_plane(const WallReader& table, const Scene& scene, Wall wall) {
-  wall.normal = unit_normal(table, wall.normal);
+  const std::optional<Double3> normal = unit_vector(wall.normal);
+  if (!normal) table.fail("normal", "has no direction", "it points to the side of the grains");
+  wall.normal = *normal;
   check_plane(table, scene, wall);
   read_drive(table, wall);
   return wall;
@@ -114,6 +103,18 @@ std::vector<Wall> read_box(const WallReader& table, const Scene& scene, const Wa
 }
 
 }  // namespace
+
+std::optional<Double3> unit_vector(Double3 n) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  const auto square = [&] { return n[0] * n[0] + n[1] * n[1] + n[2] * n[2]; };
+  if (std::fabs(square() - 1) <= rounding) return n;
+  const double largest = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
+  if (!(largest > 0)) return std::nullopt;
+  for (double& c : n) c /= largest;
+  const double length = std::sqrt(square());
+  for (double& c : n) c /= length;
+  return n;
+}
 
 std::vector<Wall> read_walls(const TopReader& top, const Scene& scene) {
   std::vector<Wall> walls;

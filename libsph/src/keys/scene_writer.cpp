@@ -75,7 +75,7 @@ void SceneWriter::index(const keys::Key& key, int k) {
   if (name.what == "group")
     raw(key.name, name_of(k));
   else
-    text(key.name, scene_->grains.walls[static_cast<std::size_t>(k)].name);
+    text(key.name, scene_->grains.names()[static_cast<std::size_t>(k)]);
 }
 
 void SceneWriter::vector(std::string_view key, const Double3& x) {

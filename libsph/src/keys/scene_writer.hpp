@@ -58,5 +58,6 @@ void write_leaves(SceneWriter& out, const Domain& domain);
 void write_openings(SceneWriter& out, const Domain& domain);
 /// [[wall]] and [[stage]]
 void write_walls(SceneWriter& out, const Scene& scene);
+void write_meshes(SceneWriter& out, const Scene& scene);
 
 }  // namespace sph

@@ -38,6 +38,7 @@ constexpr std::array units{
     Unit{"h", dimension::time, 0, 3600},
     Unit{"d", dimension::time, 0, 86400},
     Unit{"Hz", dimension::rate},
+    Unit{"rpm", dimension::rate, 0, 0.10471975511965977},  // 2 pi / 60
     Unit{"kg", mass},
     Unit{"g", mass, -3},
     Unit{"t", mass, 3},

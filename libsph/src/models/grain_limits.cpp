@@ -70,6 +70,13 @@ void check_wall_speeds(const Scene& scene) {
     check(wall, "wall.velocity", speed_along(wall.velocity, wall.normal));
     check(wall, "wall.largest_speed", wall.largest_speed);
   }
+  for (const MeshWall& mesh : scene.grains.meshes) {
+    double most = 0;
+    for (const auto& [t, v] : mesh.motion.speed) most = std::max(most, std::fabs(v));
+    if (most * dt > limit)
+      throw InputError(fmt::format("{}: mesh.velocity: mesh \"{}\" at {:.6g} m/s: {}, or this speed",
+                                   scene.file, mesh.name, most, grain_move_text(scene, most * dt)));
+  }
   for (const WallStage& stage : scene.grains.stages)
     for (const WallChange& change : stage.walls) {
       const Wall& wall = scene.grains.walls[static_cast<std::size_t>(change.wall)];

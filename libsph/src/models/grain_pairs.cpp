@@ -13,7 +13,7 @@
 namespace sph {
 
 GrainPairs::GrainPairs(std::size_t set, const Scene& scene, const PositionScale& scale,
-                       const PlaneWalls& walls)
+                       const GrainWalls& walls)
     : SetPair(set),
       scene_(&scene),
       scale_(scale),
@@ -50,15 +50,16 @@ void GrainPairs::rebuild(const Particles& particles, const ListSetting& s, const
 ContactCensus GrainPairs::find_pairs(const Particles& particles, const ListSetting& s,
                                      const decomp::Payload& carried, std::span<const std::uint32_t> order) {
   // A wall that a later stage brings near must be listed in time: walls are looked for where they are now.
-  const std::vector<PlaneNow> planes = walls_->now(s.global);
-  lists_.build(particles, s.grid, s.own_cells, s.radius, s.skin, scale_.quantum, s.ranges, fixed_, planes);
-  const ContactCensus found = lists_.unpack(particles, carried, order, scale_.quantum, planes);
+  const WallsNow walls = walls_->now(s.global);
+  lists_.build(particles, s.grid, s.own_cells, s.radius, s.skin, scale_.quantum, s.ranges, fixed_, walls);
+  const ContactCensus found = lists_.unpack(particles, carried, order, scale_.quantum, walls);
   counters_.carried += lists_.carried();
   sums_.assign(particles.rows() * (spins_ ? 8 : 4), 0);
   const std::int64_t* x = particles.data<Field::position>();
   listed_.grains.assign(x, x + particles.owned() * 3);
   listed_.walls.clear();
   for (const WallState& w : s.global.walls) listed_.walls.push_back(w.offset);
+  listed_.time = s.global.time;
   return found;
 }
 
@@ -99,7 +100,8 @@ double GrainPairs::longest_way(const Particles& particles, const GlobalState& gl
     }
     way2 = std::max(way2, w2);
   }
-  return 1.0001 * std::sqrt(way2) * scale_.quantum;
+  return std::max(1.0001 * std::sqrt(way2) * scale_.quantum,
+                  walls_->meshes().longest_way(listed_.time, global.time));
 }
 
 void GrainPairs::forget_parted(const Particles& particles) {
@@ -115,7 +117,7 @@ void GrainPairs::find_lost(const Particles& p, const GlobalState& global, double
   const double* v = p.data<Field::velocity>();
   for (const ContactLists::Parted& parted : lists_.parted()) {
     const bool with_wall = (parted.key & wall_key) != 0;
-    if (parted.listed || (with_wall && !walls_->present(parted.key & ~wall_key, global))) continue;
+    if (parted.listed || (with_wall && !walls_->present(parted.key, global))) continue;
     const std::size_t i = parted.row;
     const double own =
         std::sqrt(v[i * 3] * v[i * 3] + v[i * 3 + 1] * v[i * 3 + 1] + v[i * 3 + 2] * v[i * 3 + 2]);

@@ -52,9 +52,9 @@ void Grains::reserve(Reduction& r) {
 }
 
 bool Grains::report(const StepState&, Reduction& r) {
-  r[in_.strong] = sweep_.strong.any() ? 1 : 0;
-  r[in_.deep] = sweep_.deep.any() ? 1 : 0;
-  std::ranges::copy(wall_force_, r[in_.halves].begin());
+  r[in_.strong] = now_.sweep.strong.any() ? 1 : 0;
+  r[in_.deep] = now_.sweep.deep.any() ? 1 : 0;
+  std::ranges::copy(now_.force, r[in_.halves].begin());
   return true;
 }
 
@@ -65,7 +65,7 @@ void Grains::guard(const decomp::Comm& comm, const StepState& s, const Reduction
       !(r[Reduction::bad] > 0) && r[Reduction::speed] * s.global.dt > longest_grain_move(*scene_);
   if (!strong && !deep && !fast) return;
   Findings found;
-  if (const ContactFault& f = sweep_.strong; strong && f.any())
+  if (const ContactFault& f = now_.sweep.strong; strong && f.any())
     found.add(f.id, [&] {
       return fmt::format(
           "{}: a contact force of {:.6g} N is beyond the range of the sums, {:.6g} N; reduce time.dt or "
@@ -73,7 +73,7 @@ void Grains::guard(const decomp::Comm& comm, const StepState& s, const Reduction
           "the stiffness",
           text_of(*scene_, scale_, f), f.value * table_.force_quantum(), f.limit * table_.force_quantum());
     });
-  if (const ContactFault& f = sweep_.deep; deep && f.any())
+  if (const ContactFault& f = now_.sweep.deep; deep && f.any())
     found.add(f.id, [&] {
       return fmt::format(
           "{}: an overlap of {:.6g} m is deeper than contact.largest_overlap allows, {:.6g} m; raise the "

@@ -1,11 +1,8 @@
 #include "models/grain_texts.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 
 #include "sph/core/findings.hpp"
-#include "sph/pairs/contact_lists.hpp"
 
 namespace sph {
 
@@ -14,11 +11,6 @@ std::string text_of_place(const Scene& scene, const PositionScale& scale, const 
   std::array<double, 3> at;
   for (std::size_t a = 0; a < 3; ++a) at[a] = scale.metres(wrap(static_cast<int>(a), quanta[a]));
   return place_text(at);
-}
-
-std::string text_of_partner(const Scene& scene, std::uint64_t key) {
-  return (key & wall_key) != 0 ? fmt::format("wall \"{}\"", scene.grains.walls[key & ~wall_key].name)
-                               : fmt::format("grain {}", key);
 }
 
 }  // namespace sph

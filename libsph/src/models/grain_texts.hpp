@@ -1,4 +1,4 @@
-// Where a grain is and what it touches, in the words of messages. Places are inside the domain: rows are wrapped when
+// Where a grain is, in the words of messages. Places are inside the domain: rows are wrapped when
 // lists are made anew, and a message must not tell when that was.
 #pragma once
 
@@ -12,7 +12,5 @@ namespace sph {
 
 [[nodiscard]] std::string text_of_place(const Scene& scene, const PositionScale& scale,
                                         const std::int64_t* quanta);
-/// A wall or a grain, by the key of a contact (wall_key).
-[[nodiscard]] std::string text_of_partner(const Scene& scene, std::uint64_t key);
 
 }  // namespace sph

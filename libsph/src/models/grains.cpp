@@ -42,7 +42,7 @@ FieldSet grain_fields(const Scene& scene) {
   return fields;
 }
 
-Grains::Grains(std::size_t set, const Scene& scene, const PositionScale& scale)
+Grains::Grains(std::size_t set, const decomp::Comm& comm, const Scene& scene, const PositionScale& scale)
     : Model(set),
       scene_(&scene),
       scale_(scale),
@@ -50,7 +50,7 @@ Grains::Grains(std::size_t set, const Scene& scene, const PositionScale& scale)
       alone_(!scene.has_matter()),
       dt_(scene.has_melt() ? any_step : grain_step(scene)),
       table_(scene, scene.has_melt() ? 0 : dt_),
-      walls_(scene, scale, table_.force_quantum()),
+      walls_(comm, scene, scale, table_.force_quantum()),
       pairs_(set, scene, scale, walls_) {}
 
 // Alone, contacts and walls of a block of rows, then at once the kick and drift of its grains: one stage. In
@@ -80,9 +80,9 @@ Plan Grains::plan() {
                        sweep(s.particles,
                              side == Side::interior ? pairs_.lists().interior() : pairs_.lists().boundary(),
                              s.ranges, s.global.dt);
-                       s.maxima.speed = larger(std::sqrt(sweep_.speed2), s.maxima.speed);
+                       s.maxima.speed = larger(std::sqrt(now_.sweep.speed2), s.maxima.speed);
                        // Of others, accelerations limit the time step; of contacts their stiffness does.
-                       const double most = std::sqrt(sweep_.acceleration2);
+                       const double most = std::sqrt(now_.sweep.acceleration2);
                        if (alone_ || !std::isfinite(most))
                          s.maxima.acceleration = larger(most, s.maxima.acceleration);
                      }});
@@ -111,10 +111,10 @@ void Grains::check_start(const decomp::Comm& comm, const StepState& s) const {
 }
 
 void Grains::begin_step(const Particles& particles, const GlobalState& global) {
-  sweep_ = {};
   pairs_.forget_parted(particles);
-  planes_ = walls_.now(global);
-  wall_force_.assign(6 * planes_.size(), 0);
+  now_ = {.walls = walls_.now(global)};
+  now_.facets = FacetContacts(now_.walls, scale_.quantum);
+  now_.force.assign(6 * walls_.count(), 0);
 }
 
 ContactContext Grains::context(Particles& particles, double dt) {
@@ -122,7 +122,7 @@ ContactContext Grains::context(Particles& particles, double dt) {
           &pairs_.lists(),
           {table_.data(), table_.groups(),
            scene_->grains.contact.pull ? -std::numeric_limits<double>::infinity() : 0.0},
-          {planes_, wall_force_.data()},
+          {now_.walls.planes, &now_.facets, walls_.count(), now_.force.data()},
           pairs_.sums().data(),
           {scale_.quantum, table_.force_quantum(), table_.torque_quantum()},
           dt,
@@ -138,10 +138,11 @@ void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, c
                    double dt) {
   ContactSweep now;
   fusion_.sweep(context(particles, dt), blocks, ranges, now);
-  sweep_.speed2 = now.speed2 <= sweep_.speed2 ? sweep_.speed2 : now.speed2;
-  sweep_.acceleration2 = now.acceleration2 <= sweep_.acceleration2 ? sweep_.acceleration2 : now.acceleration2;
-  sweep_.strong.add(now.strong);
-  sweep_.deep.add(now.deep);
+  now_.sweep.speed2 = now.speed2 <= now_.sweep.speed2 ? now_.sweep.speed2 : now.speed2;
+  now_.sweep.acceleration2 =
+      now.acceleration2 <= now_.sweep.acceleration2 ? now_.sweep.acceleration2 : now.acceleration2;
+  now_.sweep.strong.add(now.strong);
+  now_.sweep.deep.add(now.deep);
   pairs_.add(now);
 }
 

@@ -22,7 +22,7 @@ Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
     pairs.push_back(&*sph_pairs);
   }
   if (scene.has_grains()) {
-    grains.emplace(sets.size(), scene, scale);
+    grains.emplace(sets.size(), comm, scene, scale);
     sets.push_back({grain_fields(scene), stays});
     models.push_back(&*grains);
     pairs.push_back(&grains->pairs());

@@ -111,6 +111,21 @@ double hourglass_stiffness(const Scene& of, double modulus, double shear_modulus
   return std::min(bending * shear_modulus, modulus);
 }
 
+/// Whose bonds it shares: a body has the number of its first group.
+double body_of(const Scene& of, const Group& g) {
+  const Group& held = g.wall.clamps < 0 ? g : of.groups[static_cast<std::size_t>(g.wall.clamps)];
+  const int whole = held.solid.body.part_of;
+  return static_cast<double>(whole < 0 ? &held - of.groups.data() : whole);
+}
+
+/// Of pressure waves in a solid. A clamp has that of what it holds, a part of a rigid body that of the whole.
+double modulus_of(const Scene& of, const Group& g) {
+  if (g.kind == GroupKind::fluid) return 0;
+  const int other = is_rigid(g) ? g.solid.body.part_of : g.wall.clamps;
+  const Group& as = other < 0 ? g : of.groups[static_cast<std::size_t>(other)];
+  return as.eos.bulk_modulus + 4.0 / 3.0 * as.solid.shear_modulus;
+}
+
 GroupTable group_table(const Scene& of) {
   const double divide = density_divide(of);
   GroupTable groups;
@@ -126,13 +141,8 @@ GroupTable group_table(const Scene& of) {
     const bool bubbly = g.kind != GroupKind::grain && g.eos.law->kind == EosKind::bubbly;
     groups.weight.share.push_back(bubbly || borne == 0 ? 1.0 : 1 - borne / g.density);
     groups.weight.borne.push_back(bubbly ? borne : 0.0);
-    const int of_other = is_rigid(g) ? g.solid.body.part_of : g.wall.clamps;
-    const std::size_t body = of_other < 0 ? groups.bodies.number.size() : static_cast<std::size_t>(of_other);
-    groups.bodies.number.push_back(static_cast<double>(body));
-    groups.bodies.modulus.push_back(g.kind == GroupKind::fluid
-                                        ? 0.0
-                                        : of.groups[body].eos.bulk_modulus +
-                                              4.0 / 3.0 * of.groups[body].solid.shear_modulus);
+    groups.bodies.number.push_back(body_of(of, g));
+    groups.bodies.modulus.push_back(modulus_of(of, g));
     groups.bodies.hourglass.push_back(
         is_bonded(g) ? hourglass_stiffness(of, groups.bodies.modulus.back(), g.solid.shear_modulus) : 0.0);
     groups.bodies.bonded.push_back(is_body(g) ? 1.0 : 0.0);

@@ -143,7 +143,7 @@ void Suspension::spread(const StepState& s) {
        {&viscosity, centres, GrainGrid::Behind::same, &seen_.melt_viscosity}}};
   grid_.copy(of_melt, melt_->work().patch());
   of_.stiffness = stiffness_of_rows(*scene_, contacts_->pairs().lists(), grains, contacts_->table(),
-                                    contacts_->walls().now(s.global), scale_.quantum, unit_.stiffness);
+                                    contacts_->walls().now(s.global).planes, scale_.quantum, unit_.stiffness);
   weigh(s.global, grains);
   std::array<GrainGrid::Deposit, 6> sums;
   for (GrainGrid::Deposit& d : sums) d = grid_.make_deposit();

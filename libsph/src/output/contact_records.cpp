@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sph/laws/contact/law.hpp"
+#include "sph/pairs/facet_contacts.hpp"
 
 namespace sph {
 namespace {
@@ -45,7 +46,8 @@ class Enumeration {
       : s_(s),
         grains_(*s.grains()),
         rows_(s.particles(s.grains()->set())),
-        planes_(grains_.walls().now(s.global())),
+        walls_(grains_.walls().now(s.global())),
+        facets_(walls_, s.scale().quantum),
         quantum_(s.scale().quantum),
         law_(contact_law(s.scene())),
         history_(static_cast<std::size_t>(grains_.pairs().lists().history())),
@@ -85,32 +87,29 @@ class Enumeration {
   }
 
   [[nodiscard]] std::optional<Found> wall(std::uint32_t i, std::uint32_t w) const {
-    if (w >= planes_.size() || !planes_[w].present) return std::nullopt;
-    const PlaneNow& plane = planes_[w];
-    double away = 0;
-    Double3 relative{};
-    Found f{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      away += static_cast<double>(rows_.x[i * 3 + k] - plane.point[k]) * plane.normal[k];
-      f.record.normal[k] = -plane.normal[k];
-      relative[k] = plane.velocity[k] - rows_.v[i * 3 + k];
-    }
-    f.record.overlap = rows_.radius[i] - away * quantum_;
+    if (w >= walls_.planes.size() || !walls_.planes[w].present) return std::nullopt;
+    const PlaneNow& plane = walls_.planes[w];
+    const double away = distance_from(plane, rows_.x + i * std::size_t{3}, quantum_);
+    Found f = beside(i, plane.normal, plane.velocity, rows_.radius[i] - away);
     if (!(f.record.overlap > 0)) return std::nullopt;
-    f.record.id = rows_.id[i];
     f.record.partner = wall_key | w;
-    f.record.row = i;
     f.record.partner_row = w;
-    f.record.counted = true;
-    f.record.fixed = is_fixed(i);
-    f.record.arm = rows_.radius[i] - f.record.overlap;
-    f.separation = dot(relative, f.record.normal);
-    f.radius = rows_.radius[i];
-    f.mass = rows_.mass[i];
-    f.groups[0] = rows_.group[i];
     f.groups[1] = plane.group;
-    f.turn = 1;
     return f;
+  }
+
+  /// All that there are of meshes, each with the entry that has its history.
+  template <class Visit>
+  void for_facets(const ContactLists& lists, Visit&& visit) {
+    const ContactGroups& list = lists.walls();
+    for (const FacetContact& c : facets_.look(list, 0, list.groups(), s_.particles(grains_.set()))) {
+      const std::uint32_t i = list.i[c.entry];
+      Found f = beside(i, c.away, c.velocity, rows_.radius[i] - c.distance);
+      f.record.partner = lists.numbers().key(list.j[c.entry]);
+      f.record.partner_row = static_cast<std::uint32_t>(walls_.planes.size() + c.mesh);
+      f.groups[1] = walls_.meshes[c.mesh].group;
+      visit(f, c.from);
+    }
   }
 
   /// Force and energy of the contact at `lane` of group `g`, by the law that moves it.
@@ -146,6 +145,28 @@ class Enumeration {
   }
 
  private:
+  /// A grain and a wall whose surface is `away` from it.
+  [[nodiscard]] Found beside(std::uint32_t i, const Double3& away, const Double3& velocity,
+                             double overlap) const {
+    Found f{};
+    Double3 relative{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      f.record.normal[k] = -away[k];
+      relative[k] = velocity[k] - rows_.v[i * 3 + k];
+    }
+    f.record.overlap = overlap;
+    f.record.id = rows_.id[i];
+    f.record.row = i;
+    f.record.counted = true;
+    f.record.fixed = is_fixed(i);
+    f.record.arm = rows_.radius[i] - overlap;
+    f.separation = dot(relative, f.record.normal);
+    f.radius = rows_.radius[i];
+    f.mass = rows_.mass[i];
+    f.groups[0] = rows_.group[i];
+    f.turn = 1;
+    return f;
+  }
   [[nodiscard]] bool is_fixed(std::uint32_t row) const {
     return s_.scene().groups[rows_.group[row]].grain.fixed;
   }
@@ -153,7 +174,8 @@ class Enumeration {
   const Simulation& s_;
   const Grains& grains_;
   GrainRows rows_;
-  std::vector<PlaneNow> planes_;
+  WallsNow walls_;
+  FacetContacts facets_;
   double quantum_;
   const ContactLaw& law_;
   std::size_t history_, springs_;
@@ -162,8 +184,12 @@ class Enumeration {
 }  // namespace
 
 void for_each_contact(const Simulation& s, const std::function<void(const ContactRecord&)>& visit) {
-  const Enumeration all(s);
+  Enumeration all(s);
   const ContactLists& lists = s.grains()->pairs().lists();
+  all.for_facets(lists, [&](Found& found, std::size_t entry) {
+    all.respond(found, lists.walls(), entry / lanes, entry % lanes);
+    visit(found.record);
+  });
   for (const ContactGroups* list : {&lists.pairs(), &lists.walls()})
     for (std::size_t k = 0; k < list->i.size(); ++k) {
       std::optional<Found> found =

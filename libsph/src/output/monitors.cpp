@@ -127,12 +127,18 @@ bool looks_at_contacts(const Scene& scene, const Monitor& monitor) {
 /// Place, velocity and force: the same on all ranks without a message.
 std::array<double, 9> values_of_wall(const Simulation& s, int wall) {
   const auto w = static_cast<std::size_t>(wall);
-  const PlaneNow plane = s.grains()->walls().now(s.global())[w];
+  const WallsNow walls = s.grains()->walls().now(s.global());
   const WallState& state = s.global().walls[w];
   std::array<double, 9> out{};
   for (std::size_t a = 0; a < 3; ++a) {
-    out[a] = s.scale().metres(plane.point[a]);
-    out[3 + a] = state.velocity[a];
+    if (w < walls.planes.size()) {
+      out[a] = s.scale().metres(walls.planes[w].point[a]);
+      out[3 + a] = state.velocity[a];
+    } else {
+      const MeshNow& mesh = walls.meshes[w - walls.planes.size()];
+      out[a] = s.scale().metres(mesh.centre[a]) + mesh.way[a];
+      out[3 + a] = mesh.velocity[a];
+    }
     out[6 + a] = s.grains()->walls().newton(state.force[a]);
   }
   return out;

@@ -41,16 +41,16 @@ bool touch(const std::int64_t* a, const std::int64_t* b, double radii, double qu
   return distance2 > 0 && radii - std::sqrt(distance2) > 0;
 }
 
+/// A facet always may: what its contact remembers may pass to another in the sweep to come.
+bool touches(const WallsNow& walls, const WallNumbers& numbers, std::uint32_t wall, const std::int64_t* x,
+             double radius, double quantum) {
+  return numbers.is_facet(wall) || radius - distance_from(walls.planes[wall], x, quantum) > 0;
+}
+
 /// Lists hold a history as it acts on j; i has its own view of it.
 double seen(double value, Parity parity, bool by_i) { return by_i && parity == Parity::odd ? -value : value; }
 
 }  // namespace
-
-double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantum) {
-  double d = 0;
-  for (std::size_t a = 0; a < 3; ++a) d += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
-  return d * quantum;
-}
 
 decomp::Payload ContactLists::pack(const Particles& p) const {
   decomp::Payload payload;
@@ -86,7 +86,7 @@ decomp::Payload ContactLists::pack(const Particles& p) const {
   };
   each([&](const ContactGroups& g, std::size_t k, std::size_t lane, std::uint32_t i, std::uint32_t j) {
     const double* history = g.history.data() + k * history_ * lanes + lane;
-    put(i, &g == &walls_ ? wall_key | j : id[j], history, true);
+    put(i, &g == &walls_ ? numbers_.key(j) : id[j], history, true);
     if (&g == &pairs_ && j < owned) put(j, id[i], history, false);
   });
   for (std::size_t n = 0; n < parted_.size(); ++n) {
@@ -99,7 +99,7 @@ decomp::Payload ContactLists::pack(const Particles& p) const {
 
 ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& payload,
                                    std::span<const std::uint32_t> order, double quantum,
-                                   std::span<const PlaneNow> planes) {
+                                   const WallsNow& walls) {
   ContactCensus found;
   parted_.clear();
   parted_entries_.clear();
@@ -120,12 +120,12 @@ ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& pa
       const std::uint32_t i = g->i[k], j = g->j[k];
       const bool with_wall = g == &walls_;
       if (with_wall ? j == ContactGroups::no_wall : i == j) continue;
-      const std::uint64_t wanted = with_wall ? wall_key | j : id[j];
+      const std::uint64_t wanted = with_wall ? numbers_.key(j) : id[j];
       const std::optional<std::uint64_t> at = entry_of(i, wanted);
       if (!at) continue;
-      const bool kept =
-          with_wall ? radius[i] - distance_from(planes[j], x + std::size_t{i} * 3, quantum) > 0
-                    : touch(x + std::size_t{i} * 3, x + std::size_t{j} * 3, radius[i] + radius[j], quantum);
+      const std::int64_t* at_i = x + std::size_t{i} * 3;
+      const bool kept = with_wall ? touches(walls, numbers_, j, at_i, radius[i], quantum)
+                                  : touch(at_i, x + std::size_t{j} * 3, radius[i] + radius[j], quantum);
       const Fate what = kept ? Fate::kept : Fate::apart;
       fate[*at / entry_bytes()] = what;
       const bool both = !with_wall && j < p.owned();

@@ -57,11 +57,39 @@ class Writer {
   std::size_t n_ = 0;
 };
 
+/// Finds the walls that a grain may touch before lists are made anew.
+class WallFinder {
+ public:
+  WallFinder(const WallsNow& walls, const WallNumbers& numbers, double quantum)
+      : walls_(walls), numbers_(numbers), quantum_(quantum) {}
+
+  /// Closer than `reach`, by their numbers, ascending.
+  std::span<const std::uint32_t> find(const std::int64_t* x, double reach) {
+    found_.clear();
+    for (std::uint32_t w = 0; w < walls_.planes.size(); ++w)
+      if (walls_.planes[w].present && distance_from(walls_.planes[w], x, quantum_) < reach)
+        found_.push_back(w);
+    for (std::size_t m = 0; m < walls_.meshes.size(); ++m) {
+      const MeshNow& mesh = walls_.meshes[m];
+      if (!mesh.listed) continue;
+      mesh.surface->find(mesh.in_frame(x, quantum_), reach, facets_);
+      for (const std::uint32_t f : facets_) found_.push_back(numbers_.first(m) + f);
+    }
+    return found_;
+  }
+
+ private:
+  const WallsNow& walls_;
+  const WallNumbers& numbers_;
+  double quantum_;
+  std::vector<std::uint32_t> found_, facets_;
+};
+
 }  // namespace
 
 void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const decomp::Box& own_cells,
                          std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
-                         const std::vector<bool>& fixed, std::span<const PlaneNow> planes) {
+                         const std::vector<bool>& fixed, const WallsNow& now) {
   const CellBins bins(p, grid, own_cells, reach);
   const std::vector<float> reach_of = reaches(p, bins, skin, static_cast<double>(reach) * quantum);
   const CandidateTable candidates{bins, bins.rows().data(), reach_of.data()};
@@ -70,6 +98,8 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   const double* radius = p.data<Field::radius>();
   blocks_.clear();
   Writer pairs(pairs_), walls(walls_);
+  numbers_ = WallNumbers(now.planes.size(), now.meshes);
+  WallFinder finder(now, numbers_, quantum);
   listed_ = 0;
   std::uint32_t cell = ~std::uint32_t{0};
   CellBins::Runs all_runs;
@@ -97,11 +127,10 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
               partner);
         pairs.add(row, n);
         listed_ += n;
-        for (std::uint32_t w = 0; w < planes.size() && !is_fixed; ++w)
-          if (planes[w].present && distance_from(planes[w], x + row * 3, quantum) < radius[row] + skin) {
-            *walls.partners(1) = w;
-            walls.add(row, 1);
-          }
+        if (is_fixed) continue;
+        const std::span<const std::uint32_t> near = finder.find(x + row * 3, radius[row] + skin);
+        std::ranges::copy(near, walls.partners(near.size()));
+        walls.add(row, near.size());
       }
       pairs.pad(block.first, block.first);
       walls.pad(block.first, ContactGroups::no_wall);

@@ -234,6 +234,26 @@ std::string contact_step_text(const Scene& scene, double dt) {
   return out;
 }
 
+/// How large each is tells whether its unit is right.
+std::string mesh_text(const Scene& scene, const Parts& parts) {
+  std::string out;
+  for (std::size_t m = 0; m < scene.grains.meshes.size(); ++m) {
+    const MeshWall& mesh = scene.grains.meshes[m];
+    const TriangleSurface& surface = parts.grains->walls().meshes().surface(m);
+    Double3 least = surface.vertices().front(), most = least;
+    for (const Point3& v : surface.vertices())
+      for (std::size_t a = 0; a < 3; ++a) {
+        least[a] = std::min(least[a], v[a]);
+        most[a] = std::max(most[a], v[a]);
+      }
+    out += fmt::format("mesh {}: {} facets;", mesh.name, surface.size());
+    for (std::size_t a = 0; a < 3; ++a)
+      out += fmt::format(" {} {:.6g} to {:.6g} m{}", "xyz"[a], least[a] + mesh.motion.centre[a],
+                         most[a] + mesh.motion.centre[a], a < 2 ? "," : " at the start\n");
+  }
+  return out;
+}
+
 std::string drag_text(const Scene& scene, const Parts& parts) {
   if (!parts.drag) return {};
   double largest = scene.largest_diameter(), least = largest;
@@ -319,8 +339,8 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       dt = std::min(dt, parts.physics->steps().resting(start.sounds));
     }
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
-                 particles_text(scene, start.count), unlooked_text(scene, placed),
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
+                 particles_text(scene, start.count), mesh_text(scene, parts), unlooked_text(scene, placed),
                  memory_text(scene, parts, need, machine), gas_text(scene), tension_text(scene),
                  options.plan ? plan_text(scene, parts) : "",
                  parts.grains && !parts.suspension ? contact_step_text(scene, dt) : "",

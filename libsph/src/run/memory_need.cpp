@@ -79,6 +79,7 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
     }
     need.bytes += (of_grains ? grains : need.particles - grains) * of_particle;
   }
+  if (parts.grains) need.bytes += static_cast<double>(parts.grains->walls().meshes().bytes());
   need.listed = parts.physics ? neighbours : contacts_of_grain;
   need.bytes += dense ? need.cells * bytes_of_cell : 0;
   return need;

@@ -124,14 +124,11 @@ bool OpeningControl::lead() const {
          std::ranges::any_of(outlets, [](const Outlet& outlet) { return !outlet.pressure.empty(); });
 }
 
-double value_at(const TimeCurve& curve, double time) {
-  std::size_t k = 0;
-  while (k < curve.size() && curve[k][0] <= time) ++k;
-  if (k == 0) return curve.front()[1];
-  if (k == curve.size()) return curve.back()[1];
-  const auto& [t0, a] = curve[k - 1];
-  const auto& [t1, b] = curve[k];
-  return a + (b - a) * ((time - t0) / (t1 - t0));
+std::vector<std::string> GrainScene::names() const {
+  std::vector<std::string> all;
+  for (const Wall& wall : walls) all.push_back(wall.name);
+  for (const MeshWall& mesh : meshes) all.push_back(mesh.name);
+  return all;
 }
 
 }  // namespace sph

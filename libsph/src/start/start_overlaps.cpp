@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "files/agree.hpp"
+#include "sph/pairs/facet_contacts.hpp"
 #include "start/start_rows.hpp"
 
 namespace sph {
@@ -27,19 +28,24 @@ class Search {
   Search(const Scene& scene, const PositionScale& scale, const Particles& p)
       : scene_(scene),
         scale_(scale),
+        particles_(p),
         owned_(p.owned()),
         id_(p.data<Field::id>()),
         x_(p.data<Field::position>()),
         radius_(p.data<Field::radius>()) {}
 
   /// The first of the pairs whose lower id this rank owns: another rank may not know all pairs of that grain.
-  [[nodiscard]] Overlap first(const ContactLists& lists, std::span<const PlaneNow> planes) const {
+  [[nodiscard]] Overlap first(const ContactLists& lists, const WallsNow& now) const {
     Overlap found;
     const ContactGroups &pairs = lists.pairs(), &walls = lists.walls();
     for (std::size_t k = 0; k < pairs.i.size(); ++k) keep(found, of_pair(pairs.i[k], pairs.j[k]));
     for (std::size_t k = 0; k < walls.i.size(); ++k)
-      if (walls.j[k] < planes.size() && planes[walls.j[k]].present)
-        keep(found, of_wall(walls.i[k], walls.j[k], planes[walls.j[k]]));
+      if (walls.j[k] < now.planes.size() && now.planes[walls.j[k]].present)
+        keep(found, of_wall(walls.i[k], walls.j[k], now.planes[walls.j[k]]));
+    FacetContacts facets(now, scale_.quantum);
+    for (const FacetContact& f : facets.look(walls, 0, walls.groups(), particles_))
+      if (const std::size_t i = walls.i[f.entry]; i < owned_)
+        keep(found, {id_[i], lists.numbers().key(walls.j[f.entry]), 1 - f.distance / radius_[i]});
     return found;
   }
 
@@ -68,6 +74,7 @@ class Search {
 
   const Scene& scene_;
   const PositionScale& scale_;
+  const Particles& particles_;
   std::size_t owned_;
   const std::uint64_t* id_;
   const std::int64_t* x_;
@@ -122,9 +129,8 @@ bool may_overlap(const Scene& scene) {
 }
 
 void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale,
-                     const Particles& particles, const ContactLists& lists,
-                     std::span<const PlaneNow> planes) {
-  const Overlap mine = Search(scene, scale, particles).first(lists, planes);
+                     const Particles& particles, const ContactLists& lists, const WallsNow& walls) {
+  const Overlap mine = Search(scene, scale, particles).first(lists, walls);
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
   const std::int64_t own = mine.low == nobody ? none : static_cast<std::int64_t>(mine.low);
   const std::int64_t lowest = -comm.max(-own);
@@ -138,8 +144,8 @@ void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const Positio
       return fmt::format("grain {}{}", ids[k], rows[k].empty() ? "" : " (" + rows[k] + ")");
     };
     if (mine.high > largest_id)
-      what = fmt::format("{} lies {:.3g} radii deep in wall \"{}\"", named(0), mine.share,
-                         scene.grains.walls[mine.high & ~wall_key].name);
+      what = fmt::format("{} lies {:.3g} radii deep in {}", named(0), mine.share,
+                         text_of_partner(scene, mine.high));
     else
       what = fmt::format("{} and {} overlap by {:.3g} radii", named(0), named(1), mine.share);
     what += fmt::format("; contact.largest_overlap allows {}: {}", scene.grains.contact.largest_overlap,

@@ -14,7 +14,7 @@ namespace sph {
 /// Lists and halo as a rebuild leaves them. Throws InputError on all ranks, naming the pair with the lowest
 /// ids. Collective.
 void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale,
-                     const Particles& particles, const ContactLists& lists, std::span<const PlaneNow> planes);
+                     const Particles& particles, const ContactLists& lists, const WallsNow& walls);
 
 /// False only for a lattice whose grains cannot lie that close, wherever jitter and radii put them; of walls
 /// it says nothing.

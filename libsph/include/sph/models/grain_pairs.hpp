@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sph/core/findings.hpp"
-#include "sph/models/plane_walls.hpp"
+#include "sph/models/grain_walls.hpp"
 #include "sph/pairs/contact_context.hpp"
 #include "sph/pairs/set_pair.hpp"
 
@@ -17,7 +17,7 @@ namespace sph {
 class GrainPairs final : public SetPair {
  public:
   /// `walls` stay where they are.
-  GrainPairs(std::size_t set, const Scene& scene, const PositionScale& scale, const PlaneWalls& walls);
+  GrainPairs(std::size_t set, const Scene& scene, const PositionScale& scale, const GrainWalls& walls);
 
   [[nodiscard]] FieldSet constants() const override {
     return {Field::id, Field::position, Field::radius, Field::mass, Field::group};
@@ -55,7 +55,7 @@ class GrainPairs final : public SetPair {
 
   const Scene* scene_;
   PositionScale scale_;
-  const PlaneWalls* walls_;
+  const GrainWalls* walls_;
   ContactLists lists_;
   std::vector<bool> fixed_;
   bool spins_;  ///< grains do
@@ -64,8 +64,9 @@ class GrainPairs final : public SetPair {
   struct Places {
     std::vector<std::int64_t> grains;
     std::vector<std::array<std::int64_t, 3>> walls;
+    double time = 0;
   };
-  Places listed_;  ///< when the lists were made [quanta]
+  Places listed_;  ///< when the lists were made [quanta, s]
   Counters counters_;
 };
 

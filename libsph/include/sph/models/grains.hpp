@@ -8,8 +8,8 @@
 
 #include "sph/models/contact_table.hpp"
 #include "sph/models/grain_pairs.hpp"
+#include "sph/models/grain_walls.hpp"
 #include "sph/models/model.hpp"
-#include "sph/models/plane_walls.hpp"
 #include "sph/pairs/contact_context.hpp"
 
 namespace sph {
@@ -18,7 +18,7 @@ namespace sph {
 
 class Grains final : public Model {
  public:
-  Grains(std::size_t set, const Scene& scene, const PositionScale& scale);
+  Grains(std::size_t set, const decomp::Comm& comm, const Scene& scene, const PositionScale& scale);
   Grains(const Grains&) = delete;  // its stages hold on to it
   Grains& operator=(const Grains&) = delete;
 
@@ -44,7 +44,7 @@ class Grains final : public Model {
   [[nodiscard]] ContactContext context(Particles& particles, double dt);
 
   [[nodiscard]] const ContactTable& table() const { return table_; }
-  [[nodiscard]] const PlaneWalls& walls() const { return walls_; }
+  [[nodiscard]] const GrainWalls& walls() const { return walls_; }
   [[nodiscard]] GrainPairs& pairs() { return pairs_; }
   [[nodiscard]] const GrainPairs& pairs() const { return pairs_; }
 
@@ -59,11 +59,15 @@ class Grains final : public Model {
   bool alone_;  ///< the scene has no other particles
   double dt_;
   ContactTable table_;
-  PlaneWalls walls_;
+  GrainWalls walls_;
   GrainPairs pairs_;
-  std::vector<PlaneNow> planes_;          // Of this step: walls,
-  std::vector<std::int64_t> wall_force_;  // the forces on them,
-  ContactSweep sweep_;                    // and what its sweeps have reported.
+  struct Now {
+    WallsNow walls;
+    FacetContacts facets{};
+    std::vector<std::int64_t> force{};  ///< on the walls
+    ContactSweep sweep{};               ///< what the sweeps have reported
+  };
+  Now now_;  ///< of this step
   struct Places {
     Reduction::Maximum strong, deep;  ///< a contact on any rank is
     Reduction::Sums halves;           ///< of the forces on walls

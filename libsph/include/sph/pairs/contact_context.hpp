@@ -8,6 +8,7 @@
 
 #include "sph/core/particles.hpp"
 #include "sph/pairs/contact_lists.hpp"
+#include "sph/pairs/facet_contacts.hpp"
 
 namespace sph {
 
@@ -23,7 +24,9 @@ struct ContactMaterials {
 
 struct ContactWalls {
   std::span<const PlaneNow> planes;
-  std::int64_t* force;  ///< [2][planes][3] quanta of force, low halves and high halves, added to
+  FacetContacts* facets;
+  std::size_t count;    ///< planes and meshes
+  std::int64_t* force;  ///< [2][count][3] quanta of force, low halves and high halves, added to
 };
 
 struct ContactQuanta {

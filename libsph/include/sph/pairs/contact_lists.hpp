@@ -24,13 +24,11 @@
 #include "sph/core/particles.hpp"
 #include "sph/pairs/contact.hpp"
 #include "sph/pairs/neighbour_lists.hpp"
+#include "sph/pairs/wall_places.hpp"
 
 namespace sph {
 
-/// Partner keys of walls lie above all ids of particles.
-inline constexpr std::uint64_t wall_key = largest_id + 1;
-
-/// Groups of eight pairs (i, j); j is a row, or the index of a wall. Unused lanes hold i = j (rows), or a
+/// Groups of eight pairs (i, j); j is a row, or of a wall its number (WallNumbers). Unused lanes hold i = j (rows), or a
 /// wall that does not exist.
 struct ContactGroups {
   static constexpr std::size_t lanes = 8;
@@ -48,17 +46,6 @@ struct ContactBlock {
   std::size_t pairs, pairs_end, walls, walls_end;  ///< groups
 };
 
-/// A wall as the search and the pass see it.
-struct PlaneNow {
-  std::array<std::int64_t, 3> point;  ///< [quanta]
-  std::array<double, 3> normal, velocity;
-  std::uint32_t group;
-  bool present;
-};
-
-/// Of a point from a plane, along its normal [m].
-[[nodiscard]] double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantum);
-
 /// What must not change while contacts move between ranks, summed over all: both entries of a pair count,
 /// since two ranks may need one each.
 struct ContactCensus {
@@ -74,19 +61,18 @@ class ContactLists {
   explicit ContactLists(std::span<const Parity> parities)
       : parities_(parities.begin(), parities.end()), history_(parities.size()) {}
 
-  /// Finds all pairs closer than r_i + r_j + skin, and grains closer than r_i + skin to a wall. Rows of
+  /// Finds all pairs closer than r_i + r_j + skin, and grains closer than r_i + skin to a plane or facet. Rows of
   /// `fixed` groups do not touch each other or walls.
   void build(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
              std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
-             const std::vector<bool>& fixed, std::span<const PlaneNow> planes);
+             const std::vector<bool>& fixed, const WallsNow& walls);
 
   /// Histories of the contacts of owned rows, as entries { partner key, history as it acts on the row }.
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
   /// Puts the entries back after build(); those of owned row r are in row order[r] of `payload`. Those whose
   /// pair has parted stay beside the lists. Returns what has found its place in either.
   ContactCensus unpack(const Particles& particles, const decomp::Payload& payload,
-                       std::span<const std::uint32_t> order, double quantum,
-                       std::span<const PlaneNow> planes);
+                       std::span<const std::uint32_t> order, double quantum, const WallsNow& walls);
   /// An entry whose pair does not touch where it is now.
   struct Parted {
     std::uint32_t row;
@@ -115,6 +101,7 @@ class ContactLists {
   [[nodiscard]] ContactGroups& walls() { return walls_; }
   [[nodiscard]] const ContactGroups& pairs() const { return pairs_; }
   [[nodiscard]] const ContactGroups& walls() const { return walls_; }
+  [[nodiscard]] const WallNumbers& numbers() const { return numbers_; }  ///< of walls
   [[nodiscard]] std::size_t listed() const { return listed_; }  ///< pairs of grains, padding not counted
   [[nodiscard]] std::size_t bytes() const;
 
@@ -124,6 +111,7 @@ class ContactLists {
   std::vector<ContactBlock> blocks_;
   std::size_t interior_blocks_ = 0;
   ContactGroups pairs_, walls_;
+  WallNumbers numbers_;
   std::size_t listed_ = 0;
   std::int64_t carried_ = 0;
   std::vector<Parted> parted_;

@@ -43,6 +43,10 @@ struct ContactPass {
     const Rows rows(c);
     for (const ContactBlock& block : blocks) {
       for (std::size_t g = block.pairs; g < block.pairs_end; ++g) add_pairs(c, rows, g, sweep);
+      if (c.walls.facets->any()) {
+        c.walls.facets->look(c.lists->walls(), block.walls, block.walls_end, *c.particles);
+        c.walls.facets->hand_over(c.lists->walls(), history);
+      }
       for (std::size_t g = block.walls; g < block.walls_end; ++g) add_walls(c, rows, g, sweep);
       const auto moves = [&](RowClass k) {
         const RowRange& r = ranges[static_cast<std::size_t>(k)];
@@ -258,6 +262,40 @@ struct ContactPass {
     }
   }
 
+  /// Of a plane or facet beside a grain.
+  struct WallSide {
+    double distance;  ///< of the grain's centre [m]
+    const double *away, *velocity;
+    std::uint32_t group;
+    std::size_t number;  ///< of the plane, or after them all of the mesh
+    bool touchable;
+  };
+
+  [[gnu::always_inline]] static WallSide side_of(const ContactContext& c, std::uint32_t wall,
+                                                 std::size_t entry, const std::int64_t* x) {
+    if (wall < c.walls.planes.size()) {
+      const PlaneNow& plane = c.walls.planes[wall];
+      double away = 0;
+      for (std::size_t a = 0; a < 3; ++a)
+        away += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
+      return {away * c.quantum.length,
+              plane.normal.data(),
+              plane.velocity.data(),
+              plane.group,
+              wall,
+              plane.present};
+    }
+    static constexpr double none[3] = {};
+    const FacetContact* f = c.walls.facets->any() ? c.walls.facets->at(entry) : nullptr;
+    if (f == nullptr) return {0, none, none, 0, 0, false};
+    return {f->distance,
+            f->away.data(),
+            f->velocity.data(),
+            c.walls.facets->meshes()[f->mesh].group,
+            c.walls.planes.size() + f->mesh,
+            true};
+  }
+
   static void add_walls(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
     ContactGroups& list = c.lists->walls();
     const std::uint32_t* i = list.i.data() + g * lanes;
@@ -265,25 +303,24 @@ struct ContactPass {
     Contact<V> contact;
     V rel[3], surface[3];
     std::uint32_t pair[lanes];
+    std::size_t number[lanes];
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::size_t r = i[l];
       const int k = static_cast<int>(l);
-      const bool used = walls[l] < c.walls.planes.size() && c.walls.planes[walls[l]].present;
-      const PlaneNow& plane = c.walls.planes[used ? walls[l] : 0];
-      double away = 0;
+      const WallSide side = side_of(c, walls[l], g * lanes + l, rows.x + r * 3);
       for (std::size_t a = 0; a < 3; ++a) {
-        away += static_cast<double>(rows.x[r * 3 + a] - plane.point[a]) * plane.normal[a];
-        contact.normal[a].v[k] = -plane.normal[a];
-        rel[a].v[k] = plane.velocity[a] - rows.v[r * 3 + a];
+        contact.normal[a].v[k] = -side.away[a];
+        rel[a].v[k] = side.velocity[a] - rows.v[r * 3 + a];
         if constexpr (spins) {
           surface[a].v[k] = rows.radius[r] * rows.w[r * 3 + a];
           contact.roll[a].v[k] = -rows.w[r * 3 + a];
         }
       }
-      contact.overlap.v[k] = used ? rows.radius[r] - away * c.quantum.length : 0.0;
+      contact.overlap.v[k] = side.touchable ? rows.radius[r] - side.distance : 0.0;
       contact.radius.v[k] = rows.radius[r];
       contact.mass.v[k] = rows.mass[r];
-      pair[l] = rows.group[r] * c.materials.groups + plane.group;
+      pair[l] = rows.group[r] * c.materials.groups + side.group;
+      number[l] = side.number;
     }
     kinematics(contact, rel, surface);
     contact.dt = V(c.dt);
@@ -293,18 +330,18 @@ struct ContactPass {
       if (!(contact.overlap[k] > 0)) continue;
       const double deepest = c.largest_overlap * rows.radius[i[l]];
       if (contact.overlap[k] > deepest)
-        note(c, i[l], wall_key | walls[l], contact.overlap[k], deepest, sweep.deep);
+        note(c, i[l], c.lists->numbers().key(walls[l]), contact.overlap[k], deepest, sweep.deep);
       for (int a = 0; a < 3; ++a) {
         const double f = answer.force[a][k] * (1 / c.quantum.force);
         if (std::fabs(f) > largest_force)
-          note(c, i[l], wall_key | walls[l], std::fabs(f), largest_force, sweep.strong);
+          note(c, i[l], c.lists->numbers().key(walls[l]), std::fabs(f), largest_force, sweep.strong);
         const Sum sum = Sums::scalar(f);
         rows.sums[std::size_t{i[l]} * stride + static_cast<std::size_t>(a)] -= sum;
         // A wall has any number of contacts: two halves have room for 2^31 of them.
-        const std::size_t at = walls[l] * 3 + static_cast<std::size_t>(a);
+        const std::size_t at = number[l] * 3 + static_cast<std::size_t>(a);
         const auto on_wall = static_cast<std::int64_t>(sum);
         c.walls.force[at] += on_wall & 0xffffffff;
-        c.walls.force[3 * c.walls.planes.size() + at] += on_wall >> 32;
+        c.walls.force[3 * c.walls.count + at] += on_wall >> 32;
         if constexpr (spins) {
           const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
           rows.sums[std::size_t{i[l]} * stride + 4 + static_cast<std::size_t>(a)] +=

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sph/scene/law_key.hpp"
+#include "sph/scene/mesh_scene.hpp"
 
 namespace sph {
 
@@ -90,6 +91,9 @@ struct GrainScene {
   DragControl drag;  ///< of grains in a fluid
   std::vector<Wall> walls;
   std::vector<WallStage> stages;
+  std::vector<MeshWall> meshes;
+  /// Of walls and meshes, in the order in which results number them.
+  [[nodiscard]] std::vector<std::string> names() const;
   friend bool operator==(const GrainScene&, const GrainScene&) = default;
 };
 

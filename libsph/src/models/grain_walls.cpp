@@ -1,4 +1,4 @@
-#include "sph/models/plane_walls.hpp"
+#include "sph/models/grain_walls.hpp"
 
 #include <fmt/format.h>
 
@@ -11,12 +11,12 @@
 
 namespace sph {
 
-void PlaneWalls::start(GlobalState& global) const {
+void GrainWalls::start(GlobalState& global) const {
   global.walls.resize(count());
-  for (std::size_t w = 0; w < count(); ++w) global.walls[w].velocity = scene_->grains.walls[w].velocity;
+  for (std::size_t w = 0; w < planes(); ++w) global.walls[w].velocity = scene_->grains.walls[w].velocity;
 }
 
-PlaneWalls::Now PlaneWalls::now_of(std::size_t wall, const GlobalState& global) const {
+GrainWalls::Now GrainWalls::now_of(std::size_t wall, const GlobalState& global) const {
   const Wall& w = scene_->grains.walls[wall];
   Now now{true, w.velocity, w.force};
   for (const WallStage& s : scene_->grains.stages) {
@@ -31,36 +31,37 @@ PlaneWalls::Now PlaneWalls::now_of(std::size_t wall, const GlobalState& global) 
   return now;
 }
 
-bool PlaneWalls::present(std::size_t wall, const GlobalState& global) const {
-  return now_of(wall, global).present;
+bool GrainWalls::present(std::uint64_t key, const GlobalState& global) const {
+  const WallName name(key);
+  return name.is_facet() ? meshes_.present(name.wall, global.time) : now_of(name.wall, global).present;
 }
 
-void PlaneWalls::set_stage(GlobalState& global) const {
-  for (std::size_t w = 0; w < count(); ++w) {
+void GrainWalls::set_stage(GlobalState& global) const {
+  for (std::size_t w = 0; w < planes(); ++w) {
     const Now now = now_of(w, global);
     if (!now.force) global.walls[w].velocity = now.velocity;
   }
 }
 
-std::vector<PlaneNow> PlaneWalls::now(const GlobalState& global) const {
-  std::vector<PlaneNow> out;
-  for (std::size_t w = 0; w < count(); ++w) {
+WallsNow GrainWalls::now(const GlobalState& global) const {
+  WallsNow out{{}, meshes_.now(global.time)};
+  for (std::size_t w = 0; w < planes(); ++w) {
     const Wall& wall = scene_->grains.walls[w];
     PlaneNow plane{{},
                    wall.normal,
                    global.walls[w].velocity,
                    static_cast<std::uint32_t>(wall.group),
-                   present(w, global)};
+                   now_of(w, global).present};
     for (std::size_t a = 0; a < 3; ++a)
       plane.point[a] = scale_.quanta(wall.point[a]) + global.walls[w].offset[a];
-    out.push_back(plane);
+    out.planes.push_back(plane);
   }
   return out;
 }
 
 // A tangential velocity drags the grains; the plane itself moves along its normal only.
-void PlaneWalls::move(GlobalState& global) const {
-  for (std::size_t w = 0; w < count(); ++w) {
+void GrainWalls::move(GlobalState& global) const {
+  for (std::size_t w = 0; w < planes(); ++w) {
     WallState& state = global.walls[w];
     const Double3& normal = scene_->grains.walls[w].normal;
     double along = 0;
@@ -70,13 +71,14 @@ void PlaneWalls::move(GlobalState& global) const {
   }
 }
 
-void PlaneWalls::push(GlobalState& global, std::span<const std::int64_t> forces) const {
+void GrainWalls::push(GlobalState& global, std::span<const std::int64_t> forces) const {
   for (std::size_t w = 0; w < count(); ++w) {
     WallState& state = global.walls[w];
+    for (std::size_t a = 0; a < 3; ++a) state.force[a] = forces[3 * w + a];
+    if (w >= planes()) continue;
     const Wall& wall = scene_->grains.walls[w];
     double pressed = 0;
     for (std::size_t a = 0; a < 3; ++a) {
-      state.force[a] = forces[3 * w + a];
       pressed -= newton(state.force[a]) * wall.normal[a];
     }
     const Now now = now_of(w, global);
@@ -87,15 +89,16 @@ void PlaneWalls::push(GlobalState& global, std::span<const std::int64_t> forces)
   }
 }
 
-double PlaneWalls::longest_way(const GlobalState& global) const {
+double GrainWalls::longest_way(const GlobalState& global) const {
   double speed2 = 0;
   for (const WallState& w : global.walls)
     speed2 = std::max(speed2, w.velocity[0] * w.velocity[0] + w.velocity[1] * w.velocity[1] +
                                   w.velocity[2] * w.velocity[2]);
-  return 1.0001 * std::sqrt(speed2) * global.dt;
+  return std::max(1.0001 * std::sqrt(speed2) * global.dt,
+                  meshes_.longest_way(global.time, global.time + global.dt));
 }
 
-std::vector<std::int64_t> PlaneWalls::forces(std::span<const std::int64_t> halves,
+std::vector<std::int64_t> GrainWalls::forces(std::span<const std::int64_t> halves,
                                              const GlobalState& global) const {
   const std::size_t n = halves.size() / 2;
   std::vector<std::int64_t> forces(n);
@@ -105,7 +108,7 @@ std::vector<std::int64_t> PlaneWalls::forces(std::span<const std::int64_t> halve
       throw GuardError(fmt::format(
           "{}the force on wall \"{}\", {:.6g} N along {}, is beyond the range of the sums, {:.6g} N; reduce "
           "time.dt, or what presses on it",
-          step_text(global.step), scene_->grains.walls[k / 3].name,
+          step_text(global.step), scene_->grains.names()[k / 3],
           std::ldexp(static_cast<double>(high), 32) * force_quantum_, "xyz"[k % 3], 0x1p62 * force_quantum_));
     forces[k] = high * (std::int64_t{1} << 32) + (halves[k] & 0xffffffff);
   }

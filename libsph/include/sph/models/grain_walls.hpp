@@ -1,5 +1,5 @@
-// Plane walls beside grains: where stages of the scene put and move them, and servos, which answer to the force on
-// them. What of a wall is state (its way, velocity, force) is in the global record.
+// Walls beside grains: planes, where stages of the scene put and move them, and servos, which answer to the force on them; meshes.
+// What of a wall is state (way and velocity of a plane, the force) is in the global record, planes first.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,21 @@
 #include <vector>
 
 #include "sph/core/particles.hpp"
-#include "sph/pairs/contact_lists.hpp"
+#include "sph/models/mesh_walls.hpp"
+#include "sph/pairs/wall_places.hpp"
 #include "sph/scene/positions.hpp"
 #include "sph/scene/scene.hpp"
 
 namespace sph {
 
-class PlaneWalls {
+class GrainWalls {
  public:
-  PlaneWalls(const Scene& scene, const PositionScale& scale, double force_quantum)
-      : scene_(&scene), scale_(scale), force_quantum_(force_quantum) {}
+  GrainWalls(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale, double force_quantum)
+      : scene_(&scene), scale_(scale), force_quantum_(force_quantum), meshes_(comm, scene, scale) {}
 
-  [[nodiscard]] std::size_t count() const { return scene_->grains.walls.size(); }
+  [[nodiscard]] std::size_t count() const { return planes() + meshes_.count(); }
+  [[nodiscard]] std::size_t planes() const { return scene_->grains.walls.size(); }
+  [[nodiscard]] const MeshWalls& meshes() const { return meshes_; }
   /// As the scene describes them.
   void start(GlobalState& global) const;
   /// Takes the changes of the scene's stages that begin at or before the present time.
@@ -29,8 +32,9 @@ class PlaneWalls {
   /// Servos answer to the forces of a step [quanta].
   void push(GlobalState& global, std::span<const std::int64_t> forces) const;
 
-  [[nodiscard]] std::vector<PlaneNow> now(const GlobalState& global) const;
-  [[nodiscard]] bool present(std::size_t wall, const GlobalState& global) const;
+  [[nodiscard]] WallsNow now(const GlobalState& global) const;
+  /// By its key (wall_key).
+  [[nodiscard]] bool present(std::uint64_t key, const GlobalState& global) const;
   [[nodiscard]] double longest_way(const GlobalState& global) const;  ///< of any in a step [m]
   /// Sums of all ranks from those of their low and high halves (ContactContext::wall_force) [quanta]. Throws
   /// GuardError where one is beyond 62 bits.
@@ -52,6 +56,7 @@ class PlaneWalls {
   const Scene* scene_;
   PositionScale scale_;
   double force_quantum_;
+  MeshWalls meshes_;
 };
 
 }  // namespace sph

@@ -1,0 +1,68 @@
+// Where a grain touches a mesh: at points nearer to its centre than all of the surface around them. A face has one where the
+// centre is above it; an edge or vertex, if it is the nearest of all facets that have it. Of such points that a
+// grain sees in nearly the same direction (facets of a drum, say) it touches the nearest alone: potential energy is
+// continuous, and a smooth surface is one contact. What a contact remembers passes from facet to facet, to one that shares a
+// vertex or lies nearly in the same plane.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sph/pairs/contact_lists.hpp"
+
+namespace sph {
+
+struct FacetContact {
+  std::size_t entry;  ///< of the list: group * lanes + lane
+  std::size_t from;   ///< the entry whose history it has
+  double distance;    ///< of the grain's centre [m]
+  Point3 away;        ///< unit vector, from the surface to the grain
+  Point3 velocity;    ///< of the surface there [m/s]
+  std::size_t mesh;
+};
+
+class FacetContacts {
+ public:
+  FacetContacts() = default;
+  /// `walls` must outlive it.
+  FacetContacts(const WallsNow& walls, double quantum)
+      : meshes_(walls.meshes), numbers_(walls.planes.size(), walls.meshes), quantum_(quantum) {}
+
+  [[nodiscard]] bool any() const { return !meshes_.empty(); }
+  [[nodiscard]] std::span<const MeshNow> meshes() const { return meshes_; }
+  [[nodiscard]] const WallNumbers& numbers() const { return numbers_; }
+
+  /// Contacts of the entries of groups [first, last) of a list.
+  std::span<const FacetContact> look(const ContactGroups& list, std::size_t first, std::size_t last,
+                                     const Particles& grains);
+  /// That of an entry of the groups looked at last; nullptr if it does not touch.
+  [[nodiscard]] const FacetContact* at(std::size_t entry) const;
+  /// Moves what contacts remember to the entries that have it from now on.
+  void hand_over(ContactGroups& list, std::size_t history) const;
+
+ private:
+  struct Candidate {
+    std::size_t entry;
+    std::uint32_t facet;
+    NearPoint near;
+    bool kept;
+  };
+  void look_at_row(const ContactGroups& list, std::size_t first, std::size_t last, const std::int64_t* x,
+                   double radius);
+  void look_at_mesh(const ContactGroups& list, std::size_t mesh, std::size_t first, std::size_t last,
+                    const std::int64_t* x, double radius);
+  void keep_nearest(const MeshNow& mesh);
+  void add(const MeshNow& mesh, std::size_t number, const Candidate& candidate, const Point3& x);
+  void find_histories(const ContactGroups& list, const MeshNow& mesh, std::size_t found);
+
+  std::span<const MeshNow> meshes_;
+  WallNumbers numbers_;
+  double quantum_ = 0;
+  std::size_t begin_ = 0;               ///< of the entries looked at
+  std::vector<std::int32_t> of_entry_;  ///< index into found_, -1: none
+  std::vector<FacetContact> found_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace sph

@@ -1,0 +1,104 @@
+#include "files/mesh_file.hpp"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <vector>
+
+#include "files/content_hash.hpp"
+#include "sph/core/error.hpp"
+
+namespace sph {
+namespace {
+
+/// Twice the area of a triangle over its longest edge squared: below it is a line.
+constexpr double least_shape = 1e-9;
+
+using Corner = std::array<double, 3>;
+
+bool is_line(const Corner& a, const Corner& b, const Corner& c) {
+  double u[3], v[3], longest = 0, area = 0;
+  double edges[3] = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+    edges[0] += u[k] * u[k];
+    edges[1] += v[k] * v[k];
+    edges[2] += (c[k] - b[k]) * (c[k] - b[k]);
+  }
+  longest = *std::max_element(edges, edges + 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
+    const double w = u[m] * v[n] - u[n] * v[m];
+    area += w * w;
+  }
+  return !(std::sqrt(area) > least_shape * longest);
+}
+
+class Welded {
+ public:
+  explicit Welded(const std::string& what) : what_(what) {}
+
+  void add(const aiMesh& mesh) {
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      ++facet_;
+      if (face.mNumIndices != 3) refuse("has no three corners");
+      std::array<std::uint32_t, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = number_of(mesh.mVertices[face.mIndices[k]]);
+      const auto& v = all_.vertices;
+      if (is_line(v[corners[0]], v[corners[1]], v[corners[2]])) refuse("has no area");
+      all_.corners.push_back(corners);
+    }
+  }
+  [[nodiscard]] Triangles take() { return std::move(all_); }
+
+ private:
+  std::uint32_t number_of(const aiVector3D& v) {
+    const Corner at{v.x + 0.0, v.y + 0.0, v.z + 0.0};  // + 0: no -0
+    for (double c : at)
+      if (!std::isfinite(c)) refuse("has a corner that is no number");
+    const auto [found, is_new] = numbers_.try_emplace(at, static_cast<std::uint32_t>(all_.vertices.size()));
+    if (is_new) all_.vertices.push_back(at);
+    return found->second;
+  }
+  [[noreturn]] void refuse(std::string_view why) const {
+    throw InputError(fmt::format("{}: facet {} {}; repair the mesh", what_, facet_, why));
+  }
+
+  std::string what_;
+  Triangles all_;
+  std::map<Corner, std::uint32_t> numbers_;
+  std::uint64_t facet_ = 0;
+};
+
+}  // namespace
+
+Triangles read_triangles(const std::string& path, const std::string& what) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  if (scene == nullptr)
+    throw InputError(
+        fmt::format("{}: cannot be read: {}; give an STL or OBJ file", what, importer.GetErrorString()));
+  Welded welded(what);
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) welded.add(*scene->mMeshes[m]);
+  Triangles all = welded.take();
+  if (all.corners.empty()) throw InputError(what + ": holds no triangles; give an STL or OBJ file");
+  return all;
+}
+
+std::string hash_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) return {};
+  return to_hex(content_hash(std::as_bytes(std::span(bytes))));
+}
+
+}  // namespace sph

@@ -1,0 +1,149 @@
+// Nearest points of triangles against points spread over them; which triangles are near, against asking all.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "files/mesh_file.hpp"
+#include "sph/core/error.hpp"
+#include "sph/pairs/triangle_surface.hpp"
+
+namespace {
+
+using sph::Point3, sph::NearPoint, sph::TriangleSurface;
+
+class Random {
+ public:
+  double number(double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(engine_);
+  }
+  Point3 point(double size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
+
+ private:
+  std::mt19937_64 engine_{7};
+};
+
+double square(const Point3& a, const Point3& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return sum;
+}
+
+TEST(TriangleSurface, NearestPointsAreTheNearest) {
+  Random random;
+  for (int n = 0; n < 2000; ++n) {
+    const std::vector<Point3> v{random.point(1), random.point(1), random.point(random.number(0.1, 3))};
+    const TriangleSurface one(v, {{0, 1, 2}});
+    const Point3 x = random.point(2);
+    const NearPoint near = one.nearest(0, x);
+    EXPECT_NEAR(square(x, near.point), near.square, 1e-12);
+    double best = 1e300;
+    constexpr int parts = 60;
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j) {
+        const double a = double(i) / parts, b = double(j) / parts;
+        Point3 at;
+        for (std::size_t k = 0; k < 3; ++k) at[k] = (1 - a - b) * v[0][k] + a * v[1][k] + b * v[2][k];
+        best = std::min(best, square(x, at));
+        // It is one of the triangle: of a convex set the nearest point sees all others behind it.
+        double ahead = 0;
+        for (std::size_t k = 0; k < 3; ++k) ahead += (x[k] - near.point[k]) * (at[k] - near.point[k]);
+        EXPECT_LE(ahead, 1e-9);
+      }
+    EXPECT_LE(near.square, best + 1e-12);
+    EXPECT_GE(std::sqrt(near.square), std::sqrt(best) - 0.08);
+  }
+}
+
+TEST(TriangleSurface, BothSidesOfAnEdgeFindTheSamePoint) {
+  Random random;
+  int on_the_edge = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const TriangleSurface two({random.point(1), random.point(1), random.point(1), random.point(1)},
+                              {{0, 1, 2}, {1, 0, 3}});
+    const Point3 x = random.point(1.5);
+    const NearPoint a = two.nearest(0, x), b = two.nearest(1, x);
+    if (a.of != b.of || a.of.is_face()) continue;
+    ++on_the_edge;
+    EXPECT_EQ(a.square, b.square);
+    EXPECT_EQ(a.point, b.point);
+    EXPECT_TRUE(two.has(0, a.of) && two.has(1, a.of) && two.share_vertex(0, 1));
+  }
+  EXPECT_GT(on_the_edge, 500);
+}
+
+TEST(TriangleSurface, FindsWhatIsNear) {
+  Random random;
+  for (const bool flat : {false, true}) {
+    std::vector<Point3> vertices;
+    std::vector<TriangleSurface::Triangle> triangles;
+    for (std::uint32_t n = 0; n < 300; ++n) {
+      const double size = n == 0 ? 5 : random.number(0.01, 0.5);  // one beside which all others are small
+      const Point3 centre = random.point(2);
+      for (int corner = 0; corner < 3; ++corner) {
+        Point3 p = random.point(size);
+        for (std::size_t k = 0; k < 3; ++k) p[k] += centre[k];
+        if (flat) p[2] = 0.25;
+        vertices.push_back(p);
+      }
+      triangles.push_back({3 * n, 3 * n + 1, 3 * n + 2});
+    }
+    const TriangleSurface surface(vertices, triangles);
+    std::vector<std::uint32_t> found;
+    std::size_t all = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Point3 x = random.point(4);
+      const double reach = random.number(0.01, 0.8);
+      std::vector<std::uint32_t> wanted;
+      for (std::uint32_t t = 0; t < surface.size(); ++t)
+        if (surface.nearest(t, x).square < reach * reach) wanted.push_back(t);
+      surface.find(x, reach, found);
+      EXPECT_EQ(found, wanted);
+      all += found.size();
+    }
+    EXPECT_GT(all, 500U);
+  }
+}
+
+/// What reading a file with this text says.
+std::string said_of(const std::string& text, const std::string& ending) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("peperite_mesh_" + std::to_string(getpid()) + ending);
+  std::ofstream(file) << text;
+  std::string said;
+  try {
+    const sph::Triangles read = sph::read_triangles(file.string(), "mesh.one");
+    said = std::to_string(read.vertices.size()) + " vertices, " + std::to_string(read.corners.size());
+  } catch (const sph::InputError& error) {
+    said = error.what();
+  }
+  std::filesystem::remove(file);
+  return said;
+}
+
+std::string facet(const std::string& a, const std::string& b, const std::string& c) {
+  return "facet normal 0 0 1\n outer loop\n vertex " + a + "\n vertex " + b + "\n vertex " + c +
+         "\n endloop\nendfacet\n";
+}
+
+TEST(MeshFile, SaysWhichFacetIsBroken) {
+  const std::string good = facet("0 0 0", "1 0 0", "0 1 0"), beside = facet("1 0 0", "1 1 0", "0 1 0");
+  const auto stl = [](const std::string& facets) {
+    return said_of("solid x\n" + facets + "endsolid x\n", ".stl");
+  };
+  EXPECT_EQ(stl(good + beside), "4 vertices, 2");
+  EXPECT_EQ(stl(good + facet("0 0 0", "-0 -0 1", "1 0 0")), "4 vertices, 2");
+  EXPECT_EQ(stl(good + facet("0 0 0", "1 1 1", "2 2 2")), "mesh.one: facet 2 has no area; repair the mesh");
+  EXPECT_EQ(stl(good + beside + facet("0 0 0", "0 0 0", "2 2 2")),
+            "mesh.one: facet 3 has no area; repair the mesh");
+  EXPECT_NE(stl("").find("mesh.one"), std::string::npos);
+  EXPECT_NE(said_of("not a mesh at all", ".stl").find("give an STL or OBJ file"), std::string::npos);
+  EXPECT_NE(said_of("", ".obj").find("give an STL or OBJ file"), std::string::npos);
+  EXPECT_EQ(said_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", ".obj"), "4 vertices, 2");
+  EXPECT_NE(said_of("v 0 0 0\nv 1 0 0\nl 1 2\n", ".obj").find("mesh.one"), std::string::npos);
+}
+
+}  // namespace
