@@ -4,7 +4,10 @@ add_library(peperite_fp INTERFACE)
 add_library(Peperite::fp ALIAS peperite_fp)
 set_target_properties(peperite_fp PROPERTIES EXPORT_NAME fp)
 target_compile_options(peperite_fp INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math
-  -Wno-psabi)  # vectors never cross a translation unit, so how they are passed does not matter
+  -Wno-psabi  # vectors never cross a translation unit, so how they are passed does not matter
+  # g++ 12 makes fused multiply-adds (vfmaddsub) of alternating sums of products whatever -ffp-contract says; where, depends
+  # on the machine. The test `fused` looks for any.
+  $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 # Laws of a project downstream are compiled into passes of its own, whose vectors are those of the library.
 if(PEPERITE_ARCH)
   target_compile_options(peperite_fp INTERFACE $<INSTALL_INTERFACE:-march=${PEPERITE_ARCH}>)

@@ -12,6 +12,7 @@ std::vector<Fusion> few() {
       List::template fuse<Quintic, WallExtrapolation>(),
       List::template fuse<Quintic, WallShare>(),
       List::template fuse<Quintic, SlippingStress, Viscosity>(),
+      List::template fuse<Quintic, BodyContact, BodyContactEnergy>(),
   };
 }
 

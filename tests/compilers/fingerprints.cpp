@@ -89,11 +89,12 @@ int main(int argc, char** argv) {
     sph::self_check();
     const decomp::Comm comm(MPI_COMM_WORLD);
     if (comm.rank() == 0) std::printf("libm %016llx\n", static_cast<unsigned long long>(libm_hash()));
-    for (const Case& c : {Case{"fluid", {}}, Case{"fluid", {"formulation=ida", "terms="}},
-                          Case{"fluid", {"terms.implicit_viscosity=true"}}, Case{"flow", {}},
-                          Case{"solid", {}}, Case{"solid", weak}, Case{"bodies", {}}, Case{"bodies", wet},
-                          Case{"bodies", cracked}, Case{"gas", {}}, Case{"blast", {}}, Case{"box", {}},
-                          Case{"grains", {}, true}, Case{"grains", hertz, true}, Case{"melts", {}, true}})
+    for (const Case& c :
+         {Case{"fluid", {}}, Case{"fluid", {"formulation=ida", "terms="}},
+          Case{"fluid", {"terms.implicit_viscosity=true"}}, Case{"flow", {}}, Case{"solid", {}},
+          Case{"solid", weak}, Case{"bodies", {}}, Case{"bodies", wet}, Case{"bodies", cracked},
+          Case{"tumbling", {}}, Case{"gas", {}}, Case{"blast", {}}, Case{"box", {}}, Case{"grains", {}, true},
+          Case{"grains", hertz, true}, Case{"melts", {}, true}})
       run(comm, argv[1], c);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

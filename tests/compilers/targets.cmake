@@ -14,3 +14,5 @@ target_link_libraries(contraction PRIVATE sph peperite_build)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/libsph/src/run/self_check.cpp PROPERTIES
   COMPILE_OPTIONS "-O2;-mfma;-ffp-contract=fast")  # of this folder's target only; comes after the target's own
 add_test(NAME self_check.contraction COMMAND contraction)
+add_test(NAME fused COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/compilers/fused.py
+  $<TARGET_FILE:sph> $<TARGET_FILE:decomp> $<TARGET_FILE:stokes>)

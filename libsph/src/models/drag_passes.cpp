@@ -9,7 +9,7 @@
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/fixed_point.hpp"
-#include "sph/core/simd.hpp"
+#include "sph/core/simd_rows.hpp"
 #include "sph/models/drag.hpp"
 
 namespace sph {

@@ -6,7 +6,7 @@
 #include "pairs/candidates.hpp"
 #include "pairs/id_rank.hpp"
 #include "sph/core/kernels.hpp"
-#include "sph/core/simd.hpp"
+#include "sph/core/simd_rows.hpp"
 
 namespace sph {
 namespace {

@@ -6,7 +6,7 @@
 #include "pairs/candidates.hpp"
 #include "pairs/id_rank.hpp"
 #include "pairs/lane_sort.hpp"
-#include "sph/core/simd.hpp"
+#include "sph/core/simd_rows.hpp"
 
 namespace sph {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "sph/core/fixed_point.hpp"
 #include "sph/core/particles.hpp"
-#include "sph/core/simd.hpp"
+#include "sph/core/simd_rows.hpp"
 #include "sph/pairs/contact.hpp"
 #include "sph/pairs/contact_context.hpp"
 #include "sph/pairs/friction.hpp"

@@ -6,7 +6,7 @@
 
 #include "sph/core/fixed_point.hpp"
 #include "sph/core/particles.hpp"
-#include "sph/core/simd.hpp"
+#include "sph/core/simd_rows.hpp"
 #include "sph/pairs/contact_context.hpp"
 
 namespace sph {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sph/core/fields.hpp"
-#include "sph/core/simd.hpp"
+#include "sph/core/simd_rows.hpp"
 #include "sph/pairs/neighbour_lists.hpp"
 #include "sph/pairs/pair_rows.hpp"
 #include "sph/pairs/pass_context.hpp"
