@@ -162,7 +162,7 @@ template <int Stride, class T>
 #if defined(__AVX512F__)
   return _mm512_cmp_pd_mask(std::bit_cast<__m512d>(a.v), _mm512_setzero_pd(), _CMP_GT_OQ);
 #elif defined(__AVX2__)
-  const auto p = std::bit_cast<Pieces<double> >(a);
+  const auto p = std::bit_cast<Pieces<double>>(a);
   const auto above = [](auto x) {
     return static_cast<unsigned>(
         _mm256_movemask_pd(_mm256_cmp_pd(std::bit_cast<__m256d>(x), _mm256_setzero_pd(), _CMP_GT_OQ)));
@@ -198,6 +198,28 @@ template <class T>
   const __m512i sorted = _mm512_shuffle_i64x2(rows, rows, 0xd8);
   add(index[lane], _mm512_castsi512_si256(sorted));
   add(index[lane + 4], _mm512_extracti64x4_epi64(sorted, 1));
+}
+#endif
+
+#if defined(__AVX2__) && !defined(__AVX512F__)
+/// Of add_to_rows() the lanes of one half.
+template <int Stride, class T, class Lanes>
+[[gnu::always_inline]] inline void add_half_to_rows(T* base, const std::uint32_t* index, int half,
+                                                    const Lanes (&value)[Stride]) {
+  __m256d row[Stride / 4][4];
+  for (int k = 0; k < Stride; ++k)
+    row[k / 4][k % 4] = std::bit_cast<__m256d>(std::bit_cast<Pieces<double>>(value[k]).piece[half]);
+  for (auto& four : row) simd_detail::transpose(four);
+  for (int l = 0; l < 4; ++l)
+    for (int q = 0; q < Stride / 4; ++q) {
+      T* at = base + std::size_t{index[l]} * Stride + 4 * static_cast<std::size_t>(q);
+      if constexpr (std::is_floating_point_v<T>) {
+        _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), row[q][l]));
+      } else {
+        __m256i* to = reinterpret_cast<__m256i*>(at);
+        _mm256_store_si256(to, _mm256_add_epi64(_mm256_load_si256(to), _mm256_castpd_si256(row[q][l])));
+      }
+    }
 }
 #endif
 
@@ -246,22 +268,7 @@ template <int Stride, class T, class Lanes>
     add_to_two_rows(base, index, 3, d);
   }
 #elif defined(__AVX2__)
-  for (int half = 0; half < 2; ++half) {
-    __m256d row[Stride / 4][4];
-    for (int k = 0; k < Stride; ++k)
-      row[k / 4][k % 4] = std::bit_cast<__m256d>(std::bit_cast<Pieces<double> >(value[k]).piece[half]);
-    for (auto& four : row) simd_detail::transpose(four);
-    for (int l = 0; l < 4; ++l)
-      for (int q = 0; q < Stride / 4; ++q) {
-        T* at = base + std::size_t{index[4 * half + l]} * Stride + 4 * static_cast<std::size_t>(q);
-        if constexpr (std::is_floating_point_v<T>) {
-          _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), row[q][l]));
-        } else {
-          __m256i* to = reinterpret_cast<__m256i*>(at);
-          _mm256_store_si256(to, _mm256_add_epi64(_mm256_load_si256(to), _mm256_castpd_si256(row[q][l])));
-        }
-      }
-  }
+  for (int half = 0; half < 2; ++half) add_half_to_rows<Stride>(base, index + 4 * half, half, value);
 #else
   for (int l = 0; l < Simd<double>::lanes; ++l)
     for (int k = 0; k < Stride; ++k)
