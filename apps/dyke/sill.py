@@ -17,7 +17,7 @@ from peperite.drawing.command import refusing  # noqa: E402
 from peperite.drawing.scene_runs import drawn_from_runs  # noqa: E402
 from peperite.drawing.style import plt  # noqa: E402
 
-MELT, STIFF, JOINT, TANK = 0, 2, 3, 4  # groups of sill.toml
+MELT, TANK = 0, 4  # groups of sill.toml
 BELOW = 0.15  # the stiff layer is above it [m]
 
 

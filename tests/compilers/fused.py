@@ -8,14 +8,14 @@ import re
 import subprocess
 import sys
 
-FUSED = re.compile(r"^\s+[0-9a-f]+:\t(?:[0-9a-f]{2} )+\s*(vf[n]?m(?:add|sub)\w*|fn?m(?:add|sub|la|ls)\b)", re.M)
+FUSED = re.compile(r"^\s+[0-9a-f]+:\s+(?:vfn?m(?:add|sub)|fn?m(?:add|sub|la|ls)\b)", re.M)
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.+)>:$", re.M)
 
 
 def main():
     found = []
     for library in sys.argv[1:]:
-        text = subprocess.run(["objdump", "-d", "-C", library], check=True, capture_output=True, text=True).stdout
+        text = subprocess.run(["objdump", "-d", "-C", "--no-show-raw-insn", library], check=True, capture_output=True, text=True).stdout
         assert FUNCTION.search(text), f"{library}: nothing that objdump knows"
         for part in re.split(r"\n(?=[0-9a-f]+ <)", text):
             if FUSED.search(part):
