@@ -31,7 +31,6 @@ class FacetContacts {
 
   [[nodiscard]] bool any() const { return !meshes_.empty(); }
   [[nodiscard]] std::span<const MeshNow> meshes() const { return meshes_; }
-  [[nodiscard]] const WallNumbers& numbers() const { return numbers_; }
 
   /// Contacts of the entries of groups [first, last) of a list.
   std::span<const FacetContact> look(const ContactGroups& list, std::size_t first, std::size_t last,

@@ -66,7 +66,6 @@ class WallNumbers {
     std::size_t mesh;
     std::uint32_t facet;
   };
-  [[nodiscard]] std::uint32_t planes() const { return planes_; }
   [[nodiscard]] bool is_facet(std::uint32_t number) const { return number >= planes_ && number < end_; }
   [[nodiscard]] Facet facet(std::uint32_t number) const;
   [[nodiscard]] std::uint32_t first(std::size_t mesh) const { return first_[mesh]; }
@@ -80,7 +79,6 @@ class WallNumbers {
 struct WallsNow {
   std::vector<PlaneNow> planes;
   std::vector<MeshNow> meshes;
-  [[nodiscard]] std::size_t count() const { return planes.size() + meshes.size(); }
 };
 
 }  // namespace sph
