@@ -128,7 +128,7 @@ PairCase::PairCase(const Fusion& fusion, const std::vector<Placed>& placed, cons
       constants_(scene_, position_scale(scene_)),
       particles_(fusion.dim, fields_there(fusion, options)),
       read_(fields_read(fusion, options)),
-      lists_(lanes_of(fusion.precision)),
+      lists_(lanes_of(fusion.precision), {true, true, false, false, false}),
       row_of_(placed.size()) {
   const auto class_of = [&](std::uint64_t number) -> std::size_t {
     const double lot = uniform(number, Field::id, 0);
@@ -245,6 +245,7 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
 
 // Pairs are taken where they were half a step ago, at most `back` farther apart.
 void PairCase::build_lists(double widened) {
+  leaves_out_ = false;
   const double back = fastest * std::sqrt(3.0) * dt();
   const double range = widened * (scene_.list_range() + back);
   if (fusion_.values.has(Value::width)) {
@@ -252,19 +253,34 @@ void PairCase::build_lists(double widened) {
     const double* h = particles_.data<Field::smoothing_length>();
     for (std::size_t i = 0; i < reach.size(); ++i)  // of walls, and beside them, not less than h wide
       reach[i] = widened * 3 * std::fmax(h[i], scene_.kernel.smoothing_length) / quantum() + 1;
-    lists_.build(particles_, reach, ranges_, timers_);
+    lists_.all.build(particles_, reach, ranges_, timers_);
   } else {
     decomp::Int3 length{};
     for (std::size_t a = 0; a < 3; ++a)
       length[a] = constants_.scale.quanta(scene_.domain.upper[a]) - constants_.scale.origin[a];
     const std::int64_t radius = constants_.scale.quanta(range) + 1;
     const decomp::CellGrid grid(fusion_.dim, constants_.scale.origin, length, {}, radius);
-    lists_.build(particles_, grid, {{}, grid.cells()}, radius, ranges_, timers_);
+    lists_.all.build(particles_, grid, {{}, grid.cells()}, radius, ranges_, timers_);
   }
-  lists_.mark_walls(particles_, {false, false, false, true, true});
+  lists_.all.mark_walls(particles_, {false, false, false, true, true});
 }
 
-PassContext PairCase::context() { return constants_.context(particles_, lists_, rows_, dt()); }
+void PairCase::leave_out() {
+  leaves_out_ = true;
+  if (particles_.has(Field::displacement))
+    lists_.bonds.build(particles_, lists_.all, ranges_, constants_.longest_bond(),
+                       constants_.groups.bodies.number);
+  lists_.fluid.forget();
+  lists_.fluid.look_at_interior(particles_, lists_.all, ranges_);
+  lists_.fluid.look_at_boundary(particles_, lists_.all, ranges_);
+}
+
+PassContext PairCase::context() {
+  PassContext c = constants_.context(particles_, lists_.all, rows_, dt());
+  if (leaves_out_ && lists_.bonds.blocks() > 0) c.bonds = &lists_.bonds;
+  if (leaves_out_) c.fluid = &lists_.fluid;
+  return c;
+}
 void PairCase::pack() { fusion_.pack(context(), 0, particles_.rows()); }
 void PairCase::repack() { fusion_.repack(context(), 0, particles_.rows()); }
 void PairCase::run() {

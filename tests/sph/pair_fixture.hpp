@@ -11,6 +11,7 @@
 #include "decomp/timer.hpp"
 #include "sph/models/sph_constants.hpp"
 #include "sph/pairs/fusions.hpp"
+#include "sph/pairs/sph_lists.hpp"
 
 namespace sph::test {
 
@@ -42,6 +43,8 @@ class PairCase {
 
   /// Lists that reach `widened` times as far as they must.
   void build_lists(double widened);
+  /// From now on without what bonds and blocks far from fluids leave out, as scenes do.
+  void leave_out();
   void pack();
   void repack();
   void run();
@@ -52,7 +55,7 @@ class PairCase {
   [[nodiscard]] Particles& particles() { return particles_; }
   [[nodiscard]] const Particles& particles() const { return particles_; }
   [[nodiscard]] std::size_t row_of(std::size_t number) const { return row_of_[number]; }  ///< of Placed
-  [[nodiscard]] std::size_t pairs() const { return lists_.pairs(); }
+  [[nodiscard]] std::size_t pairs() const { return lists_.all.pairs(); }
   [[nodiscard]] double quantum() const { return constants_.scale.quantum; }
   [[nodiscard]] double dt() const { return 4e-3; }
   /// All that the fusion writes, by particle as they were placed, of owned rows among the `wanted` ones.
@@ -69,7 +72,8 @@ class PairCase {
   Particles particles_;
   FieldSet read_;  ///< fields that the fusion may look at
   RowRanges ranges_{};
-  NeighbourLists lists_;
+  SphLists lists_;
+  bool leaves_out_ = false;
   decomp::Timers timers_;
   decomp::LargeVector<std::byte> rows_;
   std::vector<std::size_t> row_of_;

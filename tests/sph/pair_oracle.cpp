@@ -193,6 +193,8 @@ bool PairOracle::defined(Term term, std::size_t row) const {
     case key("WallViscosity"):
     case key("ClampSums"):
       return !p.mover;
+    case key("FlowFromSolids"):
+      return !p.shears;
     case key("WettedExtrapolation"):
     case key("FlowOntoSolids"):
     case key("CrackedFlowOntoSolids"):

@@ -197,6 +197,48 @@ TEST(Fusions, add_nothing_from_beyond_the_support) {
   }
 }
 
+/// As jittered_lattice, and far from it a solid without fluid, of which a half is without cracks.
+std::vector<test::Placed> with_dry_solid(int dim, std::size_t& dry) {
+  std::vector<test::Placed> all = jittered_lattice(dim);
+  dry = all.size();
+  for (std::size_t k = 0; k < dry; ++k) {
+    test::Placed p = all[k];
+    p.x[1] += 40;
+    if (p.group == test::light || p.group == test::heavy) p.group = test::solid;
+    all.push_back(p);
+  }
+  return all;
+}
+
+// Scenes have shorter lists for bonds, and no sums where no fluid is near.
+TEST(Fusions, add_nothing_but_from_bonds_and_beside_fluids) {
+  int shorter = 0, idle = 0;
+  for (const Fusion& fusion : all_fusions()) {
+    if (!fusion.asks_for_fluid && !fusion.values.has(Value::reference)) continue;
+    std::size_t dry = 0;
+    const auto placed = with_dry_solid(fusion.dim, dry);
+    PairCase c(fusion, placed, {});
+    if (double* crack = c.particles().data<Field::crack>())
+      for (std::size_t number = dry; number < dry + dry / 2; ++number)
+        std::fill_n(crack + c.row_of(number) * static_cast<std::size_t>(fusion.dim), fusion.dim, 0.0);
+    const std::vector<bool> wanted = where_defined(c, placed.size());
+    for (const double widened : {1.0, 1.6}) {
+      c.build_lists(widened);
+      sum(c);
+      const auto bits = c.bits(wanted);
+      c.leave_out();
+      sum(c);
+      EXPECT_EQ(c.bits(wanted), bits) << title_of(fusion);
+    }
+    const PassContext context = c.context();
+    if (context.bonds != nullptr && context.bonds->pairs() < context.lists->pairs()) ++shorter;
+    for (std::size_t block = 0; block < context.lists->blocks(); ++block)
+      if (!context.fluid->is_beside(block)) ++idle;
+  }
+  EXPECT_GT(shorter, 0);
+  EXPECT_GT(idle, 0);
+}
+
 TEST(Fusions, do_not_care_where_rows_are_in_memory) {
   for (const Fusion& fusion : all_fusions()) {
     const auto placed = jittered_lattice(fusion.dim);

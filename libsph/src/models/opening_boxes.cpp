@@ -29,7 +29,7 @@ double kernel_at(KernelShape shape, int dim, double q) {
 template <class Function>
 void for_led(const StepState& s, Side side, Function function) {
   const std::uint32_t* buffer = s.particles.data<Field::buffer>();
-  const auto lanes = static_cast<std::size_t>(s.lists->lanes());
+  const auto lanes = static_cast<std::size_t>(s.lists->all.lanes());
   const auto look = [&](RowClass c) {
     const RowRange& r = range_of(s.ranges, c);
     for (std::size_t i = r.first; i < r.last; ++i)
@@ -207,8 +207,8 @@ OpeningBoxes::Near OpeningBoxes::near(const StepState& s, std::size_t i, std::si
   const double unit = constants_->scale.quantum, tube = 1.25 * scene.start.spacing;
   const std::size_t axis = boxes_[p.data<Field::buffer>()[i] - 1].axis;
   Near sums;
-  const std::span<const std::uint32_t> entries = s.lists->block(block);
-  for (std::size_t e = lane; e < entries.size(); e += static_cast<std::size_t>(s.lists->lanes())) {
+  const std::span<const std::uint32_t> entries = s.lists->all.block(block);
+  for (std::size_t e = lane; e < entries.size(); e += static_cast<std::size_t>(s.lists->all.lanes())) {
     const std::size_t j = entries[e];
     if (j == i || p.data<Field::buffer>()[j] != 0 || scene.groups[group[j]].kind != GroupKind::fluid)
       continue;

@@ -231,6 +231,13 @@ SphConstants::SphConstants(const Scene& of, const PositionScale& position_scale)
   }
 }
 
+double SphConstants::longest_bond() const {
+  const double truncated = 2 * std::ldexp(1.0, row_scale.position_shift);
+  return scene->bond_width() * (scene->kernel_radius() / scene->kernel.smoothing_length) / scale.quantum *
+             (1 + 1e-6) +
+         truncated;
+}
+
 PassContext SphConstants::context(Particles& particles, const NeighbourLists& lists,
                                   decomp::LargeVector<std::byte>& rows, double dt) const {
   TermConstants<double> now = terms;

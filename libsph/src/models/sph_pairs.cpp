@@ -6,10 +6,22 @@
 
 namespace sph {
 
-SphPairs::SphPairs(std::size_t set, Physics& physics)
-    : SetPair(set), physics_(&physics), lists_(lanes_of(physics.constants().scene->terms.precision)) {
-  for (const Group& g : physics.constants().scene->groups) is_wall_.push_back(g.kind == GroupKind::wall);
+namespace {
+
+std::vector<bool> groups_of(const Scene& scene, GroupKind kind) {
+  std::vector<bool> out;
+  for (const Group& g : scene.groups) out.push_back(g.kind == kind);
+  return out;
 }
+
+}  // namespace
+
+SphPairs::SphPairs(std::size_t set, Physics& physics)
+    : SetPair(set),
+      physics_(&physics),
+      lists_(lanes_of(physics.constants().scene->terms.precision),
+             groups_of(*physics.constants().scene, GroupKind::fluid)),
+      is_wall_(groups_of(*physics.constants().scene, GroupKind::wall)) {}
 
 // Stages take pairs where they were half a step ago, and shifting moves particles after the sums.
 double SphPairs::least_skin(const GlobalState& global) const {
@@ -23,22 +35,33 @@ void SphPairs::rebuild(const Particles& p, const ListSetting& s, const decomp::P
                        std::span<const std::uint32_t>) {
   GasReach* own = physics_->reach();
   if (own == nullptr) {
-    lists_.build(p, s.grid, s.own_cells, s.radius, s.ranges, s.timers);
-    if (p.has(Field::wall_share)) lists_.mark_walls(p, is_wall_);
+    lists_.all.build(p, s.grid, s.own_cells, s.radius, s.ranges, s.timers);
+    if (p.has(Field::wall_share)) lists_.all.mark_walls(p, is_wall_);
+    lists_.fluid.forget();
+    if (!p.has(Field::displacement)) return;
+    const auto timing = s.timers.time(decomp::Region::lists);
+    const SphConstants& k = physics_->constants();
+    lists_.bonds.build(p, lists_.all, s.ranges, k.longest_bond(), k.groups.bodies.number);
     return;
   }
   const std::vector<double>& reaches = own->find(p);
   std::vector<double> quanta(reaches.size());
   for (std::size_t i = 0; i < quanta.size(); ++i)
     quanta[i] = (reaches[i] + s.skin) / physics_->constants().scale.quantum + 1;
-  lists_.build(p, quanta, s.ranges, s.timers);
+  lists_.all.build(p, quanta, s.ranges, s.timers);
 }
 
+// Of bodies passes look at bonds, and at all others only where fluid is near.
 void SphPairs::count(const RowRanges& ranges, std::span<std::uint32_t> entries) const {
-  const auto lanes = static_cast<std::size_t>(lists_.lanes());
+  const auto lanes = static_cast<std::size_t>(lists_.all.lanes());
+  const bool bonds = lists_.bonds.blocks() > 0, wet = lists_.fluid.known();
+  const auto looked_at = [&](std::size_t b) {
+    if (!bonds) return lists_.all.block(b).size();
+    return lists_.bonds.block(b).size() + (wet && lists_.fluid.is_beside(b) ? lists_.all.block(b).size() : 0);
+  };
   for (const RowRange& range : ranges)
     for (std::size_t first = range.first, b = range.first_block; first < range.last; first += lanes, ++b)
-      share_block(entries, first, std::min<std::size_t>(first + lanes, range.last), lists_.block(b).size());
+      share_block(entries, first, std::min<std::size_t>(first + lanes, range.last), looked_at(b));
 }
 
 }  // namespace sph

@@ -76,6 +76,10 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
       if (parts.drag) of_particle += bytes_of_neighbour * neighbours;
     } else {
       of_particle += bytes_of_neighbour * neighbours;
+      if (has_bonds(scene))
+        of_particle += bytes_of_neighbour *
+                       neighbours_within(
+                           scene, scene.bond_width() / scene.kernel.smoothing_length * scene.kernel_radius());
     }
     need.bytes += (of_grains ? grains : need.particles - grains) * of_particle;
   }

@@ -22,6 +22,8 @@ struct SphConstants {
   /// ... of a pass in double precision, whatever that of the scene.
   [[nodiscard]] PassContext double_context(Particles& particles, const NeighbourLists& lists,
                                            decomp::LargeVector<std::byte>& rows, double dt) const;
+  /// What bonds join was no further apart in the reference state, nor seems so in rows of less precision [quanta].
+  [[nodiscard]] double longest_bond() const;
   [[nodiscard]] bool is_wall(std::uint32_t group) const {
     return scene->groups[group].kind == GroupKind::wall;
   }

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "sph/models/physics.hpp"
-#include "sph/pairs/neighbour_lists.hpp"
 #include "sph/pairs/set_pair.hpp"
+#include "sph/pairs/sph_lists.hpp"
 
 namespace sph {
 
@@ -13,9 +13,10 @@ class SphPairs final : public SetPair {
  public:
   SphPairs(std::size_t set, Physics& physics);
 
-  [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
+  [[nodiscard]] SphLists& lists() { return lists_; }
+  [[nodiscard]] const SphLists& lists() const { return lists_; }
   [[nodiscard]] FieldSet constants() const override {
-    return {Field::id, Field::position, Field::smoothing_length, Field::group};
+    return {Field::id, Field::position, Field::displacement, Field::smoothing_length, Field::group};
   }
   [[nodiscard]] double least_skin(const GlobalState& global) const override;
   void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
@@ -24,7 +25,7 @@ class SphPairs final : public SetPair {
 
  private:
   Physics* physics_;
-  NeighbourLists lists_;
+  SphLists lists_;
   std::vector<bool> is_wall_;  ///< by group
 };
 

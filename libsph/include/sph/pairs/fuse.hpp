@@ -24,6 +24,7 @@ Fusion fusion_of() {
           Pass::values,
           Pass::writes,
           static_cast<int>(Pass::Layout::stride * sizeof(T)),
+          Pass::asks_for_fluid,
           Pass::pack,
           Pass::repack,
           Pass::run};

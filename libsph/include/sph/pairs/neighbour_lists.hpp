@@ -49,11 +49,17 @@ class NeighbourLists {
   void build(const Particles& particles, std::span<const double> reach, RowRanges& ranges,
              decomp::Timers& timers);
 
+  /// Those of `all` that bonds can join, or that are of two bodies: whose reference positions (position less displacement)
+  /// are within `reach` [quanta], or whose numbers in `body`, by group, differ.
+  void build(const Particles& particles, const NeighbourLists& all, const RowRanges& ranges, double reach,
+             const std::vector<double>& body);
+
   /// Finds the blocks with a wall in a list; `is_wall_group` by group, the groups of halo rows being fresh.
   void mark_walls(const Particles& particles, const std::vector<bool>& is_wall_group);
   [[nodiscard]] bool beside_walls(std::size_t b) const { return beside_walls_[b]; }
 
   [[nodiscard]] int lanes() const { return lanes_; }
+  [[nodiscard]] std::size_t blocks() const { return begin_.size() - 1; }
   [[nodiscard]] std::span<const std::uint32_t> block(std::size_t b) const {
     return {entries_.data() + begin_[b], entries_.data() + begin_[b + 1]};
   }
@@ -69,7 +75,7 @@ class NeighbourLists {
   void finish(const std::vector<std::uint32_t>& row_of_tag, const RowRanges&, bool sort);
 
   int lanes_;
-  std::vector<std::uint64_t> begin_;  ///< entries before each block, then their number
+  std::vector<std::uint64_t> begin_{0};  ///< entries before each block, then their number
   decomp::LargeVector<std::uint32_t> entries_;
   std::vector<bool> beside_walls_;  ///< by block; empty until marked
   std::size_t pairs_ = 0;

@@ -106,6 +106,30 @@ inline constexpr bool is_idle_without_a_value = requires {
   Term::nothing_without;
 };
 
+/// Sums of a pass of such terms are 0 in blocks without a fluid, as row or partner, and without cracks.
+template <class Term>
+inline constexpr bool looks_only_beside_fluid = requires {
+  Term::only_beside_fluid;
+};
+
+/// A pass with such a term is wanted for fluids alone.
+template <class Term>
+inline constexpr bool is_of_fluids = requires {
+  Term::of_fluids;
+};
+
+/// Sums of a pass of such terms are over bonds, or over what is of two bodies.
+template <class Term>
+inline constexpr bool is_of_bonds = requires {
+  Term::of_bonds;
+};
+
+/// ... but beside cracks.
+template <class Term>
+inline constexpr bool looks_across_cracks = requires {
+  Term::across_cracks;
+};
+
 /// In double precision whatever that of the scene, whose lists may then have blocks of several of its own.
 template <class Term>
 inline constexpr bool is_always_double = requires {
@@ -123,6 +147,11 @@ struct PairPass {
   static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
   static constexpr bool only_beside_walls = (looks_only_beside_walls<Terms> && ...);
   static constexpr bool can_be_idle = (is_idle_without_a_value<Terms> && ...);
+  static constexpr bool only_beside_fluid = (looks_only_beside_fluid<Terms> && ...);
+  static constexpr bool of_fluids = (is_of_fluids<Terms> || ...);
+  static constexpr bool asks_for_fluid = only_beside_fluid || of_fluids;
+  static constexpr bool of_bonds = (is_of_bonds<Terms> && ...);
+  static constexpr bool across_cracks = (looks_across_cracks<Terms> || ...);
   static constexpr bool finer = (is_always_double<Terms> && ...);
   static constexpr int velocity = half_step_back ? Layout::offset(Value::velocity) : 0;
 
@@ -173,12 +202,11 @@ struct PairPass {
         own_rows[l] = static_cast<std::uint32_t>(std::min(first + l, range.last - 1));
       V own[Layout::stride], other[Layout::stride];
       load_rows<Layout::stride>(rows, own_rows, own);
-      if constexpr (can_be_idle)
-        if ((all_zero(own[Layout::offset(Terms::nothing_without)]) && ...)) {
-          store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
-          continue;
-        }
-      const std::span<const std::uint32_t> entries = c.lists->block(block);
+      if (is_idle(c, block, own)) {
+        store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
+        continue;
+      }
+      const std::span<const std::uint32_t> entries = lists_of(c, own).block(block);
       for (std::size_t k = part; k < entries.size(); k += lanes) {
         load_rows<Layout::stride>(rows, entries.data() + k, other);
         Pair<T, D, values> pair;
@@ -199,6 +227,30 @@ struct PairPass {
       }
       store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
     }
+  }
+
+  /// No row of the block wants these sums, or they are 0.
+  [[gnu::always_inline]] static bool is_idle(const PassContext& c, std::size_t block, const V* own) {
+    if constexpr (can_be_idle)
+      if ((all_zero(own[Layout::offset(Terms::nothing_without)]) && ...)) return true;
+    if constexpr (of_fluids)
+      if (c.fluid != nullptr && !c.fluid->is_in(block)) return true;
+    if constexpr (only_beside_fluid)
+      if (c.fluid != nullptr && !c.fluid->is_beside(block) && !is_cracked(own)) return true;
+    return false;
+  }
+
+  static const NeighbourLists& lists_of(const PassContext& c, const V* own) {
+    if constexpr (of_bonds)
+      if (c.bonds != nullptr && !(across_cracks && is_cracked(own))) return *c.bonds;
+    return *c.lists;
+  }
+
+  static bool is_cracked(const V* own) {
+    if constexpr (values.has(Value::crack))
+      for (int a = 0; a < D; ++a)
+        if (!all_zero(own[Layout::offset(Value::crack) + a])) return true;
+    return false;
   }
 
   static bool all_zero(const V& value) {

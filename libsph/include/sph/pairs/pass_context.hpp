@@ -5,6 +5,7 @@
 
 #include "decomp/memory.hpp"
 #include "sph/core/particles.hpp"
+#include "sph/pairs/fluid_blocks.hpp"
 #include "sph/pairs/neighbour_lists.hpp"
 #include "sph/pairs/pair_values.hpp"
 
@@ -71,6 +72,8 @@ struct PassContext {
   double force_factor;                   ///< spacing^(2D) alpha_D / h^(D+1): scale of a sum of V_i V_j grad W
   double diffusion_factor;               ///< 2 delta h spacing^D alpha_D / h^(D+2)
   decomp::LargeVector<std::byte>* rows;  ///< scratch, 64-byte aligned use starts at rows_begin()
+  const NeighbourLists* bonds = nullptr;  ///< those of `lists` that bonds may join; none: all may
+  const FluidBlocks* fluid = nullptr;     ///< of `lists`; none: it may be in any
 };
 
 /// 64-byte aligned start of the scratch, grown to `bytes`.

@@ -18,7 +18,7 @@
 #include "sph/core/fields.hpp"
 #include "sph/core/findings.hpp"
 #include "sph/core/particles.hpp"
-#include "sph/pairs/neighbour_lists.hpp"
+#include "sph/pairs/sph_lists.hpp"
 #include "sph/plan/view.hpp"
 
 namespace sph {
@@ -49,7 +49,7 @@ struct Step {
 struct StepState : Step {
   Particles& particles;
   Particles* other;                      ///< of the other set of a stage that looks at two
-  const NeighbourLists* lists;           ///< of a set of fluids and solids
+  SphLists* lists;                       ///< of a set of fluids and solids
   decomp::LargeVector<std::byte>& rows;  ///< scratch of sums over pairs
   int iteration = 0;                     ///< of the loop that the stage is in
 };

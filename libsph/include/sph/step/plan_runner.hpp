@@ -20,7 +20,7 @@ class PlanRunner {
     std::int64_t repeats = 0;                 ///< of loops
   };
 
-  PlanRunner(const decomp::Comm& comm, const Parts& parts, std::vector<ParticleSet>& sets, ListAge& age,
+  PlanRunner(const decomp::Comm& comm, Parts& parts, std::vector<ParticleSet>& sets, ListAge& age,
              decomp::Timers& timers)
       : comm_(comm), parts_(parts), sets_(sets), age_(age), timers_(timers) {}
 
@@ -41,7 +41,7 @@ class PlanRunner {
   [[nodiscard]] bool improve(const Entry& loop, GlobalState& global);
 
   const decomp::Comm& comm_;
-  const Parts& parts_;
+  Parts& parts_;
   std::vector<ParticleSet>& sets_;
   ListAge& age_;
   decomp::Timers& timers_;

@@ -38,7 +38,7 @@ class State {
   [[nodiscard]] std::span<Model* const> models() const { return parts_.models; }
   [[nodiscard]] const Plan& plan() const { return parts_.plan; }
   [[nodiscard]] const Physics* physics() const { return parts_.physics ? &*parts_.physics : nullptr; }
-  [[nodiscard]] const NeighbourLists& lists() const { return parts_.sph_pairs->lists(); }
+  [[nodiscard]] const NeighbourLists& lists() const { return parts_.sph_pairs->lists().all; }
   [[nodiscard]] const Grains* grains() const { return parts_.grains ? &*parts_.grains : nullptr; }
   [[nodiscard]] Melt* melt() const { return parts_.melt.get(); }
   [[nodiscard]] bool has_history() const {

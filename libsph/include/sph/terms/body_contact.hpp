@@ -31,6 +31,7 @@ struct BodyContact {
   static constexpr std::string_view name = "BodyContact";
   static constexpr ValueSet reads{Value::body, Value::modulus};
   static constexpr Field writes = Field::force;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class P, class C>
   static auto overlap(const P& p, const C& c) {
@@ -48,6 +49,7 @@ struct BodyContactEnergy {
   static constexpr std::string_view name = "BodyContactEnergy";
   static constexpr ValueSet reads = BodyContact::reads;
   static constexpr Field writes = Field::contact_energy;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {

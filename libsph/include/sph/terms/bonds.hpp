@@ -39,6 +39,7 @@ struct Deformation {
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::reference_volume,
                                   Value::body,      Value::modulus,        Value::clamp_shift};
   static constexpr Field writes = Field::deformation;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
@@ -69,6 +70,7 @@ struct BondForce {
                                   Value::body,      Value::bond_stress,    Value::modulus,
                                   Value::hourglass, Value::clamp_shift};
   static constexpr Field writes = Field::force;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -98,6 +100,7 @@ struct BondViscosity {
                                   Value::body,      Value::velocity,       Value::viscosity,
                                   Value::modulus};
   static constexpr Field writes = Field::force;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {

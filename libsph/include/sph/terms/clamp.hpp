@@ -25,6 +25,7 @@ struct ClampSums {
   static constexpr std::string_view name = "ClampSums";
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::body, Value::mover};
   static constexpr Field writes = Field::clamp_sums;
+  static constexpr bool of_bonds = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     const auto w = bond_kernel<Kernel>(p) * p.template j<Value::mover>();
@@ -42,6 +43,7 @@ struct ClampReaction {
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::body, Value::mover,
                                   Value::clamp_reaction};
   static constexpr Field writes = Field::clamp_push;
+  static constexpr bool of_bonds = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;

@@ -42,6 +42,7 @@ struct CrackedDeformation {
   static constexpr std::string_view name = "CrackedDeformation";
   static constexpr ValueSet reads = Deformation::reads | ValueSet{Value::crack};
   static constexpr Field writes = Field::deformation;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
@@ -53,6 +54,7 @@ struct CrackedBondForce {
   static constexpr std::string_view name = "CrackedBondForce";
   static constexpr ValueSet reads = BondForce::reads | ValueSet{Value::crack};
   static constexpr Field writes = Field::force;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -64,6 +66,7 @@ struct CrackedBondViscosity {
   static constexpr std::string_view name = "CrackedBondViscosity";
   static constexpr ValueSet reads = BondViscosity::reads | ValueSet{Value::crack};
   static constexpr Field writes = Field::force;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -79,6 +82,8 @@ struct CrackedBodyContact {
   static constexpr ValueSet reads = BodyContact::reads | ValueSet{Value::reference, Value::reference_cell,
                                                                   Value::crack, Value::crack_closing};
   static constexpr Field writes = Field::force;
+  static constexpr bool of_bonds = true;
+  static constexpr bool across_cracks = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class P, class C>
   static auto overlap(const P& p, const C& c) {
@@ -103,6 +108,8 @@ struct CrackedBodyContactEnergy {
   static constexpr std::string_view name = "CrackedBodyContactEnergy";
   static constexpr ValueSet reads = CrackedBodyContact::reads;
   static constexpr Field writes = Field::contact_energy;
+  static constexpr bool of_bonds = true;
+  static constexpr bool across_cracks = true;
   static constexpr Value nothing_without = Value::modulus;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -117,6 +124,7 @@ struct CrackSums {
   static constexpr ValueSet reads{Value::reference, Value::reference_cell, Value::body,     Value::modulus,
                                   Value::crack,     Value::crack_distance, Value::overload, Value::failing};
   static constexpr Field writes = Field::crack_sums;
+  static constexpr bool of_bonds = true;
   static constexpr Value nothing_without = Value::modulus;
   static constexpr double nearly = 0.95;
 
@@ -169,6 +177,7 @@ struct CrackedFlowOntoSolids {
   static constexpr ValueSet reads =
       FlowOntoSolids::reads | ValueSet{Value::reference, Value::reference_cell, Value::body, Value::crack};
   static constexpr Field writes = Field::flux_sums;
+  static constexpr bool only_beside_fluid = true;
   static constexpr Value nothing_without = Value::shears;
   static constexpr bool half_step_back = true;
   template <class Kernel, class P, class C, class S>
@@ -183,6 +192,7 @@ struct CrackedWettedPressure {
   static constexpr ValueSet reads =
       WettedPressure::reads | ValueSet{Value::reference, Value::reference_cell, Value::body, Value::crack};
   static constexpr Field writes = Field::force;
+  static constexpr bool only_beside_fluid = true;
   /// The sum of the pressures where they push, else 0.
   template <class P>
   static typename P::V both(const P& p) {
@@ -203,6 +213,7 @@ struct BorneByFluid {
   static constexpr std::string_view name = "BorneByFluid";
   static constexpr ValueSet reads = CrackedWettedPressure::reads;
   static constexpr Field writes = Field::borne_by_fluid;
+  static constexpr bool only_beside_fluid = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     using V = typename P::V;

@@ -31,6 +31,7 @@ struct WettedExtrapolation {
   static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::weight,
                                   Value::density,  Value::shears,   Value::own_head};
   static constexpr Field writes = Field::wall_sums;
+  static constexpr bool only_beside_fluid = true;
   static constexpr Value nothing_without = Value::shears;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -59,6 +60,7 @@ struct FlowOntoSolids {
   static constexpr std::string_view name = "FlowOntoSolids";
   static constexpr ValueSet reads{Value::velocity, Value::volume, Value::shears};
   static constexpr Field writes = Field::flux_sums;
+  static constexpr bool only_beside_fluid = true;
   static constexpr Value nothing_without = Value::shears;
   static constexpr bool half_step_back = true;
   template <class Kernel, class P, class C, class S>
@@ -72,6 +74,7 @@ struct FlowFromSolids {
   static constexpr std::string_view name = "FlowFromSolids";
   static constexpr ValueSet reads{Value::velocity, Value::volume, Value::flux};
   static constexpr Field writes = Field::divergence;
+  static constexpr bool of_fluids = true;
   static constexpr bool half_step_back = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
@@ -94,6 +97,7 @@ struct WettedPressure {
   static constexpr std::string_view name = "WettedPressure";
   static constexpr ValueSet reads{Value::volume, Value::wet_pressure, Value::shears};
   static constexpr Field writes = Field::force;
+  static constexpr bool only_beside_fluid = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C&, S& sums) {
     add_pressure(p, is_wet(p) * (p.template i<Value::wet_pressure>() + p.template j<Value::wet_pressure>()),
@@ -114,6 +118,7 @@ struct WettedViscosity {
   static constexpr std::string_view name = "WettedViscosity";
   static constexpr ValueSet reads{Value::volume, Value::wet_velocity, Value::viscosity, Value::shears};
   static constexpr Field writes = Field::force;
+  static constexpr bool only_beside_fluid = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     add_laplacian<Value::wet_velocity>(p, c, wet_viscosity(p), sums);
@@ -124,6 +129,7 @@ struct WettedSymmetricViscosity {
   static constexpr std::string_view name = "WettedSymmetricViscosity";
   static constexpr ValueSet reads = WettedViscosity::reads;
   static constexpr Field writes = Field::force;
+  static constexpr bool only_beside_fluid = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     add_symmetric<Value::wet_velocity>(p, c, wet_viscosity(p), sums);
@@ -135,6 +141,7 @@ struct WettedArtificialViscosity {
   static constexpr std::string_view name = "WettedArtificialViscosity";
   static constexpr ValueSet reads = ArtificialViscosity::reads | ValueSet{Value::shears};
   static constexpr Field writes = Field::force;
+  static constexpr bool only_beside_fluid = true;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
     using V = typename P::V;
