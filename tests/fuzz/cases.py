@@ -108,6 +108,15 @@ def add_output(d, case, kind):
             monitors.append({"kind": "wall", "wall": scene["wall"][0]["name"]})
     if rigid := [g["name"] for g in scene["group"] if g.get("rigid")]:
         monitors.append({"kind": "body", "group": rigid[0]})
+    if any(g["kind"] == "fluid" for g in scene["group"]):
+        lower, upper = scene["domain"]["lower"], scene["domain"]["upper"]
+        at = [d.real(f"gauge {a}", lo, hi) for a, (lo, hi) in enumerate(zip(lower, upper))]
+        to = [d.real(f"gauge to {a}", lo, hi) for a, (lo, hi) in enumerate(zip(lower, upper))]
+        monitors.append({"kind": "gauge", "at": at} | ({"to": to} if d.chance("gauge line", 0.5) else {}))
+        if "to" in monitors[-1] and d.chance("gauge points", 0.5):
+            monitors[-1]["points"] = d.one("gauge points value", [2, 5])
+        if any(scene["domain"].get("gravity", [0])):
+            monitors.append({"kind": "level", "at": at})
     scene["monitor"] = [m for k, m in enumerate(monitors) if d.chance(f"monitor/{k}", 0.3)]
 
 

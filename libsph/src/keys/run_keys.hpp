@@ -67,7 +67,8 @@ inline constexpr Table<OutputControl> output{{"output", false, "When files are w
 inline constexpr auto monitor_keys = std::to_array<Key>({
     {"name", Text{}, "Letters, digits, _ and -.", at<&Monitor::name>, Default{"the kind"}},
     {"kind", Words{monitor_kind_words},
-     "\"group\": averages over it. Of grains: \"wall\": its place, its velocity and the force of the "
+     "\"group\": averages over it. Of fluids: \"gauge\": what is at a point, or along a line; \"level\": how "
+     "high above a point the surface is. Of grains: \"wall\": its place, its velocity and the force of the "
      "grains on it; \"body\": the same of a rigid solid, with its rotation and torque; \"contacts\": their "
      "number and largest overlap. Of melts \"melt\". Of heat \"budget\": "
      "what there is, and "
@@ -82,6 +83,12 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
      index_at<&Monitor::group>, Where{"kind", "group", {}, {}, "body"}, required},
     {"wall", NameOf{"wall"}, "The wall that is watched.", index_at<&Monitor::wall>, where("kind", "wall"),
      required},
+    {"at", Vector{dimension::length}, "The point of the gauge; a level is measured from it, against gravity.",
+     at<&Monitor::at>, Where{"kind", "gauge", {}, {}, "level"}, required},
+    {"to", Vector{dimension::length}, "The other end of a line of gauges.", at<&Monitor::to>,
+     where("kind", "gauge"), Default{"none: one point"}},
+    {"points", Whole{2, 1000}, "On the line, both ends included.", at<&Monitor::points>,
+     where("kind", "gauge"), Default{"11, with `to`"}},
 });
 inline constexpr Table<Monitor> monitor{{"monitor", true, "Columns of series.csv.", monitor_keys}};
 

@@ -63,6 +63,39 @@ void check_monitor_name(const MonitorReader& table, const std::string& name,
                  "give each its own name");
 }
 
+void check_inside(const MonitorReader& table, MonitorReader::Name<> key, const std::optional<Double3>& point,
+                  const Scene& scene) {
+  for (std::size_t a = 0; point && a < static_cast<std::size_t>(scene.dim); ++a)
+    if ((*point)[a] < scene.domain.lower[a] || (*point)[a] > scene.domain.upper[a])
+      table.fail(key, fmt::format("lies outside the domain in {}", axis_names[a]),
+                 "name a point between domain.lower and domain.upper");
+}
+
+void check_kind(const MonitorReader& table, MonitorKind kind, const Scene& scene) {
+  const bool grains = scene.has_grains();
+  if (!grains && (kind == MonitorKind::wall || kind == MonitorKind::contacts))
+    table.fail("kind", "is of grains, and the scene has none",
+               "give \"particle\", \"group\", \"energy\" or \"momentum\"");
+  if (kind == MonitorKind::body && !has_rigid_bodies(scene))
+    table.fail("kind", "is of rigid bodies, and the scene has none",
+               "give a [[group]] of kind = \"solid\" rigid = true, or another monitor");
+  if (kind == MonitorKind::melt && !scene.has_melt())
+    table.fail("kind", "is of melts, and the scene has none", "give another");
+  if (scene.has_melt() && !grains && kind != MonitorKind::melt && kind != MonitorKind::particle)
+    table.fail("kind", "is not of melts", "give \"melt\", or \"particle\" for a cell");
+  if (kind == MonitorKind::budget && !scene.has_exchange() && scene.domain.resets.empty() &&
+      !has_failure(scene) && !scene.domain.openings.any())
+    table.fail(
+        "kind",
+        "is of what particles exchange, and the scene has no heat, gas flow, diffusion, inlet or outlet",
+        "give another, group.heat, group.permeability or group.water_diffusivity");
+  if ((kind == MonitorKind::gauge || kind == MonitorKind::level) && !scene.has_kind(GroupKind::fluid))
+    table.fail("kind", "is of fluids, and the scene has none", "give another");
+  if (kind == MonitorKind::level && scene.domain.gravity == Double3{})
+    table.fail("kind", "is measured against gravity, and there is none",
+               "set domain.gravity, or give another");
+}
+
 Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::vector<Monitor>& earlier) {
   const std::optional<MonitorKind> kind = table.choice<MonitorKind>("kind");
   const bool grains = scene.has_grains();
@@ -70,22 +103,7 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
     table.fail_missing("kind",
                        fmt::format("give \"particle\", \"group\", \"energy\"{}",
                                    grains ? ", \"momentum\", \"wall\" or \"contacts\"" : " or \"momentum\""));
-  if (!grains && (*kind == MonitorKind::wall || *kind == MonitorKind::contacts))
-    table.fail("kind", "is of grains, and the scene has none",
-               "give \"particle\", \"group\", \"energy\" or \"momentum\"");
-  if (*kind == MonitorKind::body && !has_rigid_bodies(scene))
-    table.fail("kind", "is of rigid bodies, and the scene has none",
-               "give a [[group]] of kind = \"solid\" rigid = true, or another monitor");
-  if (*kind == MonitorKind::melt && !scene.has_melt())
-    table.fail("kind", "is of melts, and the scene has none", "give another");
-  if (scene.has_melt() && !grains && *kind != MonitorKind::melt && *kind != MonitorKind::particle)
-    table.fail("kind", "is not of melts", "give \"melt\", or \"particle\" for a cell");
-  if (*kind == MonitorKind::budget && !scene.has_exchange() && scene.domain.resets.empty() &&
-      !has_failure(scene) && !scene.domain.openings.any())
-    table.fail(
-        "kind",
-        "is of what particles exchange, and the scene has no heat, gas flow, diffusion, inlet or outlet",
-        "give another, group.heat, group.permeability or group.water_diffusivity");
+  check_kind(table, *kind, scene);
   Monitor monitor;
   table.read(monitor);
   if (!table.has("name")) monitor.name = *table.text("kind");
@@ -94,15 +112,16 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
     table.fail("group",
                fmt::format("names \"{}\"", scene.groups[static_cast<std::size_t>(monitor.group)].name),
                "it must name a rigid solid");
+  if (*kind == MonitorKind::gauge || *kind == MonitorKind::level) {
+    table.only_if(monitor.to.has_value(), "points", "give `to`, where their line ends, too");
+    check_inside(table, "at", monitor.at, scene);
+    check_inside(table, "to", monitor.to, scene);
+  }
   if (*kind == MonitorKind::particle) {
     table.not_both("id", "nearest_to");
     if (!monitor.id && !monitor.nearest_to)
       table.fail_missing("nearest_to", "give it, or the id of a particle");
-    for (std::size_t a = 0; monitor.nearest_to && a < static_cast<std::size_t>(scene.dim); ++a)
-      if ((*monitor.nearest_to)[a] < scene.domain.lower[a] ||
-          (*monitor.nearest_to)[a] > scene.domain.upper[a])
-        table.fail("nearest_to", fmt::format("lies outside the domain in {}", axis_names[a]),
-                   "name a point between domain.lower and domain.upper");
+    check_inside(table, "nearest_to", monitor.nearest_to, scene);
   }
   table.finish();
   return monitor;

@@ -109,7 +109,9 @@ inline constexpr auto monitor_kind_words = std::to_array<Word>({{"particle", Mon
                                                                 {"contacts", MonitorKind::contacts},
                                                                 {"melt", MonitorKind::melt},
                                                                 {"budget", MonitorKind::budget},
-                                                                {"body", MonitorKind::body}});
+                                                                {"body", MonitorKind::body},
+                                                                {"gauge", MonitorKind::gauge},
+                                                                {"level", MonitorKind::level}});
 inline constexpr auto melt_side_words = std::to_array<Word>({{"x0", MeltFace::x0},
                                                              {"x1", MeltFace::x1},
                                                              {"y0", MeltFace::y0},

@@ -7,23 +7,11 @@
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/fixed_point.hpp"
-#include "sph/core/kernels.hpp"
 #include "sph/scene/positions.hpp"
+#include "sph/scene/with_kernel.hpp"
 
 namespace sph {
 namespace {
-
-double kernel_at(KernelShape shape, int dim, double q) {
-  switch (shape) {
-    case KernelShape::wendland_c2:
-      return dim == 2 ? WendlandC2::value<2>(q) : WendlandC2::value<3>(q);
-    case KernelShape::wendland_c4:
-      return dim == 2 ? WendlandC4::value<2>(q) : WendlandC4::value<3>(q);
-    case KernelShape::quintic:
-      break;
-  }
-  return dim == 2 ? Quintic::value<2>(q) : Quintic::value<3>(q);
-}
 
 /// Rows that are led: which block of the lists is theirs, and which lane of it.
 template <class Function>
@@ -219,7 +207,7 @@ OpeningBoxes::Near OpeningBoxes::near(const StepState& s, std::size_t i, std::si
       away[a] = quanta * unit;
       square += quanta * quanta;
     }
-    const double w = kernel_at(scene.kernel.shape, scene.dim, std::sqrt(square) * unit / h);
+    const double w = kernel_value(scene.kernel.shape, scene.dim, std::sqrt(square) * unit / h);
     if (!(w > 0)) continue;
     sums.weight += w;
     const double q = p.data<Field::pressure>()[j] + head({}, away, group[j], p.data<Field::density>()[j]);
@@ -229,7 +217,7 @@ OpeningBoxes::Near OpeningBoxes::near(const StepState& s, std::size_t i, std::si
     sums.square += w * (ahead * ahead);
     sums.slope += w * (ahead * q);
     const double aside = std::sqrt(std::fmax(0.0, square * (unit * unit) - ahead * ahead)) / tube;
-    const double straight = w * kernel_at(scene.kernel.shape, scene.dim, radius * aside);
+    const double straight = w * kernel_value(scene.kernel.shape, scene.dim, radius * aside);
     sums.before += straight;
     sums.speed += straight * p.data<Field::velocity>()[j * d + axis];
   }

@@ -2,23 +2,10 @@
 
 #include <cmath>
 
-#include "sph/core/kernels.hpp"
+#include "sph/scene/with_kernel.hpp"
 
 namespace sph {
 namespace {
-
-/// Kernel without its normalisation, which cancels.
-double weight(const Scene& scene, double q) {
-  switch (scene.kernel.shape) {
-    case KernelShape::wendland_c2:
-      return scene.dim == 2 ? WendlandC2::value<2>(q) : WendlandC2::value<3>(q);
-    case KernelShape::wendland_c4:
-      return scene.dim == 2 ? WendlandC4::value<2>(q) : WendlandC4::value<3>(q);
-    case KernelShape::quintic:
-      break;
-  }
-  return scene.dim == 2 ? Quintic::value<2>(q) : Quintic::value<3>(q);
-}
 
 class Smoother {
  public:
@@ -38,7 +25,7 @@ class Smoother {
       const auto r = static_cast<double>(x[i * d_ + a] - x[j * d_ + a]);
       r2 += r * r;
     }
-    const double w = weight(scene_, std::sqrt(r2) / quanta_per_h_);
+    const double w = kernel_value(scene_.kernel.shape, scene_.dim, std::sqrt(r2) / quanta_per_h_);
     if (w == 0) return;
     const double share = w * particles_.data<Field::mass>()[j] / particles_.data<Field::density>()[j];
     shares_ += share;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/budget.hpp"
+#include "output/gauge.hpp"
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
 #include "sph/models/energies.hpp"
@@ -57,6 +59,8 @@ void append_passages(const State& s, std::vector<double>& to) {
                        static_cast<double>(all[1].count)});
 }
 
+bool is_gauge(const Monitor& m) { return m.kind == MonitorKind::gauge || m.kind == MonitorKind::level; }
+
 std::size_t sums_of(const Monitor& monitor, const State& s) {
   const Particles& p = s.particles();
   switch (monitor.kind) {
@@ -74,6 +78,8 @@ std::size_t sums_of(const Monitor& monitor, const State& s) {
     case MonitorKind::wall:
     case MonitorKind::body:
     case MonitorKind::melt:
+    case MonitorKind::gauge:
+    case MonitorKind::level:
       break;
   }
   return 0;
@@ -241,6 +247,7 @@ void Monitors::make_names(const Simulation& s) {
       quantities.resize(static_cast<std::size_t>(s.scene().dim));
     }
     if (m.kind == MonitorKind::budget) quantities = budget_names(s);
+    if (is_gauge(m)) quantities = Gauge::names(s, m);
     if (m.kind == MonitorKind::melt) quantities = s.melt()->columns();
     for (const std::string& quantity : quantities) names_.push_back(m.name + "_" + quantity);
   }
@@ -254,12 +261,19 @@ std::vector<double> Monitors::values(Simulation& s) const {
 
   const ParticleValues of(s);
   std::vector<std::size_t> first{0};
-  for (const Monitor& m : monitors) first.push_back(first.back() + sums_of(m, s));
+  std::vector<std::optional<Gauge>> gauges(monitors.size());
+  for (std::size_t k = 0; k < monitors.size(); ++k) {
+    if (is_gauge(monitors[k])) gauges[k].emplace(s, monitors[k]);
+    first.push_back(first.back() + (gauges[k] ? gauges[k]->sums() : sums_of(monitors[k], s)));
+  }
   std::vector<decomp::ExactSum> sums(first.back());
   const auto part = [&](std::size_t k) { return std::span(sums).subspan(first[k], first[k + 1] - first[k]); };
   for (std::size_t row = 0; row < s.particles().owned(); ++row)
     for (std::size_t k = 0; k < monitors.size(); ++k)
-      if (first[k + 1] > first[k]) add_row(s.scene(), monitors[k], of, row, part(k));
+      if (gauges[k])
+        gauges[k]->add(of, row, part(k));
+      else if (first[k + 1] > first[k])
+        add_row(s.scene(), monitors[k], of, row, part(k));
   for (std::size_t k = 0; k < monitors.size(); ++k)
     if (monitors[k].kind == MonitorKind::energy) add_energies(s, part(k));
   if (contacts)
@@ -306,6 +320,10 @@ std::vector<double> Monitors::values(Simulation& s) const {
       case MonitorKind::budget:
         out.insert(out.end(), sum.begin(), sum.end());
         append_passages(s, out);
+        break;
+      case MonitorKind::gauge:
+      case MonitorKind::level:
+        gauges[k]->append(sum, out);
     }
   }
   return out;

@@ -21,6 +21,8 @@
 //             of the last step, gravity left out, with its torque about the centre
 //   contacts  n  contacts between grains, each once;  walls  those of a grain with a wall or a fixed grain;
 //             z  mean coordination, (2 n + walls) / number of grains
+//   gauge     v.., rho, p and what else particles have, where it is, and cover (output/gauge.hpp); of a line 1_vx, ..
+//   level     h, of the surface above its point [m]
 // Positions [m] are those within the periodic domain; p is the pressure above the surface pressure [Pa].
 // Walls and fixed grains are left out of energy, momentum and the number of grains.
 #pragma once

@@ -30,16 +30,31 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-enum class MonitorKind { particle, group, energy, momentum, wall, contacts, melt, budget, body };
+enum class MonitorKind {
+  particle,
+  group,
+  energy,
+  momentum,
+  wall,
+  contacts,
+  melt,
+  budget,
+  body,
+  gauge,
+  level
+};
 
 struct Monitor {
   std::string name;
   MonitorKind kind = MonitorKind::particle;
   std::optional<std::uint64_t> id;  ///< particle: this id ...
   std::optional<Double3>
-      nearest_to;  ///< ... or the one nearest this point at the start, lowest id on ties [m]
-  int group = -1;  ///< group: averages over it; body: the rigid one
-  int wall = -1;   ///< wall: its place, velocity and the force of the grains on it
+      nearest_to;             ///< ... or the one nearest this point at the start, lowest id on ties [m]
+  int group = -1;             ///< group: averages over it; body: the rigid one
+  int wall = -1;              ///< wall: its place, velocity and the force of the grains on it
+  std::optional<Double3> at;  ///< gauge, level: its place [m]
+  std::optional<Double3> to;  ///< gauge: it is a line from `at` to this point [m], of ...
+  std::optional<std::uint64_t> points;  ///< ... so many points, 11 if not given
   friend bool operator==(const Monitor&, const Monitor&) = default;
 };
 
