@@ -82,10 +82,11 @@ struct Arguments {
 
   void add_scene(CLI::App& app, bool required) {
     app.add_option("case", run.scene, "the scene, a TOML file")->required(required)->type_name("FILE");
-    app.add_option("--set", run.overrides, "override a key of the scene: --set time.dt=1e-4")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+    add_set(app, "override a key of the scene: --set time.dt=1e-4");
     add_end(app);
+  }
+  void add_set(CLI::App& app, const std::string& what) {
+    app.add_option("--set", run.overrides, what)->type_name("KEY=VALUE")->allow_extra_args(false);
   }
   void add_end(CLI::App& app) {
     auto* steps = add_text(app, "--steps", "end after this many steps, counted from 0", "N",
@@ -218,6 +219,9 @@ int tool_main(int argc, char** argv) {
                    "print the stages of a step: what they read, send and write");
     CLI::App& resume = *app.add_subcommand("resume", "go on from the last checkpoint of a run");
     resume.add_option("dir", arguments.run.resume, "the directory of the run")->required()->type_name("DIR");
+    arguments.add_set(
+        resume,
+        "change when files are written, or how the domain is cut: --set output.snapshot_interval=0.1");
     arguments.add_end(resume);
     arguments.add_max_time(resume);
     CLI::App& info = *app.add_subcommand("info", "describe a snapshot or a checkpoint");

@@ -1,8 +1,10 @@
 #include "run/run_start.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 #include "checkpoint/checkpoint_files.hpp"
 #include "files/agree.hpp"
@@ -47,6 +49,26 @@ void claim(RunStart& start, const decomp::Comm& comm) {
   refuse_used_directory(comm, start.dir, true);  // again: another run may have come and gone since
 }
 
+/// What a run that goes on may change: what its next state, its columns and its snapshots do not depend on.
+void refuse_other_changes(const std::vector<std::string>& overrides) {
+  constexpr std::array changeable{"output.snapshot_interval",
+                                  "output.series_interval",
+                                  "output.checkpoint_interval",
+                                  "output.status_interval",
+                                  "output.sort_limit",
+                                  "output.checkpoint_files",
+                                  "time.until",
+                                  "time.steps"};
+  for (const std::string& given : overrides) {
+    const std::string key = given.substr(0, given.find_first_of(" ="));
+    if (key.starts_with("decomposition.") || std::ranges::find(changeable, key) != changeable.end()) continue;
+    throw InputError(fmt::format(
+        "--set {}: a run that goes on keeps its {}; change decomposition.*, {}, or begin another run "
+        "from a snapshot by start.file",
+        given, key, fmt::join(changeable, ", ")));
+  }
+}
+
 bool has_checkpoint(const fs::path& dir) {
   const std::vector<fs::path> found = checkpoint_directories(checkpoint_root(dir));
   return std::any_of(found.begin(), found.end(),
@@ -76,6 +98,7 @@ RunStart start_new(const RunOptions& options, const decomp::Comm& comm) {
 }
 
 RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
+  refuse_other_changes(options.overrides);
   RunStart start;
   start.dir = options.resume;
   const std::string file = (start.dir / "scene.toml").string();
