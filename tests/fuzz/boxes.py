@@ -70,8 +70,15 @@ class Box:
             group = r.one("group", groups + ["none"])
             centre = [r.real(f"centre/{a}", 0, n) for a, n in enumerate(self.n)]
             size = r.log("size", least, max(least, 0.4 * max(self.n)))
-            if r.chance("ball", 0.5):
+            shape = r.weighted("shape", {"ball": 3, "box": 3, "cylinder": 1, "cone": 1})
+            if shape == "ball":
                 out.append({"group": group, "shape": "ball", "centre": centre, "radius": size})
+            elif shape != "box":
+                axis = r.whole("axis", 0, self.dim - 1)
+                end = [c + size * r.one("way", [-1.5, 1.5]) * (a == axis) for a, c in enumerate(centre)]
+                out.append({"group": group, "shape": shape, "from": centre, "to": end, "radius": size})
+                if shape == "cone" and r.chance("blunt", 0.5):
+                    out[-1]["top_radius"] = 0.5 * size
             else:
                 half = [size * r.log(f"half/{a}", 0.5, 2) for a in range(self.dim)]
                 out.append({"group": group, "shape": "box", "lower": [c - s for c, s in zip(centre, half)],
@@ -82,11 +89,12 @@ class Box:
 def scaled(region, dx, offset):
     """In metres."""
     out = dict(region)
-    for key in ("lower", "upper", "centre"):
+    for key in ("lower", "upper", "centre", "from", "to"):
         if key in out:
             out[key] = [dx * x + o for x, o in zip(out[key], offset)]
-    if "radius" in out:
-        out["radius"] *= dx
+    for key in ("radius", "top_radius"):
+        if key in out:
+            out[key] *= dx
     return out
 
 
@@ -100,6 +108,12 @@ def painted(regions, point):
             inside = all(low <= x < high for x, low, high in zip(point, r["lower"], r["upper"]))
         if shape == "ball":
             inside = sum((x - c) ** 2 for x, c in zip(point, r["centre"])) < r["radius"] ** 2
+        if shape in ("cylinder", "cone"):
+            axis = next(a for a, (x, y) in enumerate(zip(r["from"], r["to"])) if x != y)
+            part = (point[axis] - r["from"][axis]) / (r["to"][axis] - r["from"][axis])
+            top = r["radius"] if shape == "cylinder" else r.get("top_radius", 0)
+            inside = 0 <= part < 1 and sum((x - c) ** 2 for a, (x, c) in enumerate(zip(point, r["from"])) if a != axis) < (
+                r["radius"] + (top - r["radius"]) * part) ** 2
         if inside:
             group = None if r["group"] == "none" else r["group"]
     return group

@@ -47,12 +47,33 @@ std::string ball(const std::string& centre, double radius) {
   return "shape = \"ball\"\ncentre = " + centre + "\nradius = " + std::to_string(radius) + "\n";
 }
 
+std::string cone(const std::string& from, const std::string& to, double radius, double top_radius) {
+  return "shape = \"cone\"\nfrom = " + from + "\nto = " + to + "\nradius = " + std::to_string(radius) +
+         "\ntop_radius = " + std::to_string(top_radius) + "\n";
+}
+std::string cylinder(const std::string& from, const std::string& to, double radius) {
+  return "shape = \"cylinder\"\nfrom = " + from + "\nto = " + to + "\nradius = " + std::to_string(radius) +
+         "\n";
+}
+
 const std::string square = "dimension = 2\n[domain]\nlower = [0, -0.5]\nupper = [1, 0.5]\n";
 const std::string cube = "dimension = 3\n[domain]\nlower = [0, 0, 0]\nupper = [1, 0.8, 0.6]\n";
 const std::string painted_square =
     region("wall", "") + region("water", box("[0.1, -0.4]", "[0.9, 0.5]")) +
     region("none", ball("[0.5, 0.1]", 0.3)) + region("oil", ball("[0.47, 0.13]", 0.171)) +
     region("water", ball("[0.8, 0.45]", 0.12)) + region("oil", box("[0.2, 0]", "[0.25, 0.02]"));
+const std::string pointed_square = region("water", "") +
+                                   region("oil", cone("[0.5, -0.4]", "[0.5, 0.3]", 0.4, 0.05)) +
+                                   region("none", cylinder("[0.2, -0.1]", "[0.7, -0.1]", 0.05)) +
+                                   region("wall", cone("[0.9, 0.2]", "[0.4, 0.2]", 0.1, 0)) +
+                                   region("oil", cone("[0.1, 0.3]", "[0.3, 0.3]", 0.02, 0.1));
+const std::string pointed_cube = region("water", "") +
+                                 region("oil", cone("[0.5, 0.4, 0.05]", "[0.5, 0.4, 0.5]", 0.35, 0.1)) +
+                                 region("none", cylinder("[0.5, 0.4, 0]", "[0.5, 0.4, 0.6]", 0.07)) +
+                                 region("wall", cylinder("[0.1, 0.3, 0.3]", "[0.9, 0.3, 0.3]", 0.06)) +
+                                 region("oil", cone("[0.9, 0.6, 0.3]", "[0.2, 0.6, 0.3]", 0.15, 0)) +
+                                 region("wall", cone("[0.2, 0.1, 0.1]", "[0.8, 0.1, 0.1]", 0, 0.1)) +
+                                 region("oil", cone("[0.3, 0.7, 0.5]", "[0.3, 0.3, 0.5]", 0.05, 0.2));
 const std::string painted_cube =
     region("wall", "") + region("water", box("[0.1, 0.1, 0.1]", "[0.9, 0.7, 0.6]")) +
     region("none", box("[0.1, 0.1, 0.4]", "[0.5, 0.7, 0.6]")) +
@@ -95,9 +116,24 @@ TEST_F(StartCounts, EqualWhatIsPlaced) {
                                           "origin = [0.013, -0.211]\nlower = [0.003, -0.5]\nupper = "
                                           "[0.97, 0.4]\njitter = 0.2\n" +
                                           painted_square));
+    expect_as_placed(scene_of(square, dx + pointed_square));
+    expect_as_placed(scene_of(cube, dx + pointed_cube));
+    expect_as_placed(scene_of(cube, dx + "lattice = \"fcc\"\n" + pointed_cube));
     expect_as_placed(scene_of(cube, dx + painted_cube));
     expect_as_placed(scene_of(cube, dx + "lattice = \"fcc\"\n" + painted_cube));
   }
+}
+
+TEST_F(StartCounts, OfCylindersAndConesAreTheirVolumes) {
+  const double dx = 0.01, cell = dx * dx * dx, pi = 3.14159265358979;
+  const auto volume = [&](const std::string& shape) {
+    return cell * static_cast<double>(
+                      count_start(world_, scene_of(cube, "spacing = 0.01\n" + region("oil", shape))).all);
+  };
+  EXPECT_NEAR(volume(cylinder("[0.2, 0.4, 0.3]", "[0.7, 0.4, 0.3]", 0.2)), pi * 0.04 * 0.5, 2e-4);
+  EXPECT_NEAR(volume(cylinder("[0.4, 0.7, 0.3]", "[0.4, 0.2, 0.3]", 0.2)), pi * 0.04 * 0.5, 2e-4);
+  EXPECT_NEAR(volume(cone("[0.4, 0.4, 0.1]", "[0.4, 0.4, 0.5]", 0.3, 0)), pi * 0.09 * 0.4 / 3, 2e-4);
+  EXPECT_NEAR(volume(cone("[0.6, 0.4, 0.3]", "[0.2, 0.4, 0.3]", 0.1, 0.2)), pi * 0.07 * 0.4 / 3, 2e-4);
 }
 
 // Each point has 12 neighbours at 2^(1/6) spacings and none nearer, through periods too, and a volume of spacing^3.

@@ -17,6 +17,41 @@ constexpr double most_lattice_points = 1e12;
 
 bool can_move(const Group& group) { return group.kind != GroupKind::wall && !group.grain.fixed; }
 
+/// The box around a region, along x, y, z.
+std::array<std::array<double, 2>, 3> extent_of(const Region& r) {
+  std::array<std::array<double, 2>, 3> out{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double widest = std::max(r.radius, r.shape == RegionShape::cone ? r.top_radius : 0.0);
+    const double aside = r.from[a] == r.to[a] ? widest : 0;
+    out[a] = r.shape == RegionShape::box ? std::array{r.lower[a], r.upper[a]}
+             : r.shape == RegionShape::ball
+                 ? std::array{r.centre[a] - r.radius, r.centre[a] + r.radius}
+                 : std::array{std::min(r.from[a], r.to[a]) - aside, std::max(r.from[a], r.to[a]) + aside};
+  }
+  return out;
+}
+
+void check_place(const Reader<keys::region>& table, const Region& region, const Scene& scene) {
+  const LatticeFill& lattice = scene.start.lattice;
+  if (region.shape == RegionShape::everywhere) return;
+  if (region.shape == RegionShape::cylinder || region.shape == RegionShape::cone) {
+    int along = 0;
+    for (std::size_t a = 0; a < 3; ++a) along += region.from[a] != region.to[a] ? 1 : 0;
+    if (along == 0) table.fail("to", "is the place of `from`", "the axis has no length");
+    if (along > 1)
+      table.fail("to", "makes the axis oblique", "it must differ from `from` in one coordinate alone");
+  }
+  bool outside = false;
+  const auto extent = extent_of(region);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
+    if (region.shape == RegionShape::box && !(region.lower[a] < region.upper[a]))
+      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+    outside = outside || extent[a][1] <= lattice.lower[a] || extent[a][0] >= lattice.upper[a];
+  }
+  if (outside)
+    table.fail("shape", "lies outside the filled lattice", "move it between start.lower and start.upper");
+}
+
 Region read_region(const Reader<keys::region>& table, const Scene& scene) {
   Region region;
   table.read(region);
@@ -29,19 +64,7 @@ Region read_region(const Reader<keys::region>& table, const Scene& scene) {
       table.fail("group", fmt::format("names \"{}\", a material without diameter", g->name),
                  "give that [[group]] the diameter of its grains");
   }
-  const LatticeFill& lattice = scene.start.lattice;
-  bool outside = false;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
-    const bool box = region.shape == RegionShape::box;
-    if (box && !(region.lower[a] < region.upper[a]))
-      table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
-    if (region.shape == RegionShape::everywhere) continue;
-    const double least = box ? region.lower[a] : region.centre[a] - region.radius;
-    const double most = box ? region.upper[a] : region.centre[a] + region.radius;
-    outside = outside || most <= lattice.lower[a] || least >= lattice.upper[a];
-  }
-  if (outside)
-    table.fail("shape", "lies outside the filled lattice", "move it between start.lower and start.upper");
+  check_place(table, region, scene);
   table.finish();
   return region;
 }

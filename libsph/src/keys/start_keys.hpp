@@ -14,8 +14,16 @@ inline constexpr auto region_keys = std::to_array<Key>({
     {"upper", Vector{dimension::length}, "Of a box.", at<&Region::upper>, where("shape", "box"), required},
     {"centre", Vector{dimension::length}, "Of a ball: |x - centre| < radius.", at<&Region::centre>,
      where("shape", "ball"), required},
-    {"radius", Number{dimension::length, positive}, "Of a ball.", at<&Region::radius>, where("shape", "ball"),
-     required},
+    {"from", Vector{dimension::length},
+     "Of a cylinder or cone: one end of its axis, which is parallel to x, y or z; in two dimensions they are "
+     "a box and a trapezium.",
+     at<&Region::from>, Where{"shape", "cylinder", {}, {}, "cone"}, required},
+    {"to", Vector{dimension::length}, "The other end.", at<&Region::to>,
+     Where{"shape", "cylinder", {}, {}, "cone"}, required},
+    {"radius", Number{dimension::length, not_negative}, "Of a ball, a cylinder or a cone at `from`.",
+     at<&Region::radius>, unless("shape", "everywhere", "is of balls, cylinders and cones", "box"), required},
+    {"top_radius", Number{dimension::length, not_negative}, "Of a cone at `to`.", at<&Region::top_radius>,
+     where("shape", "cone")},
 });
 inline constexpr Table<Region> region{
     {"start.region", true, "A lattice point belongs to the last region that contains it.", region_keys}};

@@ -84,8 +84,11 @@ inline constexpr auto lagrangian_words =
 inline constexpr std::array<std::string_view, 4> motion_names{"x", "y", "z", "rotation"};
 inline constexpr auto strength_law_words = std::to_array<Word>(
     {{"mohr_coulomb", StrengthLaw::mohr_coulomb}, {"drucker_prager", StrengthLaw::drucker_prager}});
-inline constexpr auto region_shape_words = std::to_array<Word>(
-    {{"everywhere", RegionShape::everywhere}, {"box", RegionShape::box}, {"ball", RegionShape::ball}});
+inline constexpr auto region_shape_words = std::to_array<Word>({{"everywhere", RegionShape::everywhere},
+                                                                {"box", RegionShape::box},
+                                                                {"ball", RegionShape::ball},
+                                                                {"cylinder", RegionShape::cylinder},
+                                                                {"cone", RegionShape::cone}});
 inline constexpr auto lattice_kind_words = std::to_array<Word>(
     {{"square", LatticeKind::square}, {"hexagonal", LatticeKind::hexagonal}, {"fcc", LatticeKind::fcc}});
 inline constexpr auto initial_pressure_words =

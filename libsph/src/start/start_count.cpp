@@ -48,6 +48,9 @@ class Row {
         if (rest < -1e-9 * r.radius * r.radius) return {};
         return where(inside, r.centre[0], std::sqrt(std::max(rest, 0.0)));
       }
+      case RegionShape::cylinder:
+      case RegionShape::cone:
+        return within_cone(r);
       case RegionShape::everywhere:
         break;
     }
@@ -55,6 +58,31 @@ class Row {
   }
 
  private:
+  [[nodiscard]] Interval within_cone(const Region& r) const {
+    const std::size_t d = static_cast<std::size_t>(scene_.dim), a = axis_of(r);
+    const auto inside = [&](const Double3& x) { return contains(r, x, d); };
+    if (a != 0) {
+      const double part = part_of_axis(r, middle_[a]), radius = radius_at(r, part);
+      double rest = radius * radius;
+      if (part < 0 || part >= 1) return {};
+      for (std::size_t b = 1; b < d; ++b)
+        if (b != a) rest -= (middle_[b] - r.from[b]) * (middle_[b] - r.from[b]);
+      if (rest < -1e-9 * radius * radius) return {};
+      return where(inside, r.from[0], std::sqrt(std::max(rest, 0.0)));
+    }
+    // As much of the axis as is thick enough.
+    const double away = std::sqrt(from_axis2(r, middle_, d));
+    double first = 0, last = 1;
+    const double thicker = radius_at(r, 1) - radius_at(r, 0);
+    if (thicker == 0 && away >= r.radius) return {};
+    if (thicker < 0) last = std::min(last, (away - r.radius) / thicker);
+    if (thicker > 0) first = std::max(first, (away - r.radius) / thicker);
+    if (first > last + 1e-9) return {};
+    const double length = r.to[0] - r.from[0];
+    return where(inside, r.from[0] + 0.5 * (first + last) * length,
+                 std::max(0.5 * (last - first), 0.0) * std::abs(length));
+  }
+
   /// Where `inside` holds: about middle +- half, but the last word has the point itself.
   template <class Inside>
   [[nodiscard]] Interval where(Inside&& inside, double middle, double half) const {

@@ -10,7 +10,7 @@
 
 namespace sph {
 
-enum class RegionShape { everywhere, box, ball };
+enum class RegionShape { everywhere, box, ball, cylinder, cone };
 
 /// Painter's rule: a lattice point belongs to the last region that contains it. group -1 leaves it empty.
 struct Region {
@@ -18,7 +18,9 @@ struct Region {
   RegionShape shape = RegionShape::everywhere;
   Double3 lower{}, upper{};  ///< box: lower <= x < upper [m]
   Double3 centre{};          ///< ball: |x - centre| < radius [m]
-  double radius = 0;
+  Double3 from{}, to{};      ///< cylinder, cone: ends of the axis, which is that of a coordinate [m]
+  double radius = 0;         ///< of a cone at `from` ...
+  double top_radius = 0;     ///< ... and at `to`
   friend bool operator==(const Region&, const Region&) = default;
 };
 
