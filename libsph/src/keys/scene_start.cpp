@@ -34,6 +34,9 @@ std::array<std::array<double, 2>, 3> extent_of(const Region& r) {
 void check_place(const Reader<keys::region>& table, const Region& region, const Scene& scene) {
   const LatticeFill& lattice = scene.start.lattice;
   if (region.shape == RegionShape::everywhere) return;
+  const bool pointed = region.shape == RegionShape::cone && region.top_radius > 0;
+  if (region.shape != RegionShape::box && !pointed && !(region.radius > 0))
+    table.fail("radius", "is 0", "it must be positive");
   if (region.shape == RegionShape::cylinder || region.shape == RegionShape::cone) {
     int along = 0;
     for (std::size_t a = 0; a < 3; ++a) along += region.from[a] != region.to[a] ? 1 : 0;
