@@ -17,7 +17,7 @@ class TotalBodies:
             whole = [g["name"] for g in out[:k] if not g.get("rigid") and "part_of" not in g]
             if whole and not out[k].get("rigid") and d.chance(f"layer/{k}", 0.25):
                 out[k]["part_of"] = d.one(f"layer of/{k}", whole)
-        if d.chance("in a fluid", 0.5):
+        if d.chance("in a fluid", 0.65):
             out.append(self.around(d.part("around")))
             for k, body in enumerate(out[:-1]):
                 if not body.get("rigid") and d.chance(f"fails/{k}", 0.6):

@@ -14,7 +14,7 @@ RADIUS = {"quintic": 3, "wendland_c2": 2, "wendland_c4": 2}
 
 
 def make(d):
-    family = d.weighted("family", {"fluid": 45, "solid": 12, "ida": 12, "gas": 15, "total": 16, "mixture": 16})
+    family = d.weighted("family", {"fluid": 45, "solid": 12, "ida": 12, "gas": 15, "total": 32, "mixture": 16})
     return Maker(d, family).scene()
 
 

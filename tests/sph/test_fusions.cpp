@@ -210,6 +210,19 @@ std::vector<test::Placed> with_dry_solid(int dim, std::size_t& dry) {
   return all;
 }
 
+/// Sums that are not 0 of rows that a pass of fluids is not for: others must not see which blocks they are in.
+int sums_of_others(const PairCase& c) {
+  int found = 0;
+  const bool of_fluids = std::ranges::count(c.fusion().terms, Term{"FlowFromSolids"}) > 0;
+  for (std::size_t row = 0; of_fluids && row < c.particles().owned(); ++row) {
+    if (c.particles().data<Field::group>()[row] <= test::heavy) continue;
+    for (const Field f : c.fusion().writes.list())
+      for (int k = 0; k < components(info(f).shape, c.fusion().dim); ++k)
+        found += component(c, f, row, k) != 0 ? 1 : 0;
+  }
+  return found;
+}
+
 // Scenes have shorter lists for bonds, and no sums where no fluid is near.
 TEST(Fusions, add_nothing_but_from_bonds_and_beside_fluids) {
   int shorter = 0, idle = 0;
@@ -229,6 +242,7 @@ TEST(Fusions, add_nothing_but_from_bonds_and_beside_fluids) {
       c.leave_out();
       sum(c);
       EXPECT_EQ(c.bits(wanted), bits) << title_of(fusion);
+      EXPECT_EQ(sums_of_others(c), 0) << title_of(fusion);
     }
     const PassContext context = c.context();
     if (context.bonds != nullptr && context.bonds->pairs() < context.lists->pairs()) ++shorter;

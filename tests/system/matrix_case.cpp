@@ -118,6 +118,13 @@ std::unique_ptr<sph::Simulation> Cases::begin(const decomp::Comm& comm, const Ro
   return std::make_unique<sph::Simulation>(comm, scene);
 }
 
+bool Cases::differs(const sph::Simulation& s, const Row& row) const {
+  const std::string fingerprint = s.fingerprint();
+  const bool mine =
+      s.comm().rank() == 0 && fingerprint != references_.at(key(row)).fingerprint.at(s.global().step);
+  return s.comm().max(std::int64_t{mine}) > 0;
+}
+
 Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
   const Row& row = c.row;
   sph::Scene scene = scene_of(row);
@@ -125,14 +132,17 @@ Outcome Cases::run(const decomp::Comm& comm, const Case& c, const Leg& leg) {
   const auto simulation = begin(comm, row, scene, leg);
   if (simulation->global().step != leg.from) throw std::runtime_error("resumed at another step");
   std::int64_t shared = 0;
+  if (leg.from > 0 && differs(*simulation, row)) {
+    mismatch_step_ = leg.from;
+    write_state(run_dir(row) / "row.h5", *simulation);
+    return {"step " + std::to_string(leg.from) + ", as it is read", 0};
+  }
   while (simulation->global().step < leg.to) {
     simulation->step();
     shared += has_boundary(*simulation) ? 1 : 0;
     const std::int64_t step = simulation->global().step;
     if (!std::binary_search(c.steps.begin(), c.steps.end(), step)) continue;
-    const std::string fingerprint = simulation->fingerprint();
-    const bool differs = comm.rank() == 0 && fingerprint != references_.at(key(row)).fingerprint.at(step);
-    if (comm.max(std::int64_t{differs}) == 0) continue;
+    if (!differs(*simulation, row)) continue;
     write_state(run_dir(row) / "row.h5", *simulation);
     mismatch_step_ = step;
     return {"step " + std::to_string(step), simulation->rebuilds()};

@@ -50,6 +50,7 @@ class Cases {
     Liveliness start;
     std::map<std::int64_t, std::string> fingerprint;  ///< by step
   };
+  [[nodiscard]] bool differs(const sph::Simulation& simulation, const Row& row) const;
   [[nodiscard]] static std::string key(const Row& row);
   [[nodiscard]] std::filesystem::path run_dir(const Row& row) const;
   [[nodiscard]] std::filesystem::path start_file(const Row& row) const;

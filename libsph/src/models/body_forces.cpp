@@ -59,10 +59,10 @@ double BodyForces::disordered_share(const Particles& p, std::size_t i) const {
 // Under tension particles draw together and leave voids. In the form -(p_j - p_i) instead of -(p_j + p_i) the
 // force of a constant pressure on disordered particles pushes them apart (Sun et al. 2018, tensile
 // instability control): the difference to the pair force is 2 p_i V_i S_i. Not antisymmetric, so only where a
-// free surface leaves no other way.
+// free surface leaves no other way, and of fluids alone: bodies have bonds, and would gain momentum.
 double BodyForces::tension_control(const Particles& p, std::size_t i) const {
   const Scene& scene = *constants_->scene;
-  if (!scene.terms.shifting || !scene.open()) return 0;
+  if (!scene.terms.shifting || !scene.open() || is_body(scene.groups[p.get<Field::group>()[i]])) return 0;
   const double pressure = p.get<Field::pressure>()[i];
   if (pressure >= 0) return 0;
   return 2 * pressure / p.get<Field::density>()[i] * std::fmax(0.0, disordered_share(p, i));

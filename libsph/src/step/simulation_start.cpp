@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sph/plan/united.hpp"
@@ -22,6 +23,34 @@ void forget_sums(Particles& particles) {
     if (!info(f).state)
       std::memset(particles.table().column(particles.column(f)).data(), 0,
                   particles.owned() * width(f, particles.dim()));
+}
+
+/// Fields of the owned rows, to be as they were.
+class Kept {
+ public:
+  Kept(Particles& particles, FieldSet fields) : particles_(&particles) {
+    for (const Field f : (fields & particles.fields()).list()) {
+      const std::byte* data = column(f);
+      columns_.emplace_back(
+          f, std::vector<std::byte>(data, data + particles.owned() * width(f, particles.dim())));
+    }
+  }
+  void put_back() {
+    for (const auto& [field, bytes] : columns_) std::memcpy(column(field), bytes.data(), bytes.size());
+  }
+
+ private:
+  std::byte* column(Field f) { return particles_->table().column(particles_->column(f)).data(); }
+
+  Particles* particles_;
+  std::vector<std::pair<Field, std::vector<std::byte>>> columns_;
+};
+
+FieldSet state_fields() {
+  FieldSet out;
+  for (const FieldInfo& i : field_table)
+    if (i.state) out |= FieldSet{i.field};
+  return out;
 }
 
 /// Of a start: it is the scene that is wrong.
@@ -60,6 +89,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
     throw InputError(scene_.file + ": start: " + error.what());
   }
   begin();
+  prepare();
   refuse_faults(comm_, scene_, runner_.findings());
   for (const Model* m : parts_.models) m->check_start(comm_, runner_.state_of(m->set(), global_));
   settle();
@@ -76,7 +106,21 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
   }
   global_ = checkpoint.record.global;
   begin();
+  // A state stays as it is: what has failed at the end of its step bears less now than its stress still says.
+  FieldSet changed;
+  for (const Entry& entry : parts_.plan.start)
+    for (const Stage& stage : entry.stages) changed |= stage.writes & state_fields();
+  std::vector<Kept> kept;
+  for (ParticleSet& set : sets_) kept.emplace_back(set.particles, changed);
+  prepare();
+  for (Kept& of : kept) of.put_back();
   runner_.findings().stop(comm_);
+}
+
+// What stages of a step find before others read it.
+void Simulation::prepare() {
+  runner_.run(parts_.plan.start, global_);
+  stale_ = may_drift(parts_.plan);
 }
 
 void Simulation::begin() {
@@ -93,8 +137,6 @@ void Simulation::begin() {
   Findings outside;
   for (const ParticleSet& set : sets_) outside.add(distribution_.outside(set.particles));
   refuse_faults(comm_, scene_, outside);
-  runner_.run(parts_.plan.start, global_);
-  stale_ = may_drift(parts_.plan);
 }
 
 // Every row, with what its pairs carry, to the rank that owns it.
@@ -120,18 +162,9 @@ void Simulation::derive_for_output() {
   const std::vector<Entry>& stages = parts_.plan.output;
   if (stages.empty()) return;
   ParticleSet& set = sets_[stages.front().stages.front().set];
-  Particles& particles = set.particles;
-  const auto copy = [&](const double* values, std::size_t components) {
-    return values == nullptr ? std::vector<double>()
-                             : std::vector<double>(values, values + components * particles.owned());
-  };
-  double* velocity = particles.data<Field::velocity>();
-  double* mirror = particles.data<Field::wall_mirror>();
-  const std::vector<double> velocities = copy(velocity, static_cast<std::size_t>(scene_.dim)),
-                            mirrors = copy(mirror, 1);
+  Kept kept(set.particles, {Field::velocity, Field::wall_mirror});
   runner_.run(stages, global_);
-  std::copy(velocities.begin(), velocities.end(), velocity);
-  std::copy(mirrors.begin(), mirrors.end(), mirror);
+  kept.put_back();
   for (const Entry& entry : stages)
     for (const Stage& stage : entry.stages) set.changed(stage.writes);
 }

@@ -21,6 +21,7 @@ class FluidBlocks {
   void look_at_interior(const Particles&, const NeighbourLists&, const RowRanges&);
   void look_at_boundary(const Particles&, const NeighbourLists&, const RowRanges&);
   [[nodiscard]] bool known() const { return !rows_.empty(); }
+  [[nodiscard]] bool is_fluid(std::size_t row) const { return rows_[row] == 1; }
   /// A fluid is among the block's rows.
   [[nodiscard]] bool is_in(std::size_t block) const { return blocks_[block] == Fluid::row; }
   /// ... or their partners.

@@ -112,7 +112,7 @@ inline constexpr bool looks_only_beside_fluid = requires {
   Term::only_beside_fluid;
 };
 
-/// A pass with such a term is wanted for fluids alone.
+/// A pass with such a term is of fluids alone: the sums of other rows are 0, whatever block they are in.
 template <class Term>
 inline constexpr bool is_of_fluids = requires {
   Term::of_fluids;
@@ -225,6 +225,7 @@ struct PairPass {
         if constexpr (values.has(Value::reference)) look_at_bond(own, other, constants.bonds, pair);
         (Terms::template add<Kernel>(pair, constants, sums), ...);
       }
+      if constexpr (of_fluids) keep_those_of_fluids(c, own_rows, sums);
       store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
     }
   }
@@ -238,6 +239,14 @@ struct PairPass {
     if constexpr (only_beside_fluid)
       if (c.fluid != nullptr && !c.fluid->is_beside(block) && !is_cracked(own)) return true;
     return false;
+  }
+
+  static void keep_those_of_fluids(const PassContext& c, const std::uint32_t* rows,
+                                   Sums<T, D, writes>& sums) {
+    if (c.fluid == nullptr) return;
+    for (int l = 0; l < static_cast<int>(V::lanes); ++l)
+      if (!c.fluid->is_fluid(rows[l]))
+        for (V& s : sums.v) s.v[l] = 0;
   }
 
   static const NeighbourLists& lists_of(const PassContext& c, const V* own) {

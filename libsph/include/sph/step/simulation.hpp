@@ -40,6 +40,7 @@ class Simulation : public State {
 
  private:
   void begin();  ///< common end of both constructors
+  void prepare();
   void add_dawdling();
   void scatter();
   void settle();
