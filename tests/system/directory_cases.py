@@ -58,6 +58,23 @@ class Cases:
         self.go(out)
         assert (out / "notes.txt").read_text() == "mine"
 
+    def test_resume_changes(self):
+        """What the state does not depend on may change when a run goes on, and nothing else."""
+        out = self.folder("changed")
+        whole = self.go("unchanged", steps=30)
+        self.go(out, steps=10)
+        before = self.run.files("changed")
+        for ranks in (1, 3):
+            self.run.refused(ranks, "peperite", "resume", out, "--set", "group.melt.viscosity=1", "--steps", 30,
+                             says="group.melt.viscosity")
+            self.run.refused(ranks, "peperite", "resume", out, "--set", "output.status_interval=no", "--steps", 30,
+                             says="output.status_interval")
+        assert self.run.files("changed") == before, "a refused change has changed files"
+        result = self.run.run(2, "peperite", "resume", out, "--steps", 30, "--set", "output.series_interval=1e9",
+                              "--set", "decomposition.skin=0.5")
+        assert result.fingerprint == whole.fingerprint, "another skin has changed the bits"
+        assert "skin = 0.5" in (out / "scene.toml").read_text() and rows_in(out / "series.csv") < 20
+
     def test_resume_keeps(self):
         """What lies in the directory besides the run's own files outlives a resume."""
         out = self.folder("keeps")

@@ -191,22 +191,6 @@ class Cases:
         self.run.run(1, "buoyant_cylinder", "--steps", 250, *BUSY, "--out", "longer")
         self.expect_reference(self.run.run(3, "peperite", "resume", "longer", "--steps", LONG), "longer")
 
-    def test_new_outputs(self):
-        """What the state does not depend on may change when a run goes on, and nothing else."""
-        self.run.run(1, "buoyant_cylinder", "--steps", 250, *BUSY, "--out", "changed")
-        before = self.run.files("changed")
-        for ranks in (1, 3):
-            self.run.refused(ranks, "peperite", "resume", "changed", "--set", "group.melt.viscosity=1", "--steps", LONG,
-                             says="group.melt.viscosity")
-            self.run.refused(ranks, "peperite", "resume", "changed", "--set", "output.status_interval=no",
-                             says="output.status_interval")
-        assert self.run.files("changed") == before, "a refused change has changed files"
-        result = self.run.run(2, "peperite", "resume", "changed", "--steps", LONG, "--set", "output.series_interval=1e9",
-                              "--set", "decomposition.skin=0.5")
-        assert result.fingerprint == self.reference[0], "another skin has changed the bits"
-        scene = (self.run.folder / "changed" / "scene.toml").read_text()
-        assert "skin = 0.5" in scene and rows_in(self.run.folder / "changed" / "series.csv") < LONG
-
     def test_kills(self):
         self.kill_and_resume("kill", self.start, self.expect_reference)
 

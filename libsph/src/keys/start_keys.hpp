@@ -21,7 +21,8 @@ inline constexpr auto region_keys = std::to_array<Key>({
     {"to", Vector{dimension::length}, "The other end.", at<&Region::to>,
      Where{"shape", "cylinder", {}, {}, "cone"}, required},
     {"radius", Number{dimension::length, not_negative}, "Of a ball, a cylinder or a cone at `from`.",
-     at<&Region::radius>, unless("shape", "everywhere", "it is of balls, cylinders and cones", "box"), required},
+     at<&Region::radius>, unless("shape", "everywhere", "it is of balls, cylinders and cones", "box"),
+     required},
     {"top_radius", Number{dimension::length, not_negative}, "Of a cone at `to`.", at<&Region::top_radius>,
      where("shape", "cone")},
 });

@@ -88,8 +88,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   } catch (const GuardError& error) {
     throw InputError(scene_.file + ": start: " + error.what());
   }
-  begin();
-  prepare();
+  begin(false);
   refuse_faults(comm_, scene_, runner_.findings());
   for (const Model* m : parts_.models) m->check_start(comm_, runner_.state_of(m->set(), global_));
   settle();
@@ -105,25 +104,11 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
     divide(all, scene_, sets_, arrived_, parts_.grains ? parts_.grains->set() : sets_.size());
   }
   global_ = checkpoint.record.global;
-  begin();
-  // A state stays as it is: what has failed at the end of its step bears less now than its stress still says.
-  FieldSet changed;
-  for (const Entry& entry : parts_.plan.start)
-    for (const Stage& stage : entry.stages) changed |= stage.writes & state_fields();
-  std::vector<Kept> kept;
-  for (ParticleSet& set : sets_) kept.emplace_back(set.particles, changed);
-  prepare();
-  for (Kept& of : kept) of.put_back();
+  begin(true);
   runner_.findings().stop(comm_);
 }
 
-// What stages of a step find before others read it.
-void Simulation::prepare() {
-  runner_.run(parts_.plan.start, global_);
-  stale_ = may_drift(parts_.plan);
-}
-
-void Simulation::begin() {
+void Simulation::begin(bool again) {
   add_dawdling();
   for (ParticleSet& set : sets_) set.census = set.count(comm_);
   if (particle_count() == 0 && global_.step == 0)  // later all may have left
@@ -137,6 +122,16 @@ void Simulation::begin() {
   Findings outside;
   for (const ParticleSet& set : sets_) outside.add(distribution_.outside(set.particles));
   refuse_faults(comm_, scene_, outside);
+  // A state stays as it is: what has failed at the end of its step bears less now than its stress still says.
+  FieldSet changed;
+  for (const Entry& entry : parts_.plan.start)
+    for (const Stage& stage : entry.stages) changed |= stage.writes & state_fields();
+  std::vector<Kept> kept;
+  for (ParticleSet& set : sets_)
+    if (again) kept.emplace_back(set.particles, changed);
+  runner_.run(parts_.plan.start, global_);
+  for (Kept& of : kept) of.put_back();
+  stale_ = may_drift(parts_.plan);
 }
 
 // Every row, with what its pairs carry, to the rank that owns it.

@@ -39,8 +39,7 @@ class Simulation : public State {
   [[nodiscard]] const PlanRunner::Counters& counters() const { return runner_.counters(); }
 
  private:
-  void begin();  ///< common end of both constructors
-  void prepare();
+  void begin(bool again);  ///< common end of both constructors
   void add_dawdling();
   void scatter();
   void settle();
