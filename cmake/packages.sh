@@ -10,7 +10,7 @@ packages="g++ cmake ninja-build pkg-config git
   python3-dev python3-mpi4py pybind11-dev"
 documents="python3-sphinx python3-myst-parser furo doxygen"
 if [ "${1-}" = tests ]; then
-  packages="$packages $documents clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy chromium"
+  packages="$packages $documents clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy python3-vtk9 chromium"
 elif [ "${1-}" = docs ]; then
   packages="python3 python3-h5py python3-jinja2 python3-matplotlib $documents"
 fi

@@ -1,4 +1,4 @@
-// peperite: runs, checks, resumes, describes and compares; draws, reports and sweeps by the package of Python.
+// peperite: runs, checks, resumes, describes and compares; draws, reports, exports and sweeps by the package of Python.
 #include <unistd.h>
 
 #include <array>
@@ -54,7 +54,7 @@ int become(const char* module, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   constexpr std::array modules{std::pair{"plot", "peperite.drawing"}, std::pair{"report", "peperite.report"},
-                               std::pair{"sweep", "peperite.sweep"}};
+                               std::pair{"sweep", "peperite.sweep"}, std::pair{"export", "peperite.export"}};
   for (const auto& [name, module] : modules)
     if (argc > 1 && std::string_view(argv[1]) == name) return become(module, argc, argv);
   return sph::tool_main(argc, argv);

@@ -139,6 +139,10 @@ class Snapshot:
         """Which particles are neither walls nor fixed grains."""
         return np.array([g["kind"] != "wall" and not g.get("fixed", False) for g in self.scene["group"]])[self["group"]]
 
+    def has_contacts(self):
+        with h5py.File(self.path) as file:
+            return "contacts" in file
+
     def speed(self):
         return np.linalg.norm(self["velocity"], axis=1)
 

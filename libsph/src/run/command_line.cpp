@@ -207,7 +207,9 @@ int tool_main(int argc, char** argv) {
     CLI::App app("Particle simulations with the same bits on any number of ranks", "peperite");
     app.set_version_flag("--version", version_text());
     app.require_subcommand(1);
-    app.footer("By Python: plot DIR draws a run, report DIR makes a page of it, sweep varies keys (--help).");
+    app.footer(
+        "By Python: plot DIR draws a run, report DIR makes a page of it, export DIR writes it for ParaView "
+        "and OVITO, sweep varies keys (--help).");
     Arguments arguments;
     CLI::App& run = *app.add_subcommand("run", "run a scene");
     arguments.add_scene(run, true);
