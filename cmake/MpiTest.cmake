@@ -1,4 +1,4 @@
-# add_mpi_test(<name> <target> RANKS 1 2 4 [TIMEOUT s] [COST s] [ARGS ...]): one ctest per rank count, name.npN.
+# add_mpi_test(<name> <target> RANKS 1 2 4 [TIMEOUT s] [COST s] [LABELS ...] [ARGS ...]): one ctest per rank count, name.npN.
 # COST, in seconds, is given to those that take a minute or more: where no times are kept yet, they begin first.
 # The environment lets root run more ranks than cores without binding two jobs to the same core.
 set(PEPERITE_MPI_ENVIRONMENT
@@ -7,7 +7,7 @@ set(PEPERITE_MPI_ENVIRONMENT
   HWLOC_COMPONENTS=-opencl)
 
 function(add_mpi_test name target)
-  cmake_parse_arguments(arg "" "TIMEOUT;COST" "RANKS;ARGS" ${ARGN})
+  cmake_parse_arguments(arg "" "TIMEOUT;COST;LABELS" "RANKS;ARGS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
@@ -18,6 +18,7 @@ function(add_mpi_test name target)
     add_test(NAME ${name}.np${np}
       COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${np} $<TARGET_FILE:${target}> ${arg_ARGS})
     set_tests_properties(${name}.np${np} PROPERTIES
-      ENVIRONMENT "${PEPERITE_MPI_ENVIRONMENT}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST} PROCESSORS ${np})
+      ENVIRONMENT "${PEPERITE_MPI_ENVIRONMENT}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST} PROCESSORS ${np}
+      LABELS "${arg_LABELS}")
   endforeach()
 endfunction()

@@ -12,13 +12,13 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 
-# Beside the build at hand, g++ -O3 native: both compilers, -O0 and -O3, both -march. --all: clang++ with the others too.
+# Beside the build at hand, g++ -O3 native: the other compiler. --all: -O0 and -O2, both -march.
 # name: compiler, C compiler, optimisation, -march (empty: the compiler's baseline)
 BUILDS = {
-    "g++ -O0": ("g++", "gcc", "-O0", ""),
     "clang++ -O3 native": ("clang++", "clang", "-O3", "native"),
 }
 MORE = {
+    "g++ -O0": ("g++", "gcc", "-O0", ""),
     "clang++ -O2 native": ("clang++", "clang", "-O2", "native"),
     "clang++ -O3 baseline": ("clang++", "clang", "-O3", ""),
 }
