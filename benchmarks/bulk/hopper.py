@@ -1,5 +1,6 @@
 """Silo with a round hole, flat-bottomed, of triangles: rate of discharge against the hole's width (Beverloo et al. 1961)."""
 
+import csv
 from math import cos, pi, sin
 
 import numpy as np
@@ -40,14 +41,15 @@ def settings(work, hole):
 class Discharge:
     def __init__(self, folder, hole):
         self.hole = hole * DIAMETER
-        runs = [s for s in snapshots(folder) if s.time > OPENS + STEADY]
-        self.time = np.array([s.time for s in runs])
-        mass = 2500 * np.pi / 6 * (2 * runs[0].radius) ** 3
-        self.out = np.array([mass[s.position[:, 2] < 0].sum() for s in runs])
+        with open(folder / "series.csv") as file:
+            rows = [row for row in csv.DictReader(file) if float(row["t"]) > OPENS + STEADY]
+        self.time = np.array([float(row["t"]) for row in rows])
+        self.out = np.array([float(row["budget_mass_out"]) for row in rows])
         (self.rate, _), cov = np.polyfit(self.time, self.out, 1, cov=True)
         self.error = np.sqrt(cov[0, 0])
-        inside = (runs[0].position[:, 2] > 2 * DIAMETER) & (runs[0].position[:, 2] < 10 * DIAMETER)
-        self.bulk = mass[inside].sum() / (np.pi * (RADIUS * 1e-3) ** 2 * 8 * DIAMETER)
+        full = [s for s in snapshots(folder) if s.time < OPENS][-1]
+        inside = (full.position[:, 2] > 2 * DIAMETER) & (full.position[:, 2] < 10 * DIAMETER)
+        self.bulk = 2500 * full.volume[inside].sum() / (np.pi * (RADIUS * 1e-3) ** 2 * 8 * DIAMETER)
 
 
 def measure(runner):

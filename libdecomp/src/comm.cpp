@@ -139,4 +139,13 @@ std::vector<std::byte> Comm::gather(std::span<const std::byte> bytes, Rank root)
 
 void Comm::barrier() const { check_mpi(MPI_Barrier(comm_), "MPI_Barrier"); }
 
+std::vector<std::byte> gather_everywhere(const Comm& comm, std::span<const std::byte> bytes) {
+  const std::int64_t total = comm.sum(static_cast<std::int64_t>(bytes.size()));
+  if (total == 0) return {};
+  std::vector<std::byte> all = comm.gather(bytes, 0);
+  all.resize(static_cast<std::size_t>(total));
+  comm.broadcast(std::span<std::byte>(all), 0);
+  return all;
+}
+
 }  // namespace decomp

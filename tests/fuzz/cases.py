@@ -117,7 +117,7 @@ def add_output(d, case, kind):
             monitors[-1]["points"] = d.one("gauge points value", [2, 5])
         if any(scene["domain"].get("gravity", [0])):
             monitors.append({"kind": "level", "at": at})
-    scene["monitor"] = [m for k, m in enumerate(monitors) if d.chance(f"monitor/{k}", 0.3)]
+    scene["monitor"] = scene.get("monitor", []) + [m for k, m in enumerate(monitors) if d.chance(f"monitor/{k}", 0.3)]
 
 
 def toml(table, path=""):

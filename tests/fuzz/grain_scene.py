@@ -46,6 +46,7 @@ class Maker:
             scene["time"]["dt"] = dt * d.one("dt", [0.2, 1.0, 1.5])
         if stages := self.stages(scene["wall"], dt):
             scene["stage"] = stages
+        self.openings(scene, dt)
         case = {"scene": scene, "skin": self.skin}
         way = d.weighted("start", {"lattice": 5, "file": 4, "tile": 1})
         if way == "file":
@@ -149,6 +150,48 @@ class Maker:
                 pair["restitution"] = 0.7
             out["pair"] = [pair]
         return out
+
+    def openings(self, scene, dt):
+        """Faces that delete, drains, and boxes that grains come from, over periods, in walls and in what is there."""
+        d, domain = self.d.part("openings"), scene["domain"]
+        if not d.chance("any", 0.35):
+            return
+        faces = [f"{'xyz'[a]}{side}" for a in range(3) if not self.periodic[a] for side in (0, 1)]
+        leaves = d.one("leaves", ["none", "delete", "delete", "stop", "some"])
+        if leaves != "none":
+            domain["leaves"] = [f for f in faces if d.chance(f"leaves/{f}", 0.5)] if leaves == "some" else leaves
+        scene["outlet"] = [dict(zip(("lower", "upper"), self.box(d.part("drain", k), 0)))
+                           for k in range(d.weighted("drains", {0: 2, 1: 3, 2: 1}))]
+        scene["insertion"] = [i for k in range(d.weighted("insertions", {0: 1, 1: 3, 2: 2}))
+                              if (i := self.insertion(d.part("insertion", k), dt))]
+        for key in ("outlet", "insertion"):
+            if not scene[key]:
+                del scene[key]
+        if d.chance("budget", 0.5) and ("insertion" in scene or "outlet" in scene or domain.get("leaves", "stop") not in ("stop", [])):
+            scene["monitor"] = [{"kind": "budget"}]
+
+    def box(self, d, least):
+        """Somewhere in the domain, so wide at least, or nothing."""
+        lower, upper = [], []
+        for a, (low, high) in enumerate(zip(self.lower, self.upper)):
+            if high - low < 1.001 * least:
+                return None
+            width = d.real(f"width/{a}", 1.001 * least, high - low)
+            at = d.real(f"at/{a}", low, high - width)
+            lower.append(at), upper.append(at + width if width > 0 else at + 1e-3 * self.size)
+        return lower, upper
+
+    def insertion(self, d, dt):
+        name = d.one("group", [n for n in self.sizes if n != "glued"])
+        box = self.box(d, self.sizes[name][1])
+        if box is None:
+            return None
+        every = dt * d.log("every", 0.5, 60)
+        rate = self.mass / every * d.log("grains", 0.1, 40)
+        if d.chance("in time", 0.4):
+            rate = [[0, rate], [every * d.real("turn", 0.5, 3), rate * d.one("then", [0.0, 0.3, 2.0])]]
+        return {"lower": box[0], "upper": box[1], "group": name, "rate": rate, "every": every,
+                "velocity": d.vector("velocity", self.speed * d.one("speed", [0.0, 0.3, 0.7]), 3)}
 
     def walls(self):
         """A floor or a box close around the lattice, and planes of any direction that move or press."""

@@ -33,6 +33,8 @@ class TotalBodies:
         whole = [g["name"] for g in others if "part_of" not in g]
         if whole and d.chance("part", 0.4):
             return out | {"part_of": d.one("of", whole)}
+        if d.chance("told", 0.3):
+            return out | {"motion": self.motion(d.part("motion"))}
         if d.chance("velocity", 0.4):
             out["start_velocity"] = d.vector("its velocity", 0.1 * self.c, self.dim)
         if d.chance("spin", 0.5):
@@ -40,6 +42,34 @@ class TotalBodies:
             out["start_spin"] = spin if self.dim == 3 else spin[2]
         if d.chance("held", 0.3):
             out["held"] = [m for m in ["x", "y", "z"][: self.dim] + ["rotation"] if d.chance(f"held/{m}", 0.4)]
+        return out
+
+    def motion(self, d):
+        """As it is told: along, to and fro, and about a point in or beside it."""
+        out, time = {}, lambda p: self.dx / self.c * p.log("time", 0.3, 100)
+        speeds = lambda top: lambda p: top * p.real("v", -1, 1)
+        if d.chance("velocity", 0.6):
+            out["velocity"] = self.steps_in_time(d.part("along"), speeds(0.1 * self.c), time)
+            if d.chance("direction", 0.7):
+                out["direction"] = d.vector("direction", d.one("length", [1.0, 3.0]), self.dim)
+        if d.chance("swings", 0.5):
+            out["frequency"] = 1 / time(d.part("period")) / 6
+            out["amplitude"] = d.vector("amplitude", 0.05 * self.c / out["frequency"] / 6, self.dim)
+        if not out or d.chance("spin", 0.6):
+            out["spin"] = self.steps_in_time(d.part("about"), speeds(0.03 * self.c / self.dx), time)
+            if self.dim == 3 and d.chance("axis", 0.7):
+                out["axis"] = d.vector("axis", 1.0, 3)
+            if d.chance("centre", 0.7):
+                out["centre"] = [d.real(f"centre/{a}", -1, 5) * self.dx for a in range(self.dim)]
+        return out
+
+    def steps_in_time(self, d, values, time):
+        if d.chance("constant", 0.4):
+            return values(d)
+        t, out = 0.0, []
+        for k in range(d.whole("points", 1, 3)):
+            out.append([t, values(d.part("point", k))])
+            t += time(d.part("span", k))
         return out
 
     def failure(self, d, body, fluid):

@@ -37,11 +37,11 @@ const Table& factors(Family family) {
        "gas3d",      "blast2d", "blast2d_wide", "mixture",    "exchange2d", "exchange3d", "implicit2d",
        "implicit3d", "laws2d",  "laws3d",       "freezing2d", "through2d",  "wet2d",      "wet3d",
        "crack2d",    "crack3d", "water2d",      "water3d",    "slope2d",    "rock3d",     "rigid2d",
-       "rigid3d",    "open2d",  "open3d",       "open_wet2d"},
+       "rigid3d",    "led3d",   "open2d",       "open3d",     "open_wet2d"},
       {"double", "mixed"});
   // Contacts are always computed in double.
   static const Table grains = table_of({"linear", "hertz", "latched", "smooth", "sizes", "glued", "servo",
-                                        "meshes", "melts2d", "chamber", "chamber_open"},
+                                        "meshes", "silo", "melts2d", "chamber", "chamber_open"},
                                        {"double"});
   return family == Family::grains ? grains : sph;
 }

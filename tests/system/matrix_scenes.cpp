@@ -170,6 +170,12 @@ const std::vector<Source>& sources() {
       // rigid bodies in a fluid: sums of forces, parts of two materials, contacts, through periodic faces
       {"rigid2d", "tests/scenes/rigid2d.toml", {}},
       {"rigid3d", "tests/scenes/rigid3d.toml", {}},
+      // ... one of which moves as it is told
+      {"led3d",
+       "tests/scenes/rigid3d.toml",
+       {"group.gate.held=", "group.gate.start_velocity=", "group.gate.start_spin=",
+        "group.gate.motion={velocity=[[0, 2], [0.1, -3]], direction=[1, 0.2, 0], amplitude=[0, 0.2, 0.1], "
+        "frequency=4, spin=[[0, 0.5], [0.2, -1]], axis=[1, 1, 3], centre=[38, 7, 5]}"}},
       // updated-Lagrangian solids that yield, alone and in melt
       {"slope2d", "tests/scenes/slope2d.toml", {}},
       {"rock3d",
@@ -208,6 +214,8 @@ const std::vector<Source>& sources() {
       {"servo", "tests/scenes/grains_servo.toml", {}},
       // walls of triangles that turn, shake, come and go; contacts pass from facet to facet
       {"meshes", "tests/scenes/grains_mesh.toml", {}},
+      // grains come and go, and their contacts with them
+      {"silo", "tests/scenes/grains_silo.toml", {}},
       // cells that no cut moves
       {"melts2d", "tests/scenes/melts2d.toml", {"time.dt=0.2"}},
       // grains that the flow on them carries for some steps: what is between two flows is state
@@ -254,11 +262,15 @@ std::int64_t dragged_grains(const sph::Particles& particles) {
 
 Liveliness liveliness(const sph::Simulation& simulation) {
   const sph::Particles& particles = simulation.particles();
+  const sph::OpeningControl& openings = simulation.scene().domain.openings;
   const std::uint32_t* group = particles.data<sph::Field::group>();
   const double* psi = particles.data<sph::Field::void_fraction>();
   const double* strain = particles.data<sph::Field::strain_energy>();
   const double* plastic = particles.data<sph::Field::plastic_strain>();
   Liveliness out{simulation.rebuilds()};
+  const std::vector<sph::Passage>& passages = simulation.global().throughput.passages;
+  for (std::size_t k = 0; k < passages.size(); ++k)
+    (openings.comes_in(k) ? out.come : out.gone) += passages[k].count;
   if (const sph::Grains* grains = simulation.grains()) {
     out.contacts = grains->pairs().touching();
     out.contacts_begun = grains->pairs().counters().created;
@@ -268,9 +280,6 @@ Liveliness liveliness(const sph::Simulation& simulation) {
     if (simulation.scene().is_mixture()) out.dragged = dragged_grains(particles);
     return out;
   }
-  const std::vector<sph::Passage>& passages = simulation.global().throughput.passages;
-  for (std::size_t k = 0; k < passages.size(); ++k)
-    (k < simulation.scene().domain.openings.inlets.size() ? out.come : out.gone) += passages[k].count;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     for (const sph::Group& g : simulation.scene().groups)
       for (const sph::Transition& row : g.becomes)
@@ -301,6 +310,8 @@ void check_lively(const sph::Scene& scene, const Liveliness& start, const Liveli
     const bool servo = std::any_of(scene.grains.walls.begin(), scene.grains.walls.end(),
                                    [](const sph::Wall& wall) { return wall.force.has_value(); });
     if (servo && !end.walls_moved) quiet("no wall moved");
+    if (!scene.domain.openings.insertions.empty() && (end.come < some || end.gone < some))
+      quiet("few grains come and go");
     return;
   }
   constexpr std::int64_t few = 10;

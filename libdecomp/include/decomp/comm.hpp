@@ -50,6 +50,9 @@ class Comm {
   int size_ = 1;
 };
 
+/// Of all ranks, concatenated by rank, on each. For little: every rank holds all of it.
+[[nodiscard]] std::vector<std::byte> gather_everywhere(const Comm& comm, std::span<const std::byte> bytes);
+
 /// Throws std::runtime_error naming `call` and MPI's message unless `code` is MPI_SUCCESS.
 void check_mpi(int code, const char* call);
 

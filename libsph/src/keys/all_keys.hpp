@@ -35,8 +35,9 @@ inline constexpr auto top_keys = std::to_array<Key>({
     {"stage", Inner{&stage}, "Changes of the walls.", of_grains},
     {"mesh", Inner{&mesh}, "Walls of triangles; fluids would pass through them.", of_grains_alone},
     {"reset", Inner{&reset}, "Boxes where matter is renewed.", of_fluids},
-    {"inlet", Inner{&inlet}, "Where fluid comes in.", of_openings},
-    {"outlet", Inner{&outlet}, "Where it leaves.", of_openings},
+    {"inlet", Inner{&inlet}, "Where fluid comes in.", of_inlets},
+    {"insertion", Inner{&insertion}, "Where grains come in.", of_grains_alone},
+    {"outlet", Inner{&outlet}, "Where particles leave.", of_openings},
     {"start", Inner{&start}, "The first state.", Default{"required"}},
     {"terms", Inner{&terms}, "What acts between particles.",
      sph_only("they are of SPH; grains follow from [contact], melts from [melt]")},
@@ -47,11 +48,12 @@ inline constexpr auto top_keys = std::to_array<Key>({
 });
 inline constexpr Table<Scene> top{{"", false, "Above the first table.", top_keys}};
 
-inline constexpr std::array<const KeyTable*, 34> all{
-    &top,        &domain,       &kernel,        &reset,         &inlet,     &outlet,        &group,
-    &becomes,    &permeability, &viscosity_law, &strength,      &heat,      &heat_transfer, &radiation,
-    &start,      &region,       &layer,         &tile,          &fill,      &terms,         &surface_tension,
-    &contact,    &contact_pair, &drag,          &melt_table,    &melt_side, &wall,          &stage,
-    &stage_wall, &mesh,         &time,          &decomposition, &output,    &monitor};
+inline constexpr std::array<const KeyTable*, 36> all{
+    &top,           &domain,          &kernel,       &reset,         &inlet,    &insertion,     &outlet,
+    &group,         &becomes,         &permeability, &viscosity_law, &strength, &motion,        &heat,
+    &heat_transfer, &radiation,       &start,        &region,        &layer,    &tile,          &fill,
+    &terms,         &surface_tension, &contact,      &contact_pair,  &drag,     &melt_table,    &melt_side,
+    &wall,          &stage,           &stage_wall,   &mesh,          &time,     &decomposition, &output,
+    &monitor};
 
 }  // namespace sph::keys

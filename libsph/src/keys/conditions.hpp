@@ -41,8 +41,11 @@ inline constexpr Condition of_viscous_forms{
 inline constexpr Condition of_flows{
     [](const Scene& s) { return s.terms.formulation != Formulation::ida && !s.has_kind(GroupKind::solid); },
     "fluids, not \"ida\"", "it is for scenes without solids, and formulation = \"ida\" has none: remove it"};
-inline constexpr Condition of_openings{[](const Scene& s) { return s.has_matter() && !s.has_grains(); },
-                                       "fluids without grains", "it is of fluids, in scenes without grains"};
+inline constexpr Condition of_inlets{[](const Scene& s) { return s.has_matter() && !s.has_grains(); },
+                                     "fluids without grains", "it is of fluids, in scenes without grains"};
+inline constexpr Condition of_openings{
+    [](const Scene& s) { return of_inlets.holds(s) || s.of_grains(); }, "fluids or grains alone",
+    "it is of fluids in scenes without grains, or of grains in scenes without fluids"};
 inline constexpr Condition of_gases{[](const Scene& s) { return has_eos(s, EosKind::ideal_gas); },
                                     "ideal gases", "only scenes with eos = \"ideal_gas\" have it"};
 inline constexpr Condition of_added_terms{

@@ -44,7 +44,7 @@ inline constexpr auto domain_keys = std::to_array<Key>({
      "of the "
      "step, an array says through which faces it does, at the lower (0) or upper (1) end of an axis. Bodies "
      "with "
-     "lagrangian = \"total\" always end the run.",
+     "lagrangian = \"total\" and fixed grains always end the run.",
      of_openings, Default{"\"stop\""}},
     {"gravity", Vector{dimension::acceleration}, "Also serves as a body force along a period.",
      at<&Domain::gravity>},

@@ -3,6 +3,7 @@
 
 #include "keys/conditions.hpp"
 #include "keys/law_keys.hpp"
+#include "keys/motion_keys.hpp"
 
 namespace sph::keys {
 
@@ -301,6 +302,11 @@ inline constexpr auto group_keys = std::to_array<Key>({
          R"({"anyOf": [{"type": ["number", "string"]}, {"type": "array", "items": {"type": ["number", "string"]}}]})"},
      "Of a rigid solid: its angular velocity at the start [rad/s], in 2D about z.", of_sph, solid,
      Default{"that of start.velocity, or of the particles of a start.file"}},
+    {"motion", Inner{&motion},
+     "Of a rigid solid that moves as it is told: a piston, a stirrer, a plate that shakes. Its monitor "
+     "\"body\" says "
+     "what acts on it.",
+     of_sph, solid, Default{"as forces move it"}},
     {"strength", Inner{&strength}, "Of an updated-Lagrangian solid that yields.", of_sph, solid,
      Default{"none: it is elastic"}},
     {"gas_content",

@@ -1,4 +1,4 @@
-// Keys of [[inlet]] and [[outlet]].
+// Keys of [[inlet]], [[insertion]] and [[outlet]].
 #pragma once
 
 #include "keys/conditions.hpp"
@@ -49,15 +49,34 @@ inline constexpr auto outlet_keys = std::to_array<Key>({
      "At the middle of the box [Pa], above that of the surface: fluid in the box is led on to its end, and "
      "takes sound "
      "out.",
-     Default{"none: what is in the box after a step is deleted"}},
+     of_fluids, Default{"none: what is in the box after a step is deleted"}},
     {"direction", Words{direction_words}, "With a pressure: where it flows.", at<&Outlet::direction>,
-     Default{"required with a pressure"}},
+     of_fluids, Default{"required with a pressure"}},
     {"settle_time", Number{dimension::time, positive},
      "In so long the pressure comes back to what is given. Waves that are slow against it are thrown back.",
-     at<&Outlet::settle_time>, Default{"1000 h over the fastest sound of a fluid"}},
+     at<&Outlet::settle_time>, of_fluids, Default{"1000 h over the fastest sound of a fluid"}},
 });
 inline constexpr Table<Outlet> outlet{
-    {"outlet", true, "A box in which fluids and updated solids are deleted; budgets count them.",
+    {"outlet", true, "A box in which fluids, updated solids and grains are deleted; budgets count them.",
      outlet_keys}};
+
+inline constexpr auto insertion_keys = std::to_array<Key>({
+    {"lower", Vector{dimension::length}, "A corner of the box, in the domain.", at<&Insertion::lower>,
+     required},
+    {"upper", Vector{dimension::length}, "Its other corner. Grains are all in the box when they come.",
+     at<&Insertion::upper>, required},
+    {"group", NameOf{"group"}, "The grains that come in.", index_at<&Insertion::group>, required},
+    {"rate", curve_of_time,
+     "Mass per time [kg/s], 0 or more, straight between times. What finds no place in the box does not come.",
+     required},
+    {"velocity", Vector{dimension::speed}, "With which they come.", at<&Insertion::velocity>},
+    {"every", Number{dimension::time, positive},
+     "What comes in so long a time is put into the box at once, at its beginning.", at<&Insertion::every>,
+     Default{"in which grains of this velocity fall out of the box"}},
+});
+inline constexpr Table<Insertion> insertion{
+    {"insertion", true,
+     "A box in which grains appear: at random places where they touch neither each other nor what is there.",
+     insertion_keys}};
 
 }  // namespace sph::keys

@@ -1,9 +1,10 @@
-// [[inlet]], [[outlet]] and domain.leaves.
+// [[inlet]], [[insertion]], [[outlet]] and domain.leaves.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "keys/scene_resolve.hpp"
 #include "keys/scene_writer.hpp"
@@ -17,14 +18,13 @@ constexpr double settles_in = 1000;  // h / c: a pulse of 40 h leaves all but 4 
 
 std::string face_name(std::size_t face) { return fmt::format("{}{}", axis_names[face / 2], face % 2); }
 
-/// Of a box whose fluid is led along its direction.
 template <class Table, class Box>
-void check_box(const Table& table, const Box& box, const Scene& scene, bool led) {
+void check_box(const Table& table, const Box& box, const Scene& scene, bool all_inside) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     if (!(box.lower[a] < box.upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
     const double rounding = 1e-9 * (scene.domain.upper[a] - scene.domain.lower[a]);
-    if (led &&
+    if (all_inside &&
         (box.lower[a] < scene.domain.lower[a] - rounding || box.upper[a] > scene.domain.upper[a] + rounding))
       table.fail("lower", fmt::format("the box lies outside the domain in {}", axis_names[a]),
                  "enlarge domain.lower or domain.upper");
@@ -32,7 +32,11 @@ void check_box(const Table& table, const Box& box, const Scene& scene, bool led)
       table.fail("lower", fmt::format("all of the box lies outside the domain in {}", axis_names[a]),
                  "nothing comes into it: move it");
   }
-  if (!led) return;
+}
+
+/// Of a box whose fluid is led along it.
+template <class Table, class Box>
+void check_direction(const Table& table, const Box& box, const Scene& scene) {
   const std::size_t a = axis_of(box.direction);
   if (a >= static_cast<std::size_t>(scene.dim))
     table.fail("direction", "is along z in a scene of two dimensions", "give one along x or y");
@@ -49,6 +53,7 @@ Inlet read_inlet(const Reader<keys::inlet>& table, const Scene& scene) {
   Inlet inlet;
   table.read(inlet);
   check_box(table, inlet, scene, true);
+  check_direction(table, inlet, scene);
   const std::size_t a = axis_of(inlet.direction);
   const double layers = (inlet.upper[a] - inlet.lower[a]) / scene.start.spacing;
   if (std::fabs(layers - std::round(layers)) > 1e-6 * layers)
@@ -89,6 +94,46 @@ Inlet read_inlet(const Reader<keys::inlet>& table, const Scene& scene) {
   return inlet;
 }
 
+/// How long what comes with this velocity is in the box, at most [s]; infinite if nothing takes it out.
+double time_to_leave(const Insertion& in, const Double3& gravity) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < 3; ++a) {
+    // L = v t + g t^2 / 2, without a difference of what is nearly the same
+    const double length = in.upper[a] - in.lower[a], v = std::fabs(in.velocity[a]),
+                 g = in.velocity[a] == 0  ? std::fabs(gravity[a])
+                     : in.velocity[a] > 0 ? std::fmax(gravity[a], 0.0)
+                                          : std::fmax(-gravity[a], 0.0);
+    if (v > 0 || g > 0) least = std::fmin(least, 2 * length / (v + std::sqrt(v * v + 2 * g * length)));
+  }
+  return least;
+}
+
+Insertion read_insertion(const Reader<keys::insertion>& table, const Scene& scene) {
+  Insertion in;
+  table.read(in);
+  check_box(table, in, scene, true);
+  const Group& g = scene.groups[static_cast<std::size_t>(in.group)];
+  if (!(g.grain.largest_radius > 0) || g.grain.fixed)
+    table.fail("group", fmt::format("\"{}\" {}", g.name, g.grain.fixed ? "is fixed" : "has no diameter"),
+               "name a group of grains that move");
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!(in.upper[a] - in.lower[a] >= 2 * g.grain.largest_radius))
+      table.fail("upper",
+                 fmt::format("makes the box {:.6g} m long in {}", in.upper[a] - in.lower[a], axis_names[a]),
+                 fmt::format("a grain of {:.6g} m must fit in", 2 * g.grain.largest_radius));
+  in.rate = read_curve(table.value("rate"), dimension::mass_rate);
+  for (const auto& [t, rate] : in.rate)
+    if (!(rate >= 0)) table.fail("rate", fmt::format("is {} kg/s", rate), "it must be 0 or more");
+  if (!table.has("every")) {
+    in.every = time_to_leave(in, scene.domain.gravity);
+    if (!std::isfinite(in.every))
+      table.fail_missing(
+          "every", "neither velocity nor gravity takes the grains out of the box: say how often they come");
+  }
+  table.finish();
+  return in;
+}
+
 Outlet read_outlet(const Reader<keys::outlet>& table, const Scene& scene) {
   Outlet outlet;
   for (const Group& g : scene.groups)
@@ -104,6 +149,7 @@ Outlet read_outlet(const Reader<keys::outlet>& table, const Scene& scene) {
   table.only_if(led || outlet.direction == Outlet{}.direction, "direction", deletes);
   table.only_if(led || outlet.settle_time == usual, "settle_time", deletes);
   check_box(table, outlet, scene, led);
+  if (led) check_direction(table, outlet, scene);
   table.finish();
   return outlet;
 }
@@ -136,11 +182,13 @@ void read_leaves(const DomainReader& table, Scene& scene) {
 }
 
 void read_openings(const TopReader& top, const DomainReader& domain, Scene& scene) {
+  for (const auto& table : top.tables<keys::insertion>())
+    scene.domain.openings.insertions.push_back(read_insertion(table, scene));
   for (const auto& table : top.tables<keys::inlet>())
     scene.domain.openings.inlets.push_back(read_inlet(table, scene));
   for (const auto& table : top.tables<keys::outlet>())
     scene.domain.openings.outlets.push_back(read_outlet(table, scene));
-  if (!scene.domain.openings.any()) return;
+  if (!scene.domain.openings.any() || scene.of_grains()) return;
   const auto refuse = [&](bool where, std::string_view what) {
     if (!where) return;
     const std::string why = fmt::format("is of liquids and bubbly fluids that move, {}", what);
@@ -166,6 +214,10 @@ void write_openings(SceneWriter& out, const Domain& domain) {
     out.table(keys::inlet, inlet);
     write_curve(out, "velocity", inlet.velocity);
     write_curve(out, "pressure", inlet.pressure);
+  }
+  for (const Insertion& insertion : domain.openings.insertions) {
+    out.table(keys::insertion, insertion);
+    write_curve(out, "rate", insertion.rate);
   }
   for (const Outlet& outlet : domain.openings.outlets) {
     out.table(keys::outlet, outlet);

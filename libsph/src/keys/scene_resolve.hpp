@@ -96,7 +96,7 @@ void read_domain(const DomainReader& table, Scene& scene);
 void read_resets(const TopReader& top, Scene& scene);
 /// domain.leaves
 void read_leaves(const DomainReader& table, Scene& scene);
-/// [[inlet]] and [[outlet]], once all else is read.
+/// [[inlet]], [[insertion]] and [[outlet]], once all else is read.
 void read_openings(const TopReader& top, const DomainReader& domain, Scene& scene);
 /// Refuses what a background cannot bear, once all is read.
 void check_background(const DomainReader& domain, const Scene& scene);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "keys/prescribed_motion.hpp"
 #include "keys/scene_resolve.hpp"
 #include "sph/laws/eos/law.hpp"
 
@@ -33,6 +34,17 @@ std::optional<Double3> read_spin(const GroupReader& table, int dim) {
   return Double3{0, 0, value->number_in(value->node(), dimension::rate)};
 }
 
+void read_prescribed(const GroupReader& table, RigidMaterial& body) {
+  using Name = GroupReader::Name<>;
+  for (const Name key : {Name("held"), Name("start_velocity"), Name("start_spin")})
+    table.only_if(false, key, "motion says how the body moves");
+  const auto inner = table.table<keys::motion>();
+  PrescribedMotion& motion = body.motion.emplace();
+  inner.read(motion);
+  read_motion(inner, motion);
+  inner.finish();
+}
+
 }  // namespace
 
 double stiffness_of_rigid(const GroupReader& table, const Group& group, const std::vector<Group>& groups) {
@@ -49,7 +61,7 @@ void read_rigid(const GroupReader& table, Group& group, int dim) {
   RigidMaterial& body = group.solid.body;
   using Name = GroupReader::Name<>;
   if (!body.rigid) {
-    for (const Name key : {Name("held"), Name("start_velocity"), Name("start_spin")})
+    for (const Name key : {Name("held"), Name("start_velocity"), Name("start_spin"), Name("motion")})
       table.only_if(false, key, "only groups with rigid = true have it");
     table.only_if(is_bonded(group), "part_of", "only solids with lagrangian = \"total\" have it");
     return;
@@ -66,7 +78,9 @@ void read_rigid(const GroupReader& table, Group& group, int dim) {
                "a rigid body does not deform, and drags fluids by their own viscosity: remove it");
   body.held = read_held(table, dim);
   body.spin = read_spin(table, dim);
+  if (table.has("motion")) read_prescribed(table, body);
   if (body.part_of < 0) return;
+  table.only_if(false, "motion", "the group that it is part of says so");
   table.only_if(false, "held", "the group that it is part of says so");
   table.only_if(false, "start_velocity", "the group that it is part of says so");
   table.only_if(false, "start_spin", "the group that it is part of says so");

@@ -85,10 +85,10 @@ void check_kind(const MonitorReader& table, MonitorKind kind, const Scene& scene
     table.fail("kind", "is not of melts", "give \"melt\", or \"particle\" for a cell");
   if (kind == MonitorKind::budget && !scene.has_exchange() && scene.domain.resets.empty() &&
       !has_failure(scene) && !scene.domain.openings.any())
-    table.fail(
-        "kind",
-        "is of what particles exchange, and the scene has no heat, gas flow, diffusion, inlet or outlet",
-        "give another, group.heat, group.permeability or group.water_diffusivity");
+    table.fail("kind",
+               "is of what particles exchange, and the scene has no heat, gas flow, diffusion, inlet, "
+               "insertion or outlet",
+               "give another, group.heat, group.permeability or group.water_diffusivity");
   if ((kind == MonitorKind::gauge || kind == MonitorKind::level) && !scene.has_kind(GroupKind::fluid))
     table.fail("kind", "is of fluids, and the scene has none", "give another");
   if (kind == MonitorKind::level && scene.domain.gravity == Double3{})

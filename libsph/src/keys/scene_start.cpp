@@ -126,7 +126,7 @@ void read_lattice(const StartReader& table, Scene& scene) {
   if (!scene.has_melt()) check_seam(table, scene);  // cells fit, however wide
   const std::vector<Reader<keys::region>> regions = table.tables<keys::region>();
   if (regions.empty()) table.fail_missing("region", "paint groups with [[start.region]], or give start.file");
-  bool matter = false;
+  bool matter = !scene.domain.openings.insertions.empty();  // of grains, that may come later
   for (const auto& r : regions) {
     start.lattice.regions.push_back(read_region(r, scene));
     const int group = start.lattice.regions.back().group;
@@ -134,7 +134,7 @@ void read_lattice(const StartReader& table, Scene& scene) {
   }
   if (!matter)
     table.fail("region",
-               scene.of_grains()  ? "no region paints grains that can move"
+               scene.of_grains()  ? "no region paints grains that can move, and no [[insertion]] brings any"
                : scene.has_melt() ? "no region paints a melt"
                                   : "no region paints a fluid or a solid",
                "paint at least one");

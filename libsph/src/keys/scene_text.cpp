@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "keys/prescribed_motion.hpp"
 #include "keys/scene_writer.hpp"
 #include "keys/time_curve.hpp"
 #include "sph/laws/eos/law.hpp"
@@ -11,7 +12,7 @@
 namespace sph {
 namespace {
 
-void write_motion(SceneWriter& out, const RigidMaterial& body, int dim) {
+void write_start_motion(SceneWriter& out, const RigidMaterial& body, int dim) {
   std::vector<std::string> held;
   for (std::size_t k = 0; k < body.held.size(); ++k)
     if (body.held[k]) held.push_back(SceneWriter::quoted(keys::motion_names[k]));
@@ -24,7 +25,7 @@ void write_motion(SceneWriter& out, const RigidMaterial& body, int dim) {
 
 void write_group(SceneWriter& out, const Group& g, int dim) {
   out.table(keys::group, g);
-  write_motion(out, g.solid.body, dim);
+  write_start_motion(out, g.solid.body, dim);
   for (std::size_t k = 0; k < g.eos.law->keys.size(); ++k)
     out.number(g.eos.law->keys[k].name, g.eos.constants[k]);
   if (g.kind == GroupKind::wall && g.wall.slip)
@@ -34,6 +35,10 @@ void write_group(SceneWriter& out, const Group& g, int dim) {
   if (g.bubbly.permeability.coefficient > 0) out.table(keys::permeability, g.bubbly.permeability);
   if (g.viscosity_law.varies()) out.table(keys::viscosity_law, g.viscosity_law);
   if (g.solid.strength) out.table(keys::strength, *g.solid.strength);
+  if (const auto& motion = g.solid.body.motion) {
+    out.table(keys::motion, *motion);
+    write_motion(out, *motion);
+  }
   if (g.heat.material.specific_heat > 0) out.table(keys::heat, g.heat.material);
   if (g.heat.transfer.coefficient > 0) out.table(keys::heat_transfer, g.heat.transfer);
   if (g.heat.radiation.emissivity > 0) out.table(keys::radiation, g.heat.radiation);

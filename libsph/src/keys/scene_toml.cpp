@@ -156,6 +156,7 @@ void read_grains(const Tables& tables, Scene& scene) {
   scene.grains.walls = read_walls(tables.top, scene);
   scene.grains.meshes = read_meshes(tables.top, scene);
   scene.grains.stages = read_stages(tables.top, scene);
+  if (scene.of_grains()) read_openings(tables.top, tables.domain, scene);
 }
 
 /// Bodies start free of stress, but for the pressure of a fluid that they are in.

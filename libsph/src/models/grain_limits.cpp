@@ -13,6 +13,7 @@
 
 #include "sph/core/error.hpp"
 #include "sph/core/findings.hpp"
+#include "sph/models/insertions.hpp"
 #include "start/start_sounds.hpp"
 
 namespace sph {
@@ -76,6 +77,12 @@ void check_wall_speeds(const Scene& scene) {
     if (most * dt > limit)
       throw InputError(fmt::format("{}: mesh.velocity: mesh \"{}\" at {:.6g} m/s: {}, or this speed",
                                    scene.file, mesh.name, most, grain_move_text(scene, most * dt)));
+  }
+  for (const Insertion& in : scene.domain.openings.insertions) {
+    const double speed = speed_of(in);
+    if (speed * dt > limit)
+      throw InputError(fmt::format("{}: insertion.velocity: is {:.6g} m/s: {}, or this speed", scene.file,
+                                   speed, grain_move_text(scene, speed * dt)));
   }
   for (const WallStage& stage : scene.grains.stages)
     for (const WallChange& change : stage.walls) {

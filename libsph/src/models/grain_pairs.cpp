@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "models/grain_texts.hpp"
 #include "sph/laws/contact/law.hpp"
@@ -25,9 +26,21 @@ GrainPairs::GrainPairs(std::size_t set, const Scene& scene, const PositionScale&
 
 decomp::Payload GrainPairs::send(const Particles& particles, decomp::Payload arrived) {
   sums_ = {};  // while contacts travel, memory is at its peak
-  if (arrived.rows() == 0) arrived = lists_.pack(particles);
+  if (held_)
+    arrived = *std::exchange(held_, std::nullopt);
+  else if (arrived.rows() == 0)
+    arrived = lists_.pack(particles);
   sent_ = ContactLists::census(particles, arrived, lists_.history());
   return arrived;
+}
+
+void GrainPairs::turn_over(const Particles& particles, std::span<const std::uint64_t> gone,
+                           std::span<const std::uint32_t> order, std::size_t come) {
+  decomp::Payload contacts = lists_.pack(particles);
+  counters_.ended += forget_contacts(contacts, particles.data<Field::id>(), gone, lists_.history());
+  contacts.reorder(order);
+  contacts.offset.insert(contacts.offset.end(), come, contacts.offset.back());
+  held_ = std::move(contacts);
 }
 
 // Count and keys of the entries found are those that set out.

@@ -227,9 +227,10 @@ bool Openings::report(const StepState&, Reduction& r) {
 
 void Openings::act(const Reduction& r, GlobalState& global) { boxes_.remember(r[in_.flows], global); }
 
-std::optional<double> Openings::turn_over(const decomp::Comm& comm, const Reduction& reduction,
+std::optional<double> Openings::turn_over(const Distribution& distribution, const Reduction& reduction,
                                           ParticleSet& set, GlobalState& global) {
   if (reduction[in_.events][0] == 0) return std::nullopt;
+  const decomp::Comm& comm = distribution.comm();
   std::vector<Passage>& passages = global.throughput.passages;
   Particles& p = set.particles;
   const std::uint64_t* id = p.data<Field::id>();

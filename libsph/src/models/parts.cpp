@@ -26,6 +26,9 @@ Parts::Parts(const decomp::Comm& comm, const Scene& scene, const PositionScale& 
     sets.push_back({grain_fields(scene), stays});
     models.push_back(&*grains);
     pairs.push_back(&grains->pairs());
+    if (scene.of_grains() && scene.domain.openings.any())
+      models.push_back(
+          &grain_openings.emplace(grains->set(), scene, scale, grains->walls(), grains->pairs()));
   }
   if (has_drag(scene)) {
     drag.emplace(physics->set(), grains->set(), scene, scale, physics->constants());

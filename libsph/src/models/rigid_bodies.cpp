@@ -7,6 +7,7 @@
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/error.hpp"
+#include "sph/core/kernels.hpp"
 #include "sph/models/faults.hpp"
 #include "sph/models/models.hpp"
 #include "sph/models/rigid_motion.hpp"
@@ -15,8 +16,7 @@ namespace sph {
 namespace {
 
 constexpr double largest_turn =
-    0.5;                             ///< of a body in a step: the midpoint rule converges well below it [rad]
-constexpr std::size_t rotation = 3;  ///< in RigidMaterial::held
+    0.5;  ///< of a body in a step: the midpoint rule converges well below it [rad]
 
 /// Components 0 of a vector that has but two.
 Vector3 vector_at(const double* x, std::size_t row, std::size_t d) {
@@ -30,6 +30,37 @@ double force_unit(const Scene& scene) {
   double face = 1;
   for (int a = 1; a < scene.dim; ++a) face *= scene.start.spacing;
   return std::ldexp(1.0, std::ilogb(modulus * face));
+}
+
+/// Mean square of a coordinate under the quintic kernel, in h^2.
+template <int D>
+double spread_of_kernel() {
+  constexpr double step = 1.0 / 256;
+  double sum = 0, whole = 0;
+  for (double q = 0.5 * step; q < Quintic::radius; q += step) {
+    double shell = Quintic::value<D>(q);
+    for (int a = 1; a < D; ++a) shell *= q;
+    whole += shell;
+    sum += shell * (q * q);
+  }
+  return sum / whole / D;
+}
+
+// The Laplacian of the velocity, as viscous forces are summed by default, is the divergence of mu grad v. What acts on the
+// face of a body is mu (grad v + grad v^T) n, and of the velocities of a body that spins the second part is not 0 there:
+// -mu omega x n. Over a closed face its force is 0 and its torque -2 mu volume omega. With n dS of a particle
+//   V_b V_f sum_f W (x_f - x_b) 2 / m2,   m2 the mean square of a coordinate under W:
+// integrated over the depth behind a flat face it is the face.
+double twist_of(const Scene& scene) {
+  if (!has_wet_bodies(scene) || scene.terms.viscous.form != ViscosityForm::laplacian) return 0;
+  double viscosity = 0;
+  for (const Group& g : scene.groups)
+    if (g.kind == GroupKind::fluid) viscosity = std::fmax(viscosity, g.viscosity);
+  const double h = scene.kernel.smoothing_length, volume = particle_volume(scene);
+  const double normalisation =
+      scene.dim == 2 ? Quintic::normalisation<2> / (h * h) : Quintic::normalisation<3> / (h * h * h);
+  const double m2 = scene.dim == 2 ? spread_of_kernel<2>() : spread_of_kernel<3>();
+  return viscosity * (volume * volume) * normalisation * 2 / (m2 * h);
 }
 
 /// Bodies move on, and all that belongs to their particles follows.
@@ -49,7 +80,7 @@ struct Placement {
   void operator()(const View<reads, writes>& p, const Step& step) const {
     std::vector<Now> now;
     for (std::size_t b = 0; b < step.global.bodies.size(); ++b)
-      now.push_back(move(step.global.bodies[b], kind[b]->held[rotation], step.global.dt));
+      now.push_back(move(step.global.bodies[b], *kind[b], step.global.time, step.global.dt));
     const auto* group = p.get<Field::group>();
     for_movers(step.ranges, [&](std::size_t i) {
       if (const int b = body_of[group[i]]; b >= 0)
@@ -57,8 +88,11 @@ struct Placement {
     });
   }
 
-  Now move(BodyState& body, bool held, double dt) const {
-    const Turning t = turning(body, constants->scene->dim, held, dt);
+  Now move(BodyState& body, const RigidMaterial& of, double time, double dt) const {
+    const int dim = constants->scene->dim;
+    const bool held = of.holds(RigidMaterial::rotation);
+    const Turning t =
+        of.motion ? lead(body, *of.motion, constants->scale, dim, time, dt) : turning(body, dim, held, dt);
     for (std::size_t a = 0; a < 3; ++a)
       body.motion.centre[a] += constants->scale.quanta(body.motion.velocity[a] * dt);
     body.motion.turn = t.whole;
@@ -102,7 +136,8 @@ RigidBodies::RigidBodies(std::size_t set, const SphConstants& constants, const B
       steps_(constants),
       body_of_(rigid_bodies_of(*constants.scene)),
       forces_(force_unit(*constants.scene)),
-      torques_(force_unit(*constants.scene) * std::ldexp(1.0, std::ilogb(constants.scene->start.spacing))) {
+      torques_(force_unit(*constants.scene) * std::ldexp(1.0, std::ilogb(constants.scene->start.spacing))),
+      twist_(twist_of(*constants.scene)) {
   for (const Group& g : constants.scene->groups)
     if (is_rigid(g) && g.solid.body.part_of < 0) kind_.push_back(&g.solid.body);
 }
@@ -123,7 +158,7 @@ bool RigidBodies::report(const StepState& s, Reduction& r) {
   const BodyForces::Particles of_forces(s.particles);
   const auto d = static_cast<std::size_t>(s.particles.dim());
   const double *force = s.particles.data<Field::force>(), *mass = s.particles.data<Field::mass>(),
-               *arm = s.particles.data<Field::arm>();
+               *arm = s.particles.data<Field::arm>(), *beside = s.particles.data<Field::wall_sums>();
   const auto* group = s.particles.data<Field::group>();
   std::vector<Matrix3> turns;
   for (const BodyState& body : s.global.bodies) turns.push_back(rotation_of(body.motion.turn));
@@ -135,7 +170,11 @@ bool RigidBodies::report(const StepState& s, Reduction& r) {
     const auto b = static_cast<std::size_t>(body_of_[group[i]]);
     const Double3 pull = (*body_forces_)(of_forces, i);
     const Vector3 f = vector_at(force, i, d) + mass[i] * Vector3(pull[0], pull[1], d == 3 ? pull[2] : 0.0);
-    const Vector3 torque = (turns[b] * vector_at(arm, i, d)).cross(f);
+    const Vector3 way = turns[b] * vector_at(arm, i, d);
+    Vector3 torque = way.cross(f);
+    if (twist_ > 0)
+      torque -= way.cross(vector_of(s.global.bodies[b].motion.spin)
+                              .cross(twist_ * vector_at(beside + i * (2 + 2 * d) + 2 + d, 0, d)));
     bool held = true;
     for (std::size_t k = 0; k < n; ++k) {
       const bool of_force = k < d;
@@ -170,27 +209,32 @@ void RigidBodies::act(const Reduction& r, GlobalState& global) {
       else
         load.torque[d == 2 ? 2 : k - d] = torques_.value(sum);
     }
-    kick(b, global.bodies[b], global.dt);
+    kick(b, global.bodies[b], global.time, global.dt);
   }
   note_maxima(global);
 }
 
 // The frame in which a fluid's pressure goes on into the body is that of means, as that of bodies that deform is
 // (models/wetted.cpp).
-void RigidBodies::kick(std::size_t body, BodyState& state, double dt) const {
+void RigidBodies::kick(std::size_t body, BodyState& state, double time, double dt) const {
   const Scene& scene = *constants_->scene;
-  const std::array<bool, 4>& held = kind_[body]->held;
+  const RigidMaterial& of = *kind_[body];
+  const bool turns = !of.holds(RigidMaterial::rotation);
   BodyMotion& now = state.motion;
-  const std::array<double, 3> spin = now.spin;
+  const std::array<double, 3> spin = now.spin, velocity = now.velocity;
   std::array<double, 3> acceleration{}, turning{};
   for (std::size_t a = 0; a < 3; ++a) {
-    if (!held[a]) acceleration[a] = state.load.force[a] / state.shape.mass;
+    if (!of.holds(a)) acceleration[a] = state.load.force[a] / state.shape.mass;
     now.velocity[a] += acceleration[a] * dt;
-    if (!held[rotation]) now.angular_momentum[a] += state.load.torque[a] * dt;
+    if (turns) now.angular_momentum[a] += state.load.torque[a] * dt;
   }
-  settle_spin(state, held[rotation]);
+  if (of.motion) take_speed(state, *of.motion, constants_->scale, time + 1.5 * dt);
+  settle_spin(state, !turns);
   if (!scene.has_kind(GroupKind::fluid) || dt == 0) return;
-  for (std::size_t a = 0; a < 3; ++a) turning[a] = held[rotation] ? 0.0 : (now.spin[a] - spin[a]) / dt;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (of.motion) acceleration[a] = (now.velocity[a] - velocity[a]) / dt;
+    if (of.motion || turns) turning[a] = (now.spin[a] - spin[a]) / dt;
+  }
   double sound = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g)
     if (scene.groups[g].kind == GroupKind::fluid) sound = std::fmax(sound, constants_->groups.sound_speed[g]);
@@ -208,9 +252,10 @@ void RigidBodies::note_maxima(const GlobalState& global) {
     const double spin = vector_of(b.motion.spin).norm(), r = b.shape.radius;
     Vector3 force = vector_of(b.load.force);
     for (std::size_t a = 0; a < 3; ++a)
-      if (kind_[k]->held[a]) force[static_cast<Eigen::Index>(a)] = 0;
+      if (kind_[k]->holds(a)) force[static_cast<Eigen::Index>(a)] = 0;
     fastest_ = std::fmax(fastest_, vector_of(b.motion.velocity).norm() + spin * r);
-    hardest_ = std::fmax(hardest_, force.norm() / b.shape.mass + spin * spin * r);
+    const double led = kind_[k]->motion ? vector_of(b.load.acceleration).norm() : 0.0;
+    hardest_ = std::fmax(hardest_, force.norm() / b.shape.mass + led + spin * spin * r);
   }
 }
 
@@ -258,9 +303,13 @@ double RigidBodies::longest_look_back(const GlobalState& global) const { return 
 // What a place is rounded by comes on top.
 double RigidBodies::farthest_move(const GlobalState& global) const {
   double way = 0;
-  for (std::size_t k = 0; k < global.bodies.size(); ++k)
-    way = std::fmax(
-        way, longest_path(global.bodies[k], constants_->scene->dim, kind_[k]->held[rotation], global.dt));
+  for (std::size_t k = 0; k < global.bodies.size(); ++k) {
+    const RigidMaterial& of = *kind_[k];
+    const BodyState& body = global.bodies[k];
+    way = std::fmax(way, of.motion ? longest_path(body, *of.motion, constants_->scale, global.time, global.dt)
+                                   : longest_path(body, constants_->scene->dim,
+                                                  of.holds(RigidMaterial::rotation), global.dt));
+  }
   return way + constants_->scale.metres(2);
 }
 

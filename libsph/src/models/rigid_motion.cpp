@@ -78,6 +78,47 @@ Turning turning(const BodyState& body, int dim, bool held, double dt) {
   return out;
 }
 
+namespace {
+
+/// Of the centre of mass from the axis.
+Vector3 from_axis(const BodyState& body, const PrescribedMotion& motion, const PositionScale& scale,
+                  const MotionNow& now) {
+  Vector3 r;
+  for (std::size_t a = 0; a < 3; ++a)
+    r[static_cast<Eigen::Index>(a)] = scale.metres(body.motion.centre[a]) - (motion.centre[a] + now.way[a]);
+  return r;
+}
+
+/// About a unit vector.
+Turn turn_about(const std::array<double, 3>& axis, double angle) {
+  const double s = exact_sin(0.5 * angle);
+  return {exact_cos(0.5 * angle), s * axis[0], s * axis[1], s * axis[2]};
+}
+
+}  // namespace
+
+Turning lead(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale, int dim,
+             double time, double dt) {
+  const MotionNow from = motion_at(motion, time), to = motion_at(motion, time + dt);
+  const double angle = to.angle - from.angle;
+  const Vector3 r = from_axis(body, motion, scale, from),
+                way = vector_of(to.way) - vector_of(from.way) +
+                      (rotation_of(turn_about(motion.axis, angle)) * r - r);
+  body.motion.velocity = array_of(way / dt);
+  body.motion.spin = array_of((angle / dt) * vector_of(motion.axis));
+  if (dim == 2) return turning(body, dim, true, dt);
+  const Turn& now = body.motion.turn;
+  return {vector_of(body.motion.spin), unit(product(turn_about(motion.axis, 0.5 * angle), now)),
+          unit(product(turn_about(motion.axis, angle), now)), 0};
+}
+
+void take_speed(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale, double time) {
+  const MotionNow now = motion_at(motion, time);
+  const Vector3 spin = now.spin * vector_of(motion.axis);
+  body.motion.spin = array_of(spin);
+  body.motion.velocity = array_of(vector_of(now.velocity) + spin.cross(from_axis(body, motion, scale, now)));
+}
+
 void settle_spin(BodyState& body, bool held) {
   BodyMotion& now = body.motion;
   const Matrix3 r = rotation_of(now.turn), inertia = inertia_of(body.shape);
@@ -92,6 +133,14 @@ double longest_path(const BodyState& body, int dim, bool held, double dt) {
   return 1.0001 * dt *
          (vector_of(body.motion.velocity).norm() +
           turning(body, dim, held, dt).spin.norm() * body.shape.radius);
+}
+
+double longest_path(const BodyState& body, const PrescribedMotion& motion, const PositionScale& scale,
+                    double time, double dt) {
+  // From the axis it is as far at all times; where there is none the distance does not count.
+  const double away =
+      motion.spin.empty() ? 0 : from_axis(body, motion, scale, motion_at(motion, time)).norm();
+  return 1.0001 * longest_path(motion, time, time + dt, away + body.shape.radius);
 }
 
 }  // namespace sph

@@ -15,8 +15,6 @@
 namespace sph {
 namespace {
 
-constexpr std::size_t rotation = 3;  ///< in RigidMaterial::held
-
 /// Of one body: sums over its particles, arms about one of them, then about the centre of mass.
 struct Sums {
   static constexpr std::size_t mass = 0, moment = 1, momentum = 4, heaviness = 7, count = 8;  ///< first round
@@ -188,11 +186,15 @@ class RigidStart {
     const Matrix3 inertia = inertia_of(body.shape);
     const double trace = inertia.trace();
     const bool thin = !(inertia.determinant() > 1e-12 * trace * trace * trace);
-    if (thin && !kind.held[rotation])
+    if (thin && !kind.holds(RigidMaterial::rotation))
       refuse(
           *constants_.scene, name_[b],
           "the particles of the body lie in one line: it must be two across at least, or hold \"rotation\"");
     if (!thin) settle_spin(body, false);
+    if (kind.motion) {
+      take_speed(body, *kind.motion, constants_.scale, 0);
+      return settle_spin(body, true);
+    }
     if (kind.velocity) body.motion.velocity = *kind.velocity;
     if (kind.spin) body.motion.spin = *kind.spin;
     // Twice: the first may take the speed over a power of two, and its unit with it.

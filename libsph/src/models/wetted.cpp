@@ -4,6 +4,7 @@
 // in a kernel's reach would answer to its own answer.
 #include "sph/terms/wetted.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -21,6 +22,7 @@ struct WetSides {
       WallPressures::writes | FieldSet{Field::wet_pressure, Field::wet_velocity};
   const Scene* scene;
   WallPressures walls;
+  std::vector<int> rigid_body_of;
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     walls(p, step);
@@ -35,9 +37,21 @@ struct WetSides {
       const bool wet = s[0] > 0 && is_body(scene->groups[group[i]]);
       pressure[i] = wet ? s[1] / s[0] : 0.0;
       if (is_rigid(scene->groups[group[i]])) own[i] = pressure[i];
-      for (std::size_t a = 0; a < d; ++a)
-        velocity[i * d + a] = wet ? 2 * v[i * d + a] - s[2 + a] / s[0] : v[i * d + a];
+      if (!wet) return void(std::copy_n(v + i * d, d, velocity + i * d));
+      const Double3 there = velocity_beside(s, d, rigid_body_of[group[i]], step.global);
+      for (std::size_t a = 0; a < d; ++a) velocity[i * d + a] = 2 * v[i * d + a] + there[a] - s[2 + a] / s[0];
     });
+  }
+
+  // What the fluid has in the frame of the body is mirrored. Beside one that spins the body's own velocity is another
+  // where the fluid is: omega x <x_f - x_b> of it.
+  [[nodiscard]] Double3 velocity_beside(const double* s, std::size_t d, int body,
+                                        const GlobalState& global) const {
+    if (body < 0) return {};
+    const std::array<double, 3>& w = global.bodies[static_cast<std::size_t>(body)].motion.spin;
+    Double3 way{};
+    for (std::size_t a = 0; a < d; ++a) way[a] = scene->kernel.smoothing_length * s[2 + d + a] / s[0];
+    return {w[1] * way[2] - w[2] * way[1], w[2] * way[0] - w[0] * way[2], w[0] * way[1] - w[1] * way[0]};
   }
 };
 
@@ -103,7 +117,7 @@ void add_flow_onto_solids(Builder& b) {
 void add_wet_sides(Builder& b) {
   b.add_fields({Field::wet_pressure, Field::wet_velocity});
   b.add_sums("sides", {term<WettedExtrapolation>}, Builder::Rows::all);
-  b.add_update("pressures of sides", WetSides{&b.scene(), wall_pressures(b)});
+  b.add_update("pressures of sides", WetSides{&b.scene(), wall_pressures(b), rigid_bodies_of(b.scene())});
   b.derive_last_two_for_output();
 }
 

@@ -45,12 +45,12 @@ std::vector<std::string> budget_names(const State& s) {
 /// What has come in so far, less what has left; mass and numbers apart.
 void append_passages(const State& s, std::vector<double>& to) {
   if (!s.scene().domain.openings.any()) return;
-  const std::size_t inlets = s.scene().domain.openings.inlets.size(),
-                    own = Budget::names(s.particles()).size();
-  std::array<Passage, 2> all;
+  const OpeningControl& openings = s.scene().domain.openings;
+  const std::size_t own = Budget::names(s.particles()).size();
+  std::array<Passage, 2> all;  // in, out
   const std::vector<Passage>& passages = s.global().throughput.passages;
   for (std::size_t k = 0; k < passages.size(); ++k) {
-    Passage& sum = all[k < inlets ? 0 : 1];
+    Passage& sum = all[openings.comes_in(k) ? 0 : 1];
     sum.count += passages[k].count;
     for (std::size_t q = 0; q < own; ++q) sum.amounts[q] += passages[k].amounts[q];
   }

@@ -179,4 +179,27 @@ ContactCensus ContactLists::census(const Particles& p, const decomp::Payload& pa
   return census;
 }
 
+std::int64_t forget_contacts(decomp::Payload& packed, const std::uint64_t* id,
+                             std::span<const std::uint64_t> gone, int history) {
+  if (gone.empty()) return 0;
+  const auto is_gone = [&](std::uint64_t key) { return std::ranges::binary_search(gone, key); };
+  const std::size_t bytes = 8 * (1 + static_cast<std::size_t>(history));
+  std::int64_t contacts = 0;
+  decomp::Payload kept;
+  for (std::size_t row = 0; row < packed.rows(); ++row) {
+    const bool carrier_goes = is_gone(id[row]);
+    for (std::uint64_t at = packed.offset[row]; at < packed.offset[row + 1]; at += bytes) {
+      const std::byte* entry = packed.bytes.data() + at;
+      const std::uint64_t key = key_of(entry);
+      if (carrier_goes || is_gone(key))
+        contacts += id[row] < key ? 1 : 0;  // keys of walls are above all ids
+      else
+        kept.bytes.insert(kept.bytes.end(), entry, entry + bytes);
+    }
+    kept.offset.push_back(kept.bytes.size());
+  }
+  packed = std::move(kept);
+  return contacts;
+}
+
 }  // namespace sph

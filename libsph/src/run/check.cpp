@@ -331,7 +331,8 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       start = place(comm, scene, placed);
       need = memory_need(scene, parts, grid, start.count);
     }
-    if (start.count.all == 0) throw InputError("start: no particle lies in any region");
+    if (start.count.all == 0 && scene.domain.openings.insertions.empty())
+      throw InputError("start: no particle lies in any region");
     double dt = parts.longest_step();
     if (parts.physics) {
       if (start.sounds.empty()) start.sounds = fastest_sounds(scene, start.count.heights);

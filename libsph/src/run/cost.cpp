@@ -170,6 +170,7 @@ std::vector<OpeningCount> openings_of(const Simulation& s) {
     if (k == inlets + outlets && passages[k].count == 0) continue;
     out.push_back({k < inlets             ? fmt::format("inlet {} brought", k + 1)
                    : k < inlets + outlets ? fmt::format("outlet {} took", k + 1 - inlets)
+                   : k > inlets + outlets ? fmt::format("insertion {} put in", k - inlets - outlets)
                                           : "through the faces left",
                    passages[k].count, passages[k].amounts[0]});
   }

@@ -47,7 +47,7 @@ Wrap wrap_of(const Scene& scene, const PositionScale& scale) {
 
 bool is_deleted(const Scene& scene, const PositionScale& scale, const Group& group,
                 const std::int64_t* position) {
-  if (!is_matter(group) || is_body(group)) return false;
+  if (group.kind == GroupKind::grain ? group.grain.fixed : !is_matter(group) || is_body(group)) return false;
   bool outside = false;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     if (scene.domain.periodic[a]) continue;

@@ -117,7 +117,8 @@ int Scene::group_index(const std::string& group_name) const {
 }
 
 bool OpeningControl::any() const {
-  return !inlets.empty() || !outlets.empty() || std::ranges::find(deletes, true) != deletes.end();
+  return !inlets.empty() || !outlets.empty() || !insertions.empty() ||
+         std::ranges::find(deletes, true) != deletes.end();
 }
 bool OpeningControl::lead() const {
   return !inlets.empty() ||

@@ -154,7 +154,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   for (const Model* m : parts_.models) m->guard_step(parts_.reduction, global_);
   // Where particles come or go lists are made at once: no file or monitor sees others.
   for (Model* m : parts_.models)
-    if (const auto far = m->turn_over(comm_, parts_.reduction, sets_[m->set()], global_)) {
+    if (const auto far = m->turn_over(distribution_, parts_.reduction, sets_[m->set()], global_)) {
       age_.add(m->set(), *far);
       rows_changed_ = true;
     }

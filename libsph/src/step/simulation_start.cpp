@@ -111,7 +111,8 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
 void Simulation::begin(bool again) {
   add_dawdling();
   for (ParticleSet& set : sets_) set.census = set.count(comm_);
-  if (particle_count() == 0 && global_.step == 0)  // later all may have left
+  if (particle_count() == 0 && global_.step == 0 &&  // later all may have left
+      scene_.domain.openings.insertions.empty())
     throw InputError(scene_.file + ": start: no particle lies in any region");
   distribution_.cut_by_counts(movable(sets_));
   scatter();

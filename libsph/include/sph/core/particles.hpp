@@ -154,23 +154,24 @@ void for_each_number(Body& body, See&& see) {
   all("acceleration", body.load.acceleration);
   all("angular_acceleration", body.load.angular_acceleration);
 }
-/// What has come in through an inlet, or left through an outlet or a face, since the start.
+/// What has come in through an inlet or an insertion, or left through an outlet or a face, since the start.
 struct Passage {
   std::int64_t count = 0;            ///< of particles
   std::array<double, 7> amounts{};   ///< as core/budget.hpp counts them [kg, kg, J, J, kg, kg, J]
   std::array<double, 3> momentum{};  ///< [kg m/s]
   double kinetic_energy = 0;         ///< [J]
   /// Of an inlet with a pressure: mean speed of what flows in [m/s]; of other boxes: how the pressure beside them grows
-  /// along the axis, but for weight, a mean over time [Pa/m].
+  /// along the axis, but for weight, a mean over time [Pa/m]; of an insertion: what it has not put in yet, as the next grain
+  /// is heavier than that [kg].
   double beside = 0;
   friend bool operator==(const Passage&, const Passage&) = default;
 };
 
-/// How particles come and go, in scenes where they do: of each inlet, then of each outlet, then of the faces.
+/// How particles come and go, in scenes where they do: of each inlet, of each outlet, of the faces, of each insertion.
 struct Throughput {
   std::vector<Passage> passages;
   std::uint64_t id_stride =
-      0;  ///< above all ids of the start: the particle that follows on id has id + id_stride
+      0;  ///< above all ids of the start: the particle that follows on id has id + id_stride, the n-th inserted id_stride + n
   friend bool operator==(const Throughput&, const Throughput&) = default;
 };
 

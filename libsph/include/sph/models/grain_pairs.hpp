@@ -28,6 +28,11 @@ class GrainPairs final : public SetPair {
                std::span<const std::uint32_t> order) override;
   void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
 
+  /// Rows are about to go and to come: contacts of the grains `gone` on any rank, by their ids ascending, are forgotten.
+  /// Rows will be rows `order`, and after them `come` new ones. rebuild() must follow.
+  void turn_over(const Particles& particles, std::span<const std::uint64_t> gone,
+                 std::span<const std::uint32_t> order, std::size_t come);
+
   [[nodiscard]] ContactLists& lists() { return lists_; }
   [[nodiscard]] const ContactLists& lists() const { return lists_; }
   [[nodiscard]] std::int64_t touching() const;  ///< listed on this rank, walls not counted
@@ -60,7 +65,8 @@ class GrainPairs final : public SetPair {
   std::vector<bool> fixed_;
   bool spins_;  ///< grains do
   ContactSums sums_;
-  ContactCensus sent_;  ///< of what travels
+  std::optional<decomp::Payload> held_;  ///< contacts of rows that are not those of the lists
+  ContactCensus sent_;                   ///< of what travels
   struct Places {
     std::vector<std::int64_t> grains;
     std::vector<std::array<std::int64_t, 3>> walls;

@@ -9,6 +9,7 @@
 #include "decomp/comm.hpp"
 #include "sph/core/particles.hpp"
 #include "sph/models/energies.hpp"
+#include "sph/plan/distribution.hpp"
 #include "sph/plan/particle_set.hpp"
 #include "sph/plan/plan.hpp"
 #include "sph/plan/reduction.hpp"
@@ -53,7 +54,7 @@ class Model {
   /// Particles come and go: takes out the rows of those that are gone, adds those of the new ones, and says so in the
   /// census; new lists are made at once. Returns how far from the place of its row a new particle may be [m], nothing where
   /// none came or went. Collective; the reduction says whether any did, on all ranks alike.
-  [[nodiscard]] virtual std::optional<double> turn_over(const decomp::Comm&, const Reduction&, ParticleSet&,
+  [[nodiscard]] virtual std::optional<double> turn_over(const Distribution&, const Reduction&, ParticleSet&,
                                                         GlobalState&) {
     return std::nullopt;
   }

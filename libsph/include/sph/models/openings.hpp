@@ -27,7 +27,7 @@ class Openings final : public Model {
   [[nodiscard]] double start(const decomp::Comm& comm, Particles& particles, GlobalState& global) override;
   [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
   void act(const Reduction& reduction, GlobalState& global) override;
-  [[nodiscard]] std::optional<double> turn_over(const decomp::Comm& comm, const Reduction& reduction,
+  [[nodiscard]] std::optional<double> turn_over(const Distribution& distribution, const Reduction& reduction,
                                                 ParticleSet& set, GlobalState& global) override;
 
   using Rows = OpeningBoxes::Rows;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sph/models/drag.hpp"
+#include "sph/models/grain_openings.hpp"
 #include "sph/models/grains.hpp"
 #include "sph/models/melt.hpp"
 #include "sph/models/physics.hpp"
@@ -33,6 +34,7 @@ struct Parts {
   std::optional<Physics> physics;  ///< of fluids and solids, where there are any
   std::optional<SphPairs> sph_pairs;
   std::optional<Grains> grains;
+  std::optional<GrainOpenings> grain_openings;
   std::optional<Drag> drag;  ///< of grains in a fluid
   std::unique_ptr<Melt> melt;
   std::optional<Suspension> suspension;  ///< of grains in melts

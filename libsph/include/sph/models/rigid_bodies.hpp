@@ -32,7 +32,7 @@ class RigidBodies final : public Model {
 
  private:
   [[nodiscard]] std::size_t components() const;  ///< of a force and a torque
-  void kick(std::size_t body, BodyState& state, double dt) const;
+  void kick(std::size_t body, BodyState& state, double time, double dt) const;
   void note_maxima(const GlobalState& global);
   [[nodiscard]] double farthest_move(const GlobalState& global) const;  ///< of a particle in a step [m]
   [[nodiscard]] std::string name_of(std::size_t body) const;
@@ -43,6 +43,8 @@ class RigidBodies final : public Model {
   std::vector<int> body_of_;                ///< of each group, -1 if none
   std::vector<const RigidMaterial*> kind_;  ///< of each body
   BodySums forces_, torques_;
+  double
+      twist_;  ///< what a spin takes of a particle's torque, for the sum that says where the fluid beside it is
   Reduction::Sums in_;                ///< the reduction
   double fastest_ = 0, hardest_ = 0;  ///< of all particles of bodies, after the last act() [m/s], [m/s^2]
 };

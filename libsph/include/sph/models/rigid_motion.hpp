@@ -2,13 +2,15 @@
 // the start, R the rotation since. The body has angular momentum L about its centre, omega = R I^-1 R^T L (I the inertia
 // at the start). In a step R turns by the implicit midpoint rule for L in the body's frame, l' = l + dt (l + l')/2 x omega
 // (Austin, Krishnaprasad & Wang 1993), whose rotation is Cayley's: where no torque acts L does not change at all and
-// the energy only by rounding. In 2D the angle is exact.
+// the energy only by rounding. In 2D the angle is exact. A body that moves as it is told (PrescribedMotion) is where that
+// has it at the end of each step, but for the rounding of its place.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <array>
 
 #include "sph/core/particles.hpp"
+#include "sph/scene/prescribed_motion.hpp"
 
 namespace sph {
 
@@ -32,10 +34,19 @@ struct Turning {
 /// `held`: the angular velocity stays, not the momentum.
 [[nodiscard]] Turning turning(const BodyState& body, int dim, bool held, double dt);
 
+/// The same of a body that moves as it is told from `time` on; its velocity and spin are then what takes it through the
+/// step.
+[[nodiscard]] Turning lead(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale,
+                           int dim, double time, double dt);
+/// How fast it is told to move then, where it is [m/s], [rad/s].
+void take_speed(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale, double time);
+
 /// Sets the spin from the angular momentum, or where that is held the momentum from the spin.
 void settle_spin(BodyState& body, bool held);
 
 /// Bound on the path of any particle of the body in a step [m].
 [[nodiscard]] double longest_path(const BodyState& body, int dim, bool held, double dt);
+[[nodiscard]] double longest_path(const BodyState& body, const PrescribedMotion& motion,
+                                  const PositionScale& scale, double time, double dt);
 
 }  // namespace sph

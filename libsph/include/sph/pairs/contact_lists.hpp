@@ -118,4 +118,9 @@ class ContactLists {
   std::vector<std::byte> parted_entries_;
 };
 
+/// Takes out of what lists packed the contacts of grains `gone` on any rank, by their ids ascending; returns how many these
+/// are, each counted by one rank. `id` of the rows, `history` as ContactLists has it.
+std::int64_t forget_contacts(decomp::Payload& packed, const std::uint64_t* id,
+                             std::span<const std::uint64_t> gone, int history);
+
 }  // namespace sph

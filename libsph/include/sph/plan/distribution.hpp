@@ -31,6 +31,10 @@ class Distribution {
   [[nodiscard]] double skin() const { return skin_; }
   [[nodiscard]] std::int64_t list_radius() const { return reach_; }  ///< range of interaction + skin [quanta]
   [[nodiscard]] decomp::Box own_cells() const { return partition_.cells(comm_.rank()); }
+  /// A place in the domain is this rank's.
+  [[nodiscard]] bool owns(const decomp::Int3& place) const {
+    return partition_.quanta(comm_.rank()).contains(place);
+  }
   [[nodiscard]] std::int64_t migrated() const { return migrated_; }  ///< rows this rank sent away
   [[nodiscard]] const decomp::BalanceAccount& balance() const { return cuts_.account(); }
 

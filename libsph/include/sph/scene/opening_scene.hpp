@@ -1,4 +1,4 @@
-// What a scene says of where fluid comes in and leaves: [[inlet]] and [[outlet]].
+// What a scene says of where particles come in and leave: [[inlet]], [[insertion]] and [[outlet]].
 #pragma once
 
 #include <array>
@@ -33,7 +33,17 @@ struct Inlet {
   friend bool operator==(const Inlet&, const Inlet&) = default;
 };
 
-/// A box in which fluid is deleted. With a pressure it is led on to the box's end first, and lets sound out.
+/// A box into which grains come, at random places where they touch nothing.
+struct Insertion {
+  std::array<double, 3> lower{}, upper{};  ///< grains fit in [m]
+  int group = -1;
+  TimeCurve rate;                    ///< mass that comes in per time [kg/s]
+  std::array<double, 3> velocity{};  ///< with which [m/s]
+  double every = 0;                  ///< what comes in between is put there at once [s]
+  friend bool operator==(const Insertion&, const Insertion&) = default;
+};
+
+/// A box in which particles are deleted. With a pressure it is led on to the box's end first, and lets sound out.
 struct Outlet {
   std::array<double, 3> lower{}, upper{};
   Direction direction = Direction::x_up;     ///< with a pressure
@@ -46,12 +56,17 @@ struct Outlet {
 struct OpeningControl {
   std::vector<Inlet> inlets;
   std::vector<Outlet> outlets;
+  std::vector<Insertion> insertions;
   std::array<bool, 6> deletes{};  ///< what leaves through x0, x1, y0, ... is no more; else it ends the run
 
   /// Particles come or go.
   [[nodiscard]] bool any() const;
   /// Some are led in boxes.
   [[nodiscard]] bool lead() const;
+  /// Of Throughput::passages: they come in through this one.
+  [[nodiscard]] bool comes_in(std::size_t passage) const {
+    return passage < inlets.size() || passage > inlets.size() + outlets.size();
+  }
   friend bool operator==(const OpeningControl&, const OpeningControl&) = default;
 };
 

@@ -15,7 +15,7 @@ namespace sph {
 /// Extent of the domain in quanta, along a period what is wrapped.
 [[nodiscard]] std::array<std::int64_t, 3> domain_length(const Scene& scene, const PositionScale& scale);
 [[nodiscard]] Wrap wrap_of(const Scene& scene, const PositionScale& scale);
-/// Matter of this group is outside the domain, through faces that delete it alone (domain.leaves). Bodies cannot lose a
+/// A mover of this group is outside the domain, through faces that delete it alone (domain.leaves). Bodies cannot lose a
 /// part so.
 [[nodiscard]] bool is_deleted(const Scene& scene, const PositionScale& scale, const Group& group,
                               const std::int64_t* position);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sph/scene/grain_scene.hpp"
+#include "sph/scene/prescribed_motion.hpp"
 
 namespace sph {
 
@@ -28,10 +29,13 @@ struct Strength {
 /// A total-Lagrangian solid that does not deform (models/rigid_bodies.hpp).
 struct RigidMaterial {
   bool rigid = false;
-  int part_of = -1;                 ///< group whose body its particles belong to, -1: one of its own
-  std::array<bool, 4> held{};       ///< x, y, z, rotation: no force changes that motion
-  std::optional<Double3> velocity;  ///< of the start; without, that of its particles [m/s]
-  std::optional<Double3> spin;      ///< ... in 2D about z [rad/s]
+  int part_of = -1;                        ///< group whose body its particles belong to, -1: one of its own
+  std::array<bool, 4> held{};              ///< x, y, z, rotation: no force changes that motion
+  std::optional<Double3> velocity;         ///< of the start; without, that of its particles [m/s]
+  std::optional<Double3> spin;             ///< ... in 2D about z [rad/s]
+  std::optional<PrescribedMotion> motion;  ///< that it has whatever acts on it
+  static constexpr std::size_t rotation = 3;  ///< in held
+  [[nodiscard]] bool holds(std::size_t kind_of_motion) const { return motion || held[kind_of_motion]; }
   friend bool operator==(const RigidMaterial&, const RigidMaterial&) = default;
 };
 
