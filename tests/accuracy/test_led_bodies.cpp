@@ -94,4 +94,33 @@ TEST(Led, StirsAsCouetteHasIt) {
   EXPECT_LT(PINNED(flow), 0.03);
 }
 
+/// In a tank, 15 dx off its middle, after a third of a turn: the mean acceleration, in whose frame the fluid's pressure goes on.
+BodyState circled(const std::string& centre, const std::string& velocity) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  sph::Simulation s(
+      comm, sph::parse_scene(
+                tank(6, 30, ""), "tank.toml",
+                {"group.water.sound_speed=150", "group.water.viscosity=5e4", "group.cylinder.motion.spin=1",
+                 "group.cylinder.motion.centre=" + centre, "group.cylinder.motion.velocity=" + velocity,
+                 "start.region.3.centre=[15, 0]", "start.pressure=uniform", "start.uniform_pressure=1e6"}));
+  run_until(s, 2);
+  const BodyState& body = s.global().bodies.front();
+  const double x = s.scale().metres(body.motion.centre[0]), y = s.scale().metres(body.motion.centre[1]),
+               t = s.global().time;
+  if (centre == "[0, 0]") {
+    EXPECT_NEAR(x, 15 * std::cos(t), 1e-9);
+    EXPECT_NEAR(y, 15 * std::sin(t), 1e-9);
+  }
+  return body;
+}
+
+TEST(Led, ABodyThatCirclesIsPulledToItsAxis) {
+  const BodyState round = circled("[0, 0]", "0"), on = circled("[15, 0]", "-1");
+  EXPECT_NEAR(std::hypot(round.load.acceleration[0], round.load.acceleration[1]), 15, 0.15);
+  EXPECT_NEAR(std::hypot(round.motion.velocity[0], round.motion.velocity[1]), 15, 1e-9);
+  // One that travels and turns about itself is not accelerated.
+  EXPECT_NEAR(std::hypot(on.load.acceleration[0], on.load.acceleration[1]), 0, 1e-9);
+  EXPECT_NEAR(on.motion.velocity[1], 0, 1e-12);
+}
+
 }  // namespace

@@ -42,7 +42,7 @@ class Openings:
         out = {"lower": [], "upper": []}
         for a, (low, high) in enumerate(zip(domain["lower"], domain["upper"])):
             ends = sorted(d.real(f"drain/{a}/{side}", low, high) for side in "lu")
-            out["lower"].append(ends[0]), out["upper"].append(ends[1] + 1e-3 * self.dx)
+            out["lower"].append(ends[0]), out["upper"].append(min(ends[1] + 1e-3 * self.dx, high))
         return out
 
     def led_outlet(self, d, domain, free):

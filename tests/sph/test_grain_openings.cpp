@@ -130,11 +130,22 @@ TEST(GrainOpenings, FullBoxesTakeNoMore) {
   EXPECT_EQ(s.particle_count(), most) << "10 g that found no place";
 }
 
+TEST(GrainOpenings, WhatIsThrownUpFallsBack) {
+  const auto every = [](const std::string& velocity) {
+    return sph::parse_scene(box(little, rain), "scene", {no_grains, "insertion.0.velocity=" + velocity})
+        .domain.openings.insertions[0]
+        .every;
+  };
+  EXPECT_NEAR(every("[0, 0, 0.1]"), (0.1 + std::sqrt(0.01 + 2 * 9.81 * 0.01)) / 9.81, 1e-15);
+  EXPECT_NEAR(every("[0, 0, 1]"), (1 - std::sqrt(1 - 2 * 9.81 * 0.01)) / 9.81, 1e-15) << "through the top";
+  EXPECT_NEAR(every("[0, 0, 0]"), std::sqrt(2 * 0.01 / 9.81), 1e-15);
+}
+
 TEST(GrainOpenings, FacesAndOutletsDelete) {
-  Simulation s(self(),
-               sph::parse_scene(box("[0.04, 0.02, 0.008]",
-                                    "[[outlet]]\nlower = [0.01, 0.004, 0]\nupper = [0.02, 0.016, 0.002]\n"),
-                                "scene", {"start.velocity=[1.5, 0.2, 0]"}));
+  Simulation s(self(), sph::parse_scene(
+                           box("[0.04, 0.02, 0.008]",
+                               "[[outlet]]\nlower = [0.01, 0.004, -1e30]\nupper = [0.02, 0.016, 0.002]\n"),
+                           "scene", {"start.velocity=[1.5, 0.2, 0]"}));
   const std::int64_t start = s.particle_count();
   const double mass = column(s, "mass");
   while (s.global().time < 0.015) {

@@ -105,6 +105,11 @@ region = [{ group = "rock" }]
         self.run.refused(1, "peperite", "check", scene, "--set", "time.dt=1e5",
                          says="time.dt: 100000 s is above the limit of explicit conduction")
 
+    def test_insertions(self):
+        """How many grains are to come: 10 g/s that end in a second, of 1.804e-4 kg in the mean."""
+        out = self.run.run(1, "peperite", "check", self.source / "tests/every_key/silo.toml").out
+        assert "insertion: sand every 0.01 s, 0.005 kg or about 27.72 grains in all" in out, out
+
     ROCK = """
 dimension = 2
 kernel = { h_over_dx = 1.2 }

@@ -122,6 +122,8 @@ def export(run, out=None, begin=None, end=None, every=1, fields=()):
     chosen = [k for k, t in enumerate(run.times) if (begin is None or t >= begin) and (end is None or t <= end)][::every]
     if not chosen:
         raise Error(f"{run.folder}: no snapshot between these times")
+    for field in fields:
+        run[chosen[0]][field]  # refused before there is anything
     out.mkdir(parents=True, exist_ok=True)
     index = {"particles": [], "contacts": []}
     for snapshot in (run[k] for k in chosen):

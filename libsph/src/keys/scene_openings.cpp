@@ -23,14 +23,14 @@ void check_box(const Table& table, const Box& box, const Scene& scene, bool all_
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     if (!(box.lower[a] < box.upper[a]))
       table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+    if (!all_inside && (box.lower[a] >= scene.domain.upper[a] || box.upper[a] <= scene.domain.lower[a]))
+      table.fail("lower", fmt::format("all of the box lies outside the domain in {}", axis_names[a]),
+                 "nothing comes into it: move it");
     const double rounding = 1e-9 * (scene.domain.upper[a] - scene.domain.lower[a]);
-    if (all_inside &&
+    if ((all_inside || scene.domain.periodic[a]) &&
         (box.lower[a] < scene.domain.lower[a] - rounding || box.upper[a] > scene.domain.upper[a] + rounding))
       table.fail("lower", fmt::format("the box lies outside the domain in {}", axis_names[a]),
                  "enlarge domain.lower or domain.upper");
-    if (box.lower[a] >= scene.domain.upper[a] || box.upper[a] <= scene.domain.lower[a])
-      table.fail("lower", fmt::format("all of the box lies outside the domain in {}", axis_names[a]),
-                 "nothing comes into it: move it");
   }
 }
 
@@ -98,12 +98,17 @@ Inlet read_inlet(const Reader<keys::inlet>& table, const Scene& scene) {
 double time_to_leave(const Insertion& in, const Double3& gravity) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < 3; ++a) {
-    // L = v t + g t^2 / 2, without a difference of what is nearly the same
-    const double length = in.upper[a] - in.lower[a], v = std::fabs(in.velocity[a]),
-                 g = in.velocity[a] == 0  ? std::fabs(gravity[a])
-                     : in.velocity[a] > 0 ? std::fmax(gravity[a], 0.0)
-                                          : std::fmax(-gravity[a], 0.0);
-    if (v > 0 || g > 0) least = std::fmin(least, 2 * length / (v + std::sqrt(v * v + 2 * g * length)));
+    // From one end to the other, L = v t + g t^2 / 2, without a difference of what is nearly the same; or up against
+    // gravity and back.
+    const double length = in.upper[a] - in.lower[a], v = std::fabs(in.velocity[a]);
+    const double g = in.velocity[a] < 0    ? -gravity[a]
+                     : in.velocity[a] == 0 ? std::fabs(gravity[a])
+                                           : gravity[a];
+    const double square = v * v + 2 * g * length;
+    if (g < 0 && square < 0)
+      least = std::fmin(least, (v + std::sqrt(v * v - 2 * g * length)) / -g);
+    else if (v > 0 || g > 0)
+      least = std::fmin(least, 2 * length / (v + std::sqrt(square)));
   }
   return least;
 }
@@ -130,6 +135,8 @@ Insertion read_insertion(const Reader<keys::insertion>& table, const Scene& scen
       table.fail_missing(
           "every", "neither velocity nor gravity takes the grains out of the box: say how often they come");
   }
+  if (!(in.every >= 1e-12))
+    table.fail("every", fmt::format("is {:.3g} s", in.every), "shorter than any step: give 1e-12 s or more");
   table.finish();
   return in;
 }

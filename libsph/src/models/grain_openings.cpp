@@ -19,7 +19,8 @@ constexpr std::size_t counted = 5;  // mass, momentum, kinetic energy
 
 /// The first quantum that is not below a place.
 std::int64_t quantum_from(double metres, const PositionScale& scale) {
-  return static_cast<std::int64_t>(std::ceil(metres / scale.quantum));
+  constexpr double far = 0x1p62;  // beyond every domain
+  return static_cast<std::int64_t>(std::ceil(std::clamp(metres / scale.quantum, -far, far)));
 }
 
 }  // namespace

@@ -53,9 +53,13 @@ double spread_of_kernel() {
 // integrated over the depth behind a flat face it is the face.
 double twist_of(const Scene& scene) {
   if (!has_wet_bodies(scene) || scene.terms.viscous.form != ViscosityForm::laplacian) return 0;
-  double viscosity = 0;
-  for (const Group& g : scene.groups)
-    if (g.kind == GroupKind::fluid) viscosity = std::fmax(viscosity, g.viscosity);
+  double viscosity = -1;
+  for (const Group& g : scene.groups) {
+    if (g.kind != GroupKind::fluid) continue;
+    // Of several nobody knows which is beside the body.
+    if (g.viscosity_law.varies() || (viscosity >= 0 && viscosity != g.viscosity)) return 0;
+    viscosity = g.viscosity;
+  }
   const double h = scene.kernel.smoothing_length, volume = particle_volume(scene);
   const double normalisation =
       scene.dim == 2 ? Quintic::normalisation<2> / (h * h) : Quintic::normalisation<3> / (h * h * h);
@@ -91,8 +95,8 @@ struct Placement {
   Now move(BodyState& body, const RigidMaterial& of, double time, double dt) const {
     const int dim = constants->scene->dim;
     const bool held = of.holds(RigidMaterial::rotation);
-    const Turning t =
-        of.motion ? lead(body, *of.motion, constants->scale, dim, time, dt) : turning(body, dim, held, dt);
+    const Turning t = of.motion ? lead(body, *of.motion, {constants->scale, constants->wrap}, dim, time, dt)
+                                : turning(body, dim, held, dt);
     for (std::size_t a = 0; a < 3; ++a)
       body.motion.centre[a] += constants->scale.quanta(body.motion.velocity[a] * dt);
     body.motion.turn = t.whole;
@@ -228,7 +232,8 @@ void RigidBodies::kick(std::size_t body, BodyState& state, double time, double d
     now.velocity[a] += acceleration[a] * dt;
     if (turns) now.angular_momentum[a] += state.load.torque[a] * dt;
   }
-  if (of.motion) take_speed(state, *of.motion, constants_->scale, time + 1.5 * dt);
+  if (of.motion)
+    take_speed(state, *of.motion, {constants_->scale, constants_->wrap}, time + dt, time + 1.5 * dt);
   settle_spin(state, !turns);
   if (!scene.has_kind(GroupKind::fluid) || dt == 0) return;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -277,8 +282,13 @@ FieldSet RigidBodies::follow(Particles& p, const GlobalState& global) const {
   return {Field::velocity};
 }
 
-double RigidBodies::longest_step(const Reduction&) const {
-  return steps_.longest({fastest_, hardest_, 0, 0, 0, 0});
+double RigidBodies::longest_step(const Reduction&) const { return longest_step(); }
+
+double RigidBodies::longest_step() const {
+  double dt = steps_.longest({fastest_, hardest_, 0, 0, 0, 0});
+  for (const RigidMaterial* of : kind_)
+    if (of->motion && !constants_->scene->time.dt) dt = std::fmin(dt, longest_step_of(*of->motion));
+  return dt;
 }
 
 std::string RigidBodies::name_of(std::size_t body) const {
@@ -306,7 +316,8 @@ double RigidBodies::farthest_move(const GlobalState& global) const {
   for (std::size_t k = 0; k < global.bodies.size(); ++k) {
     const RigidMaterial& of = *kind_[k];
     const BodyState& body = global.bodies[k];
-    way = std::fmax(way, of.motion ? longest_path(body, *of.motion, constants_->scale, global.time, global.dt)
+    way = std::fmax(way, of.motion ? longest_path(body, *of.motion, {constants_->scale, constants_->wrap},
+                                                  global.time, global.dt)
                                    : longest_path(body, constants_->scene->dim,
                                                   of.holds(RigidMaterial::rotation), global.dt));
   }

@@ -80,15 +80,6 @@ Turning turning(const BodyState& body, int dim, bool held, double dt) {
 
 namespace {
 
-/// Of the centre of mass from the axis.
-Vector3 from_axis(const BodyState& body, const PrescribedMotion& motion, const PositionScale& scale,
-                  const MotionNow& now) {
-  Vector3 r;
-  for (std::size_t a = 0; a < 3; ++a)
-    r[static_cast<Eigen::Index>(a)] = scale.metres(body.motion.centre[a]) - (motion.centre[a] + now.way[a]);
-  return r;
-}
-
 /// About a unit vector.
 Turn turn_about(const std::array<double, 3>& axis, double angle) {
   const double s = exact_sin(0.5 * angle);
@@ -97,14 +88,26 @@ Turn turn_about(const std::array<double, 3>& axis, double angle) {
 
 }  // namespace
 
-Turning lead(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale, int dim,
-             double time, double dt) {
+Vector3 from_axis(const BodyState& body, const PrescribedMotion& motion, const Lengths& lengths,
+                  double time) {
+  const MotionNow now = motion_at(motion, time);
+  Vector3 r;
+  for (std::size_t a = 0; a < 3; ++a) {
+    double x = lengths.scale.metres(body.motion.centre[a]) - (motion.centre[a] + now.way[a]);
+    if (const double period = lengths.scale.metres(lengths.wrap.period[a]); period > 0)
+      x -= period * std::nearbyint(x / period);
+    r[static_cast<Eigen::Index>(a)] = x;
+  }
+  return r;
+}
+
+Turning lead(BodyState& body, const PrescribedMotion& motion, const Lengths& lengths, int dim, double time,
+             double dt) {
   const MotionNow from = motion_at(motion, time), to = motion_at(motion, time + dt);
   const double angle = to.angle - from.angle;
-  const Vector3 r = from_axis(body, motion, scale, from),
-                way = vector_of(to.way) - vector_of(from.way) +
-                      (rotation_of(turn_about(motion.axis, angle)) * r - r);
-  body.motion.velocity = array_of(way / dt);
+  const Vector3 r = from_axis(body, motion, lengths, time), way = vector_of(to.way) - vector_of(from.way),
+                round = rotation_of(turn_about(motion.axis, angle)) * r - r;
+  body.motion.velocity = array_of((way + round) / dt);
   body.motion.spin = array_of((angle / dt) * vector_of(motion.axis));
   if (dim == 2) return turning(body, dim, true, dt);
   const Turn& now = body.motion.turn;
@@ -112,11 +115,14 @@ Turning lead(BodyState& body, const PrescribedMotion& motion, const PositionScal
           unit(product(turn_about(motion.axis, angle), now)), 0};
 }
 
-void take_speed(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale, double time) {
-  const MotionNow now = motion_at(motion, time);
-  const Vector3 spin = now.spin * vector_of(motion.axis);
+void take_speed(BodyState& body, const PrescribedMotion& motion, const Lengths& lengths, double time,
+                double at) {
+  const MotionNow then = motion_at(motion, at);
+  const double angle = then.angle - motion_at(motion, time).angle;
+  const Vector3 r = rotation_of(turn_about(motion.axis, angle)) * from_axis(body, motion, lengths, time),
+                spin = then.spin * vector_of(motion.axis);
   body.motion.spin = array_of(spin);
-  body.motion.velocity = array_of(vector_of(now.velocity) + spin.cross(from_axis(body, motion, scale, now)));
+  body.motion.velocity = array_of(vector_of(then.velocity) + spin.cross(r));
 }
 
 void settle_spin(BodyState& body, bool held) {
@@ -135,11 +141,10 @@ double longest_path(const BodyState& body, int dim, bool held, double dt) {
           turning(body, dim, held, dt).spin.norm() * body.shape.radius);
 }
 
-double longest_path(const BodyState& body, const PrescribedMotion& motion, const PositionScale& scale,
+double longest_path(const BodyState& body, const PrescribedMotion& motion, const Lengths& lengths,
                     double time, double dt) {
   // From the axis it is as far at all times; where there is none the distance does not count.
-  const double away =
-      motion.spin.empty() ? 0 : from_axis(body, motion, scale, motion_at(motion, time)).norm();
+  const double away = motion.spin.empty() ? 0 : from_axis(body, motion, lengths, time).norm();
   return 1.0001 * longest_path(motion, time, time + dt, away + body.shape.radius);
 }
 

@@ -192,7 +192,8 @@ class RigidStart {
           "the particles of the body lie in one line: it must be two across at least, or hold \"rotation\"");
     if (!thin) settle_spin(body, false);
     if (kind.motion) {
-      take_speed(body, *kind.motion, constants_.scale, 0);
+      check_motion(b, body, *kind.motion);
+      take_speed(body, *kind.motion, {constants_.scale, constants_.wrap}, 0, 0);
       return settle_spin(body, true);
     }
     if (kind.velocity) body.motion.velocity = *kind.velocity;
@@ -200,6 +201,23 @@ class RigidStart {
     // Twice: the first may take the speed over a power of two, and its unit with it.
     for (int k = 0; k < 2; ++k) round_motion(body, !kind.velocity, !kind.spin);
     settle_spin(body, true);
+  }
+
+  void check_motion(std::size_t b, const BodyState& body, const PrescribedMotion& motion) const {
+    const Scene& scene = *constants_.scene;
+    if (const auto dt = scene.time.dt; dt && !(*dt <= longest_step_of(motion)))
+      refuse(scene, name_[b],
+             fmt::format("motion.frequency is {:.6g} Hz, and time.dt {:.6g} s: it must be {:.6g} s at most",
+                         motion.frequency, *dt, longest_step_of(motion)));
+    const double away = from_axis(body, motion, {constants_.scale, constants_.wrap}, 0).norm();
+    for (std::size_t a = 0; a < d_ && !motion.spin.empty(); ++a)
+      if (const double period = constants_.scale.metres(constants_.wrap.period[a]);
+          period > 0 && !(away < 0.5 * period))
+        refuse(
+            scene, name_[b],
+            fmt::format("motion.centre is {:.6g} m from the body's, half a period in {} or more: which way "
+                        "round it is is not known",
+                        away, "xyz"[a]));
   }
 
   // Far above the rounding of the sums: the particles, which then have this motion, start the same body again.
@@ -237,7 +255,8 @@ double RigidBodies::start(const decomp::Comm& comm, Particles& particles, Global
   for (std::size_t b = 0; b < kind_.size(); ++b)
     if (!(vector_of(global.bodies[b].motion.spin).norm() < std::numeric_limits<double>::max()))
       refuse(*constants_->scene, name_of(b), "the body has no finite spin; check its start");
-  return steps_.longest({fastest_, 0, 0, 0, 0, 0});
+  hardest_ = 0;  // forces are not known yet
+  return longest_step();
 }
 
 }  // namespace sph

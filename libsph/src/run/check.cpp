@@ -19,6 +19,7 @@
 #include "sph/laws/eos/law.hpp"
 #include "sph/models/grain_limits.hpp"
 #include "sph/models/suspension_need.hpp"
+#include "sph/scene/grain_mass.hpp"
 #include "sph/start/placement.hpp"
 #include "sph/step/simulation.hpp"
 #include "start/start_count.hpp"
@@ -302,6 +303,22 @@ std::string steps_text(const Scene& scene, double dt) {
   return fmt::format("steps: about {:.4g}\n", steps);
 }
 
+/// What insertions bring until the end, of grains of the mean mass: memory above is that of the start.
+std::string insertions_text(const Scene& scene, double dt) {
+  double end = scene.time.until.value_or(HUGE_VAL);
+  if (scene.time.steps) end = std::min(end, static_cast<double>(*scene.time.steps) * dt);
+  std::string out;
+  for (const Insertion& in : scene.domain.openings.insertions) {
+    const Group& g = scene.groups[static_cast<std::size_t>(in.group)];
+    const double a = g.grain.least_radius, b = g.grain.largest_radius;
+    const double mean = grain_mass(g.density, 1) * (a + b) * (a * a + b * b) / 4;  // of r^3 between a and b
+    const double mass = integral_of(in.rate, end);
+    out += fmt::format("insertion: {} every {:.4g} s, {:.4g} kg or about {:.4g} grains in all\n", g.name,
+                       in.every, mass, mass / mean);
+  }
+  return out;
+}
+
 std::string ranks_text(const Scene& scene, const decomp::CellGrid& grid, std::int64_t particles) {
   const auto [row, column] = scene.decomposition.cut_axes;
   const std::int64_t rows = grid.cells()[static_cast<std::size_t>(row)];
@@ -340,7 +357,7 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       dt = std::min(dt, parts.physics->steps().resting(start.sounds));
     }
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
                  particles_text(scene, start.count), mesh_text(scene, parts), unlooked_text(scene, placed),
                  memory_text(scene, parts, need, machine), gas_text(scene), tension_text(scene),
                  options.plan ? plan_text(scene, parts) : "",
@@ -348,7 +365,7 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
                  parts.physics ? courant_text(scene, parts.physics->steps(), start.sounds, dt) : "",
                  drag_text(scene, parts), suspension_text(scene, parts, start.count),
                  speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),
-                 ranks_text(scene, grid, start.count.all));
+                 insertions_text(scene, dt), ranks_text(scene, grid, start.count.all));
     return static_cast<int>(exit_done);
   });
 }

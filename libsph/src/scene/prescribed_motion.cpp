@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sph/core/exact_math.hpp"
@@ -33,6 +34,11 @@ double longest_path(const PrescribedMotion& motion, double from, double to, doub
   return peak_between(motion.speed, from, to) * (to - from) +
          std::sqrt(swing) * std::min(phase * (to - from), 2.0) +
          radius * (peak_between(motion.spin, from, to) * (to - from));
+}
+
+double longest_step_of(const PrescribedMotion& motion) {
+  constexpr double steps = 20;  // of a period: its acceleration is then 1 % off
+  return motion.frequency > 0 ? 1 / (steps * motion.frequency) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace sph

@@ -34,6 +34,7 @@ class RigidBodies final : public Model {
   [[nodiscard]] std::size_t components() const;  ///< of a force and a torque
   void kick(std::size_t body, BodyState& state, double time, double dt) const;
   void note_maxima(const GlobalState& global);
+  [[nodiscard]] double longest_step() const;                            ///< after that
   [[nodiscard]] double farthest_move(const GlobalState& global) const;  ///< of a particle in a step [m]
   [[nodiscard]] std::string name_of(std::size_t body) const;
 

@@ -34,12 +34,21 @@ struct Turning {
 /// `held`: the angular velocity stays, not the momentum.
 [[nodiscard]] Turning turning(const BodyState& body, int dim, bool held, double dt);
 
+/// The lengths of a scene.
+struct Lengths {
+  PositionScale scale;
+  Wrap wrap;
+};
 /// The same of a body that moves as it is told from `time` on; its velocity and spin are then what takes it through the
 /// step.
-[[nodiscard]] Turning lead(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale,
-                           int dim, double time, double dt);
-/// How fast it is told to move then, where it is [m/s], [rad/s].
-void take_speed(BodyState& body, const PrescribedMotion& motion, const PositionScale& scale, double time);
+[[nodiscard]] Turning lead(BodyState& body, const PrescribedMotion& motion, const Lengths& lengths, int dim,
+                           double time, double dt);
+/// How fast a body that is in its place at `time` is told to move at another time [m/s], [rad/s].
+void take_speed(BodyState& body, const PrescribedMotion& motion, const Lengths& lengths, double time,
+                double at);
+/// From the axis to the centre of mass, over periods the nearest [m].
+[[nodiscard]] Vector3 from_axis(const BodyState& body, const PrescribedMotion& motion, const Lengths& lengths,
+                                double time);
 
 /// Sets the spin from the angular momentum, or where that is held the momentum from the spin.
 void settle_spin(BodyState& body, bool held);
@@ -47,6 +56,6 @@ void settle_spin(BodyState& body, bool held);
 /// Bound on the path of any particle of the body in a step [m].
 [[nodiscard]] double longest_path(const BodyState& body, int dim, bool held, double dt);
 [[nodiscard]] double longest_path(const BodyState& body, const PrescribedMotion& motion,
-                                  const PositionScale& scale, double time, double dt);
+                                  const Lengths& lengths, double time, double dt);
 
 }  // namespace sph

@@ -29,4 +29,7 @@ struct MotionNow {
 /// Bound on the path between two times of what is `radius` from the axis [m].
 [[nodiscard]] double longest_path(const PrescribedMotion& motion, double from, double to, double radius);
 
+/// Steps that still follow its oscillation [s].
+[[nodiscard]] double longest_step_of(const PrescribedMotion& motion);
+
 }  // namespace sph
