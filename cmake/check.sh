@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs what is missing, builds everything, runs the tests and then random scenes of a fresh seed for a minute:
-# three quarters of an hour on two cores. With arguments, which go to ctest, these tests alone: sh cmake/check.sh -R lint.
+# up to an hour on two cores. With arguments, which go to ctest, these tests alone: sh cmake/check.sh -R lint.
 # Those of a minute and more each are the ones of sh cmake/check.sh -L long.
 set -eu
 cd "$(dirname "$0")/.."
