@@ -6,12 +6,15 @@ times, on other numbers of ranks. Prints the largest departures, relative to wha
 budgets.py BUILD [--steps 100000]
 """
 import argparse
-import csv
 import os
+import sys
 import tempfile
 from pathlib import Path
 
 from speed import here, run
+
+sys.path.append(str(here.parent / "apps/python"))
+import peperite  # noqa: E402
 
 bubbly = [f"group.{name}.{what}" for name in ("magma", "spray")
           for what in ("exsolution_time=0.05", "water_diffusivity=0.5")]
@@ -35,8 +38,8 @@ def main():
         for leg in range(1, 11):
             what = ["run", scene, "--out", folder, *words] if leg == 1 else ["resume", folder]
             run(["mpirun", "-np", str(1 + leg % 3), program, *what, "--steps", str(options.steps * leg // 10)])
-        with open(f"{folder}/series.csv") as file:
-            rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+        series = peperite.open(folder).series
+        rows = [dict(zip(series, line)) for line in zip(*series.values())]
     print(f"{len(rows) - 1} steps, {rows[-1]['t']:.4g} s")
     for name, (held, gained) in budgets.items():
         first = rows[0][held]

@@ -10,7 +10,6 @@ Each code runs at the skin that is best for it in a short scan. Beds are made on
 settles 12,800 spheres (minutes; on one rank, so that everybody gets the same bed), which are laid side by side.
 """
 import argparse
-import csv
 import itertools
 import json
 import os
@@ -28,6 +27,8 @@ from peers import bed
 from speed import environment
 
 here = Path(__file__).resolve().parent
+sys.path.append(str(here.parent / "apps/python"))
+import peperite  # noqa: E402
 BEDS = {"12k": (1, 1, 2000), "100k": (4, 2, 500), "1m": (10, 8, 100)}  # tiles in x and y, timed steps
 SKINS = (0.01, 0.02, 0.05, 0.1)  # of the largest diameter
 WARM = 50  # steps before the timed ones
@@ -214,8 +215,7 @@ def energies_of_lammps(lmp, files, law):
 def energies_of_ours(build, files, law):
     with tempfile.TemporaryDirectory() as out:
         run_ours(build, files, law, 1, CHECKED, f"{out}/run", "output.series_interval=0")
-        with open(f"{out}/run/series.csv") as series:
-            return [float(row["energy_kinetic"]) for row in csv.DictReader(series)]
+        return list(peperite.open(f"{out}/run").series["energy_kinetic"])
 
 
 def check(build, lmp, files, laws):

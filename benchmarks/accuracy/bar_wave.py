@@ -41,6 +41,6 @@ def measure(run):
     t_near, _ = peak(t[before], series["near_vx"][before])
     t_far, high = peak(t[before], series["far_vx"][before])
     way = series["far_x"][0] - series["near_x"][0]
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     return {"speed": abs(way / (t_far - t_near) / SPEED - 1), "free end / pulse": peak(t, series["end_vx"])[1] / high,
             "pulse / exact": high / (0.5e-3 * SPEED), "largest change of energy": np.max(np.abs(energy / energy[0] - 1))}

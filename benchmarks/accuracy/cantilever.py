@@ -49,7 +49,7 @@ def measure(run):
     crossings = t[k] - y[k] * (t[k + 1] - t[k]) / (y[k + 1] - y[k])
     period = 2 * np.mean(np.diff(crossings)) if len(crossings) > 1 else np.nan
     high = [np.max(np.abs(y[(t >= a) & (t < a + PERIOD)])) for a in np.arange(0, t[-1] - 0.99 * PERIOD, PERIOD)]
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     return {"period": abs(period / PERIOD - 1), "T [s]": period, "periods": t[-1] / period,
             "amplitude / first": high[-1] / high[0], "energy / first": energy[-1] / energy[0],
             "largest change of energy": np.max(np.abs(energy / energy[0] - 1))}

@@ -35,7 +35,7 @@ def measure(run, rows=1):
     ours = np.interp(T, time, front)
     lead = np.mean(ours - Z)
     series = run.series()
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     return {"front ahead of the experiment / a": lead, "front: largest error of dZ/dT":
             np.abs(np.diff(ours) / np.diff(Z) - 1).max(),
             "front, shifted by it: largest error": np.abs((ours - lead) / Z - 1).max(),

@@ -57,7 +57,7 @@ def measure(run):
     h = 2 * np.sqrt(np.pi / len(snapshots[0].position))
     pressure = np.array([kernel.at(np.zeros((1, 2)), s.position, s.pressure, h)[0, 0] for s in snapshots])
     series = run.series()
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     late = time > 0.001
     return {"half axis b at 7.6 ms": abs(ours_b[-1] / b[-1] - 1), "area": abs(ours_a[-1] * ours_b[-1] - 1),
             "central pressure, rms after 1 ms": np.sqrt(np.mean((pressure / centre - 1)[late]**2)),

@@ -63,6 +63,6 @@ def measure(run):
             return {"periods": k / 2}
         found.append(near[np.argmax(spline(near))])
     sigma = np.sqrt(spline(found[-1]) / spline(0))
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     return {"period": abs(found[-1] / (20 * half) - 1), "period [s]": found[-1] / 10, "amplitude / first": sigma,
             "periods": 10, "energy lost / first kinetic": (energy[0] - energy[-1]) / series["energy_kinetic"][0]}

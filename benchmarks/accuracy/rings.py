@@ -45,7 +45,7 @@ def measure(run):
         1.01 * dx, output_type="ndarray")] for g in (0, 1)])
     gaps = [np.linalg.norm(s.position[pairs[:, 0]] - s.position[pairs[:, 1]], axis=1).max() / dx for s in snapshots]
     series = run.series()
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     scale = np.sum(first.mass * np.abs(first.velocity[:, 0]))
     last = snapshots[-1]
     speed = [np.average(s.velocity[s.group == 1, 0], weights=s.mass[s.group == 1]) for s in (first, last)]

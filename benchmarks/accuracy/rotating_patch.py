@@ -65,7 +65,7 @@ def measure(run):
     dx = np.sqrt(1 / len(first.position))
     nearest = cKDTree(last.position).query(last.position, k=2)[0][:, 1] / dx
     series = run.series()
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     return {"angular momentum lost": abs(angular_momentum(last) / angular_momentum(first) - 1),
             "kinetic energy / first": last.kinetic / first.kinetic,
             "largest rise of energy": float(np.max(energy - np.minimum.accumulate(energy)) / energy[0]),

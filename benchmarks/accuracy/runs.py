@@ -11,8 +11,9 @@ import numpy as np
 
 here = Path(__file__).resolve().parent
 source = here.parent.parent
-sys.path.append(str(source / "benchmarks"))
+sys.path += [str(source / "benchmarks"), str(source / "apps/python")]
 import tables  # noqa: E402, F401
+from peperite import Series  # noqa: E402
 from speed import environment, log_of, run_scene  # noqa: E402, F401
 
 
@@ -74,7 +75,7 @@ class Run:
 
     def series(self):
         """Columns of series.csv by name."""
-        return np.genfromtxt(self.folder / "series.csv", delimiter=",", names=True)
+        return Series(self.folder / "series.csv")
 
 
 class Runner:

@@ -36,7 +36,7 @@ def measure(run):
     turning = np.array([angular_momentum(s) for s in snapshots]) / angular_momentum(first)
     nearest = [cKDTree(s.position).query(s.position, k=2)[0][:, 1] for s in snapshots]
     series = run.series()
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     return {"angular momentum lost": np.max(np.abs(turning - 1)),
             "largest change of energy": np.max(np.abs(energy / energy[0] - 1)), "energy / first": energy[-1] / energy[0],
             "nearest pair / dx": min(d.min() for d in nearest) / dx, "furthest pair / dx": max(d.max() for d in nearest) / dx}

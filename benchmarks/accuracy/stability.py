@@ -34,7 +34,7 @@ def kinetic_of_tank(run):
 def rise(run):
     """Largest rise of the total energy over the range it has fallen through, or over the kinetic energy."""
     series = run.series()
-    energy = sum(series[k] for k in series.dtype.names if k.startswith("energy"))
+    energy = sum(series[k] for k in series if k.startswith("energy"))
     return np.max(energy - np.minimum.accumulate(energy)) / max(np.ptp(energy), np.max(series["energy_kinetic"]))
 
 

@@ -1,11 +1,10 @@
 """Silo with a round hole, flat-bottomed, of triangles: rate of discharge against the hole's width (Beverloo et al. 1961)."""
 
-import csv
 from math import cos, pi, sin
 
 import numpy as np
 
-from runs import exponent, snapshots
+from runs import Series, exponent, snapshots
 
 DIAMETER, GRAVITY = 2e-3, 9.81  # mean of the grains [m]
 HOLES = (6, 7.5, 9, 10.5, 12)  # [diameters]
@@ -41,10 +40,9 @@ def settings(work, hole):
 class Discharge:
     def __init__(self, folder, hole):
         self.hole = hole * DIAMETER
-        with open(folder / "series.csv") as file:
-            rows = [row for row in csv.DictReader(file) if float(row["t"]) > OPENS + STEADY]
-        self.time = np.array([float(row["t"]) for row in rows])
-        self.out = np.array([float(row["budget_mass_out"]) for row in rows])
+        series = Series(folder / "series.csv")
+        steady = series["t"] > OPENS + STEADY
+        self.time, self.out = series["t"][steady], series["budget_mass_out"][steady]
         (self.rate, _), cov = np.polyfit(self.time, self.out, 1, cov=True)
         self.error = np.sqrt(cov[0, 0])
         full = [s for s in snapshots(folder) if s.time < OPENS][-1]

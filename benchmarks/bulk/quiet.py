@@ -1,24 +1,21 @@
 """A settled box of sand for a million steps: kinetic energy, and how far grains creep."""
 
-import csv
-
 import numpy as np
 
-from runs import snapshots
+from runs import Series, snapshots
 
 DIAMETER = 1.6e-3
 
 
 def measure(runner):
     folder = runner.run("quiet", "quiet.toml")
-    with open(folder / "series.csv") as file:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
-    time = np.array([row["t"] for row in rows])
+    series = Series(folder / "series.csv")
+    time = series["t"]
     states = snapshots(folder)
     height = states[-1].position[:, 2]
     mass = 2500 * states[-1].volume
     potential = np.sum(mass * 9.81 * height)
-    ratio = np.array([row["energy_kinetic"] for row in rows]) / potential
+    ratio = series["energy_kinetic"] / potential
     late = time > 0.5 * time[-1]
     early = next(s for s in states if s.time >= 0.2 * time[-1])
     way = np.linalg.norm(states[-1].position - early.position, axis=1)

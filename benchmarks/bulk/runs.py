@@ -9,8 +9,9 @@ import numpy as np
 
 here = Path(__file__).resolve().parent
 source = here.parent.parent
-sys.path[:0] = [str(source / folder) for folder in ("apps/sandbox", "cmake", "benchmarks")]
+sys.path[:0] = [str(source / folder) for folder in ("apps/sandbox", "apps/python", "cmake", "benchmarks")]
 from grain_run import Snapshot  # noqa: E402
+from peperite import Series  # noqa: E402, F401
 from speed import log_of, run_scene  # noqa: E402
 
 

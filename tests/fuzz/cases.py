@@ -117,6 +117,11 @@ def add_output(d, case, kind):
             monitors[-1]["points"] = d.one("gauge points value", [2, 5])
         if any(scene["domain"].get("gravity", [0])):
             monitors.append({"kind": "level", "at": at})
+    if not melts:
+        lower, upper = (list(scene["domain"][side]) for side in ("lower", "upper"))
+        axis = d.one("flux axis", list(range(len(lower))))
+        lower[axis] = upper[axis] = d.real("flux at", lower[axis], upper[axis])
+        monitors.append({"kind": "flux", "lower": lower, "upper": upper})
     scene["monitor"] = scene.get("monitor", []) + [m for k, m in enumerate(monitors) if d.chance(f"monitor/{k}", 0.3)]
 
 

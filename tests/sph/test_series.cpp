@@ -32,16 +32,16 @@ class SeriesTest : public ::testing::Test {
 };
 
 TEST_F(SeriesTest, WritesHeaderAndShortestNumbers) {
-  Series series(file(), {"y", "speed"});
+  Series series(file(), {"y", "speed"}, {"", "m/s"});
   series.add(0, 0, {0.1, -0.0});
   series.add(10, 0.30000000000000004, {1e-300, 1.0 / 3});
   EXPECT_EQ(contents(file()),
-            "step,t,y,speed\n0,0,0.1,-0\n10,0.30000000000000004,1e-300,0.3333333333333333\n");
+            "step,t [s],y,speed [m/s]\n0,0,0.1,-0\n10,0.30000000000000004,1e-300,0.3333333333333333\n");
   EXPECT_EQ(series.bytes(), std::filesystem::file_size(file()));
 }
 
 TEST_F(SeriesTest, NumbersReadBackToTheSameBits) {
-  Series series(file(), {"x"});
+  Series series(file(), {"x"}, {"m"});
   std::vector<double> values;
   for (std::uint64_t k = 0; k < 1000; ++k) values.push_back(awkward(k));
   for (double value : values) series.add(1, 2, {value});
@@ -61,23 +61,23 @@ TEST_F(SeriesTest, NumbersReadBackToTheSameBits) {
 }
 
 TEST_F(SeriesTest, EveryRowIsOnDiskWhenAddReturns) {
-  Series series(file(), {"x"});
+  Series series(file(), {"x"}, {"m"});
   series.add(1, 0.5, {2});
-  EXPECT_EQ(contents(file()), "step,t,x\n1,0.5,2\n");
+  EXPECT_EQ(contents(file()), "step,t [s],x [m]\n1,0.5,2\n");
 }
 
 TEST_F(SeriesTest, ResumedRunEndsWithTheSameFile) {
   std::string whole;
   std::uint64_t hash_of_whole = 0;
   {
-    Series series(file(), {"x"});
+    Series series(file(), {"x"}, {"m"});
     for (int step = 0; step < 20; ++step) series.add(step, 0.1 * step, {1.0 / (step + 1)});
     whole = contents(file());
     hash_of_whole = series.hash();
   }
   std::uint64_t at_checkpoint = 0, hash_at_checkpoint = 0;
   {
-    Series series(file(), {"x"});
+    Series series(file(), {"x"}, {"m"});
     for (int step = 0; step < 15; ++step) {
       series.add(step, 0.1 * step, {1.0 / (step + 1)});
       if (step != 11) continue;
@@ -95,7 +95,7 @@ TEST_F(SeriesTest, ResumedRunEndsWithTheSameFile) {
 TEST_F(SeriesTest, RefusesAnotherContentOfTheSameLength) {
   std::uint64_t bytes = 0, hash = 0;
   {
-    Series series(file(), {"x"});
+    Series series(file(), {"x"}, {"m"});
     series.add(1, 0.5, {2});
     series.add(2, 1.0, {3});
     bytes = series.bytes();
@@ -119,21 +119,21 @@ TEST_F(SeriesTest, RefusesAnotherContentOfTheSameLength) {
 
 TEST_F(SeriesTest, RefusesAFileThatIsMissingOrTooShort) {
   EXPECT_THROW(Series(file(), 10, {}), InputError);
-  { const Series series(file(), {"x"}); }
+  { const Series series(file(), {"x"}, {"m"}); }
   EXPECT_THROW(Series(file(), 10, {}), InputError);
   EXPECT_NO_THROW(Series(file(), 9, {}));
 }
 
 TEST_F(SeriesTest, SaysWhyItCannotWrite) {
   try {
-    const Series series(file() / "below", {"x"});
+    const Series series(file() / "below", {"x"}, {"m"});
     FAIL() << "no error";
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find("No such file or directory"), std::string::npos) << error.what();
   }
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
   try {
-    const Series series("/dev/full", {"x"});
+    const Series series("/dev/full", {"x"}, {"m"});
     FAIL() << "no error";
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find("No space left on device"), std::string::npos) << error.what();

@@ -64,7 +64,7 @@ def write(folder, times, grains=4000, radius=0.012, heat=True, shuffled=False):
     rows = [f"{k},{t},{8 + k % 3},1e-4,{1e-4 * (1 + np.sin(k))},1225,{0.2},{0.3}" for k, t in enumerate(times)]
     heated = ",flow_temperature,flow_heat_z0,flow_heat_z1"
     (folder / "series.csv").write_text("\n".join(
-        [f"step,t,flow_iterations,flow_residual,flow_v_rms{heated if heat else ''}",
+        [f"step,t [s],flow_iterations,flow_residual,flow_v_rms{heated if heat else ''}",
          *(row if heat else row.rsplit(",", 3)[0] for row in rows)]) + "\n")
     return heights
 

@@ -97,7 +97,7 @@ class Report(Case):
         self.assertIn("lower = ", text, "the resolved scene is in it")
 
     def test_curves_are_those_of_the_series(self):
-        series = np.genfromtxt(self.folder / "gas/series.csv", delimiter=",", names=True)
+        series = self.peperite.Series(self.folder / "gas/series.csv")
         curves = json.loads(re.search(r'<script id="curves"[^>]*>(.*?)</script>', self.page("gas"))[1])
         drawn = {}
         for curve in curves:
@@ -106,7 +106,7 @@ class Report(Case):
             self.assertTrue(np.array_equal(table[:, 0], series["t"]))
             for k, label in enumerate(curve["labels"][1:], 1):
                 drawn[f"{monitor}_{label}"] = table[:, k]
-        known = {name for name in series.dtype.names if np.isfinite(series[name]).any()}  # a group without particles has no mean
+        known = {name for name in series if np.isfinite(series[name]).any()}  # a group without particles has no mean
         self.assertEqual(set(drawn), known - {"step", "t"})
         for name, values in drawn.items():
             self.assertTrue(np.array_equal(values, series[name], equal_nan=True), name)

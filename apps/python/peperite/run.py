@@ -14,14 +14,15 @@ from .snapshot import Snapshot, resolved
 
 
 class Series(Mapping):
-    """Columns of series.csv by name, "t" [s] among them. A last line that is not complete is left out: the run may still
-    be writing."""
+    """Columns of series.csv by name, "t" among them, and their units. A last line that is not complete is left out: the run
+    may still be writing."""
 
     def __init__(self, path):
         self.path = Path(path)
         try:
             lines = self.path.read_text().rpartition("\n")[0].splitlines()
-            names = lines[0].split(",") if lines else []
+            titles = [re.fullmatch(r"(.*?)(?: \[(.*)\])?", title) for title in lines[0].split(",")] if lines else []
+            names = [title[1] for title in titles]
             rows = [[float(value) for value in line.split(",")] for line in lines[1:]]
             if "t" not in names or not rows:
                 raise ValueError("no time series in it")
@@ -30,11 +31,17 @@ class Series(Mapping):
         except (OSError, ValueError) as error:
             raise Error(f"{path}: cannot read it: {error}") from None
         self._columns = dict(zip(names, np.array(rows).T))
+        self._units = {title[1]: title[2] or "" for title in titles}
 
     def __getitem__(self, name):
         if name not in self._columns:
             raise Error(f"{self.path}: no column {name}: the scene lacks its [[monitor]]")
         return self._columns[name]
+
+    def unit(self, name):
+        """"" of a number, and of what a run of before 0.2 wrote."""
+        self[name]  # there is one
+        return self._units[name]
 
     def __contains__(self, name):
         return name in self._columns

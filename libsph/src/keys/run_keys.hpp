@@ -67,7 +67,8 @@ inline constexpr Table<OutputControl> output{{"output", false, "When files are w
 inline constexpr auto monitor_keys = std::to_array<Key>({
     {"name", Text{}, "Letters, digits, _ and -.", at<&Monitor::name>, Default{"the kind"}},
     {"kind", Words{monitor_kind_words},
-     "\"group\": averages over it. Of fluids: \"gauge\": what is at a point, or along a line; \"level\": how "
+     "\"group\": averages over it. \"flux\": what passes a rectangle. Of fluids: \"gauge\": what is at a "
+     "point, or along a line; \"level\": how "
      "high above a point the surface is. Of grains: \"wall\": its place, its velocity and the force of the "
      "grains on it; \"body\": the same of a rigid solid, with its rotation and torque; \"contacts\": their "
      "number and largest overlap. Of melts \"melt\". Of heat \"budget\": "
@@ -89,6 +90,11 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
      where("kind", "gauge"), Default{"none: one point"}},
     {"points", Whole{2, 1000}, "On the line, both ends included.", at<&Monitor::points>,
      where("kind", "gauge"), Default{"11, with `to`"}},
+    {"lower", Vector{dimension::length}, "A corner of the rectangle, in 2D an end of the line.",
+     at<&Monitor::lower>, where("kind", "flux"), required},
+    {"upper", Vector{dimension::length},
+     "The corner across: the same along the one axis that the rectangle is normal to.", at<&Monitor::upper>,
+     where("kind", "flux"), required},
 });
 inline constexpr Table<Monitor> monitor{{"monitor", true, "Columns of series.csv.", monitor_keys}};
 

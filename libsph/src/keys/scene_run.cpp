@@ -117,6 +117,13 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
     check_inside(table, "at", monitor.at, scene);
     check_inside(table, "to", monitor.to, scene);
   }
+  if (*kind == MonitorKind::flux) {
+    check_inside(table, "lower", monitor.lower, scene);
+    check_inside(table, "upper", monitor.upper, scene);
+    if (normal_of(*monitor.lower, *monitor.upper, scene.dim) == static_cast<std::size_t>(scene.dim))
+      table.fail("upper", "spans no rectangle with `lower`",
+                 "they must be the same along exactly one axis, the one that it is normal to");
+  }
   if (*kind == MonitorKind::particle) {
     table.not_both("id", "nearest_to");
     if (!monitor.id && !monitor.nearest_to)

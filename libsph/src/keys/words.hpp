@@ -114,7 +114,8 @@ inline constexpr auto monitor_kind_words = std::to_array<Word>({{"particle", Mon
                                                                 {"budget", MonitorKind::budget},
                                                                 {"body", MonitorKind::body},
                                                                 {"gauge", MonitorKind::gauge},
-                                                                {"level", MonitorKind::level}});
+                                                                {"level", MonitorKind::level},
+                                                                {"flux", MonitorKind::flux}});
 inline constexpr auto melt_side_words = std::to_array<Word>({{"x0", MeltFace::x0},
                                                              {"x1", MeltFace::x1},
                                                              {"y0", MeltFace::y0},

@@ -7,9 +7,12 @@
 #include <span>
 
 #include "core/budget.hpp"
+#include "output/flux.hpp"
 #include "output/gauge.hpp"
+#include "output/monitor_units.hpp"
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
+#include "output/wall_values.hpp"
 #include "sph/models/energies.hpp"
 #include "sph/output/contact_records.hpp"
 
@@ -74,6 +77,8 @@ std::size_t sums_of(const Monitor& monitor, const State& s) {
       return Budget::names(p).size();
     case MonitorKind::contacts:
       return 3;  // contacts of grains, with what is held, number of grains
+    case MonitorKind::flux:
+      return Flux::sums;
     case MonitorKind::particle:
     case MonitorKind::wall:
     case MonitorKind::body:
@@ -128,60 +133,6 @@ void add_contact(const Monitor& monitor, const ContactRecord& contact, std::span
 
 bool looks_at_contacts(const Scene& scene, const Monitor& monitor) {
   return scene.has_grains() && (monitor.kind == MonitorKind::contacts || monitor.kind == MonitorKind::energy);
-}
-
-/// Place, velocity and force: the same on all ranks without a message.
-std::array<double, 9> values_of_wall(const Simulation& s, int wall) {
-  const auto w = static_cast<std::size_t>(wall);
-  const WallsNow walls = s.grains()->walls().now(s.global());
-  const WallState& state = s.global().walls[w];
-  std::array<double, 9> out{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (w < walls.planes.size()) {
-      out[a] = s.scale().metres(walls.planes[w].point[a]);
-      out[3 + a] = state.velocity[a];
-    } else {
-      const MeshNow& mesh = walls.meshes[w - walls.planes.size()];
-      out[a] = s.scale().metres(mesh.centre[a]) + mesh.way[a];
-      out[3 + a] = mesh.velocity[a];
-    }
-    out[6 + a] = s.grains()->walls().newton(state.force[a]);
-  }
-  return out;
-}
-
-std::vector<std::string> names_of_body(int dim) {
-  if (dim == 2) return {"x", "y", "vx", "vy", "angle", "w", "fx", "fy", "torque"};
-  return {"x",  "y",  "z",  "vx", "vy", "vz", "qw", "qx", "qy", "qz",
-          "wx", "wy", "wz", "fx", "fy", "fz", "tx", "ty", "tz"};
-}
-
-/// The same on all ranks without a message, as those of walls.
-std::vector<double> values_of_body(const Simulation& s, int group) {
-  const auto index = rigid_bodies_of(s.scene())[static_cast<std::size_t>(group)];
-  const BodyState& body = s.global().bodies[static_cast<std::size_t>(index)];
-  const int dim = s.scene().dim;
-  const auto d = static_cast<std::size_t>(dim);
-  std::vector<double> out;
-  const auto add = [&](const std::array<double, 3>& x) { out.insert(out.end(), x.begin(), x.begin() + dim); };
-  std::array<double, 3> place{}, force = body.load.force;
-  for (std::size_t a = 0; a < d; ++a) {
-    place[a] = s.scale().metres(s.wrap()(static_cast<int>(a), body.motion.centre[a]));
-    force[a] -= body.shape.heaviness * s.scene().domain.gravity[a];
-  }
-  add(place);
-  add(body.motion.velocity);
-  if (dim == 2) {
-    out.insert(out.end(), {body.motion.angle, body.motion.spin[2]});
-    add(force);
-    out.push_back(body.load.torque[2]);
-    return out;
-  }
-  out.insert(out.end(), body.motion.turn.begin(), body.motion.turn.end());
-  add(body.motion.spin);
-  add(force);
-  add(body.load.torque);
-  return out;
 }
 
 /// The values of the chosen particles, one after the other; nan of one that is gone. Bits travel unchanged: all
@@ -249,7 +200,11 @@ void Monitors::make_names(const Simulation& s) {
     if (m.kind == MonitorKind::budget) quantities = budget_names(s);
     if (is_gauge(m)) quantities = Gauge::names(s, m);
     if (m.kind == MonitorKind::melt) quantities = s.melt()->columns();
-    for (const std::string& quantity : quantities) names_.push_back(m.name + "_" + quantity);
+    if (m.kind == MonitorKind::flux) quantities = Flux::names();
+    for (const std::string& quantity : quantities) {
+      names_.push_back(m.name + "_" + quantity);
+      units_.push_back(unit_of(m.kind, quantity, s.scene().dim));
+    }
   }
 }
 
@@ -262,8 +217,10 @@ std::vector<double> Monitors::values(Simulation& s) const {
   const ParticleValues of(s);
   std::vector<std::size_t> first{0};
   std::vector<std::optional<Gauge>> gauges(monitors.size());
+  std::vector<std::optional<Flux>> fluxes(monitors.size());
   for (std::size_t k = 0; k < monitors.size(); ++k) {
     if (is_gauge(monitors[k])) gauges[k].emplace(s, monitors[k]);
+    if (monitors[k].kind == MonitorKind::flux) fluxes[k].emplace(s, monitors[k]);
     first.push_back(first.back() + (gauges[k] ? gauges[k]->sums() : sums_of(monitors[k], s)));
   }
   std::vector<decomp::ExactSum> sums(first.back());
@@ -272,6 +229,8 @@ std::vector<double> Monitors::values(Simulation& s) const {
     for (std::size_t k = 0; k < monitors.size(); ++k)
       if (gauges[k])
         gauges[k]->add(of, row, part(k));
+      else if (fluxes[k] && !is_held(s.scene().groups[of.group(row)]))
+        fluxes[k]->add(of, row, part(k));
       else if (first[k + 1] > first[k])
         add_row(s.scene(), monitors[k], of, row, part(k));
   for (std::size_t k = 0; k < monitors.size(); ++k)
@@ -315,6 +274,7 @@ std::vector<double> Monitors::values(Simulation& s) const {
         break;
       case MonitorKind::energy:
       case MonitorKind::momentum:
+      case MonitorKind::flux:
         out.insert(out.end(), sum.begin(), sum.end());
         break;
       case MonitorKind::budget:

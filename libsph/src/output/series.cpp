@@ -26,10 +26,13 @@ void open(std::ofstream& out, const std::filesystem::path& path, std::ios::openm
 
 }  // namespace
 
-Series::Series(const std::filesystem::path& path, const std::vector<std::string>& names) : path_(path) {
+Series::Series(const std::filesystem::path& path, const std::vector<std::string>& names,
+               const std::vector<std::string>& units)
+    : path_(path) {
   open(out_, path_, std::ios::out | std::ios::trunc);
-  std::string header = "step,t";
-  for (const std::string& name : names) header += "," + name;
+  std::string header = "step,t [s]";
+  for (std::size_t k = 0; k < names.size(); ++k)
+    header += units[k].empty() ? "," + names[k] : fmt::format(",{} [{}]", names[k], units[k]);
   header += '\n';
   write(header);
 }

@@ -88,7 +88,7 @@ RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_sce
                       remove_snapshots(dir_, 0, {}, {old_scene, to_toml(s.scene())});
                       write_scene(s);
                       fs::remove(dir_ / "particles.xdmf");
-                      series_.emplace(dir_ / "series.csv", monitors_.names());
+                      series_.emplace(dir_ / "series.csv", monitors_.names(), monitors_.units());
                       look_at_series();
                     });
 }

@@ -23,6 +23,7 @@
 //             z  mean coordination, (2 n + walls) / number of grains
 //   gauge     v.., rho, p and what else particles have, where it is, and cover (output/gauge.hpp); of a line 1_vx, ..
 //   level     h, of the surface above its point [m]
+//   flux      mass_rate, volume_rate: what passes a rectangle (output/flux.hpp)
 // Positions [m] are those within the periodic domain; p is the pressure above the surface pressure [Pa].
 // Walls and fixed grains are left out of energy, momentum and the number of grains.
 #pragma once
@@ -46,6 +47,7 @@ class Monitors {
 
   [[nodiscard]] const std::vector<std::uint64_t>& ids() const { return ids_; }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  [[nodiscard]] const std::vector<std::string>& units() const { return units_; }  ///< "" of numbers
   /// Collective; refreshes halo copies, and rebuilds lists, where contacts are asked for.
   [[nodiscard]] std::vector<double> values(Simulation& simulation) const;
 
@@ -53,7 +55,7 @@ class Monitors {
   void make_names(const Simulation& simulation);
 
   std::vector<std::uint64_t> ids_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_, units_;
 };
 
 /// Kinetic energy of all movers [J]. Collective.

@@ -13,8 +13,10 @@ namespace sph {
 
 class Series {
  public:
-  /// Opens for a new run (truncates) and writes the header "step,t,<names>". Throws OutputError.
-  Series(const std::filesystem::path& path, const std::vector<std::string>& names);
+  /// Opens for a new run (truncates) and writes the header "step,t [s],<name> [<unit>],..", a number's without a unit. Throws
+  /// OutputError.
+  Series(const std::filesystem::path& path, const std::vector<std::string>& names,
+         const std::vector<std::string>& units);
   /// Opens to go on: keeps the first `bytes` bytes. Throws InputError if the file is shorter, missing, or they
   /// do not have this hash.
   Series(const std::filesystem::path& path, std::uint64_t bytes, std::optional<std::uint64_t> hash);

@@ -41,7 +41,8 @@ enum class MonitorKind {
   budget,
   body,
   gauge,
-  level
+  level,
+  flux
 };
 
 struct Monitor {
@@ -55,8 +56,21 @@ struct Monitor {
   std::optional<Double3> at;  ///< gauge, level: its place [m]
   std::optional<Double3> to;  ///< gauge: it is a line from `at` to this point [m], of ...
   std::optional<std::uint64_t> points;  ///< ... so many points, 11 if not given
+  std::optional<Double3> lower, upper;  ///< flux: corners of its rectangle, thin along one axis [m]
   friend bool operator==(const Monitor&, const Monitor&) = default;
 };
+
+/// The axis along which a box has no width; the number of dimensions where there is not exactly one.
+[[nodiscard]] inline std::size_t normal_of(const Double3& lower, const Double3& upper, int dim) {
+  const auto d = static_cast<std::size_t>(dim);
+  std::size_t found = d, thin = 0;
+  for (std::size_t a = 0; a < d; ++a) {
+    if (lower[a] != upper[a]) continue;
+    found = a;
+    ++thin;
+  }
+  return thin == 1 ? found : d;
+}
 
 struct OutputControl {
   double snapshot_interval = 0;           ///< [s] of scene time; 0: only the last state

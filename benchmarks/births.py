@@ -1,0 +1,67 @@
+#!/usr/bin/python3
+"""A silo that fills, empties and fills again until a million grains have come: on one rank, and on one, two and three in turn, gone on
+with from checkpoints ten times. Prints how many came and left, that none was lost, whether the bits are the same, and the time.
+
+births.py BUILD [--births 1000000]
+"""
+import argparse
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from speed import here, run
+
+sys.path.append(str(here.parent / "apps/python"))
+import peperite  # noqa: E402
+
+SCENE = here.parent / "tests/scenes/grains_silo.toml"
+STEP, CYCLE, DUST = 15e-6, 0.3, 250  # [s, s, grains of dust that come in a millisecond]
+LEGS = 10
+
+
+def settings(steps):
+    """Sand comes in the first half of each cycle."""
+    times = [k * CYCLE / 2 for k in range(2 + int(2 * steps * STEP / CYCLE))]
+    sand = [point for k, t in enumerate(times) for point in ([t, 0.2 * (k % 2 == 0)], [t + 0.49 * CYCLE, 0.2 * (k % 2 == 0)])]
+    return (f"insertion.0.rate={sand}", f"time.steps={steps}", "output.series_interval=0.01", 'monitor=[{kind="budget"}]')
+
+
+def legs(program, folder, steps, ranks):
+    words = [word for s in settings(steps) for word in ("--set", s)]
+    began = time.monotonic()
+    for leg in range(1, len(ranks) + 1):
+        what = ["run", SCENE, "--out", folder, *words] if leg == 1 else ["resume", folder]
+        run(["mpirun", "-np", str(ranks[leg - 1]), program, *what, "--steps", str(steps * leg // len(ranks))])
+    return peperite.open(folder), time.monotonic() - began
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("build", type=Path)
+    arguments.add_argument("--births", type=int, default=1_000_000)
+    options = arguments.parse_args()
+    program = os.path.abspath(options.build / "bin/peperite")
+    steps = round(options.births / (DUST + 100) / 1e3 / STEP / LEGS) * LEGS  # of sand there come 100 in a millisecond
+    with tempfile.TemporaryDirectory() as work:
+        one, took = legs(program, f"{work}/one", steps, [1])
+        many, _ = legs(program, f"{work}/many", steps, [1 + leg % 3 for leg in range(LEGS)])
+        series = one.series
+        came, left = int(series["budget_n_in"][-1]), int(series["budget_n_out"][-1])
+        here_now = came - left + len(one[0])
+        print(f"{steps} steps, {came} grains came, {left} left, {len(one[-1])} are there"
+              f"{'' if here_now == len(one[-1]) else f', but there should be {here_now}'}")
+        held = series["budget_mass"] + series["budget_mass_out"] - series["budget_mass_in"]
+        print(f"mass, less what came, with what left: off by at most {abs(held / held[0] - 1).max():.1e}")
+        there = series["budget_n_in"] - series["budget_n_out"]
+        fills = sum(a < b > c for a, b, c in zip(there[:-20:20], there[10:-10:20], there[20::20]))
+        print(f"filled and emptied {fills} times, {there.min():.0f} to {there.max():.0f} more than at the start")
+        same = one.perf["fingerprint"] == many.perf["fingerprint"]
+        print(f"one rank, and 1 to 3 ranks over {LEGS - 1} restarts: {'the same bits' if same else 'OTHER BITS'}, {one.perf['fingerprint']}")
+        print(f"{took:.0f} s on one rank")
+    return 0 if same and here_now == len(one[-1]) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,56 @@
+#include "output/flux.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numbers>
+
+namespace sph {
+
+Flux::Flux(const Simulation& s, const Monitor& monitor)
+    : scene_(&s.scene()),
+      wrap_(s.wrap()),
+      quantum_(s.scale().quantum),
+      d_(static_cast<std::size_t>(s.scene().dim)),
+      normal_(normal_of(*monitor.lower, *monitor.upper, s.scene().dim)) {
+  for (std::size_t a = 0; a < d_; ++a) {
+    lower_[a] = s.scale().quanta(std::min((*monitor.lower)[a], (*monitor.upper)[a]));
+    upper_[a] = s.scale().quanta(std::max((*monitor.lower)[a], (*monitor.upper)[a]));
+  }
+}
+
+double Flux::weight(const ParticleValues& of, std::size_t row) const {
+  const Particles& p = of.particles();
+  for (std::size_t a = 0; a < d_; ++a) {
+    const std::int64_t x = of.quanta(row, a);
+    if (a != normal_ && (x < lower_[a] || x >= upper_[a])) return 0;
+  }
+  const double* widths = p.data<Field::smoothing_length>();
+  const bool grain = scene_->groups[of.group(row)].kind == GroupKind::grain;
+  const double size = grain               ? 2 * p.data<Field::radius>()[row]
+                      : widths != nullptr ? widths[row]
+                                          : scene_->kernel.smoothing_length;
+  std::int64_t way = std::abs(of.quanta(row, normal_) - lower_[normal_]);
+  const std::int64_t period = wrap_.period[normal_];
+  if (period > 0) way = std::min(way, period - way);
+  const double reach = 2 * size, r = static_cast<double>(way) * quantum_ / reach;
+  constexpr double peak = 0.75;  // the integral over -1..1 is 1
+  return r < 1 ? peak / reach * (1 - r * r) : 0;
+}
+
+void Flux::add(const ParticleValues& of, std::size_t row, std::span<decomp::ExactSum> to) const {
+  const double w = weight(of, row);
+  if (w == 0) return;
+  const Particles& p = of.particles();
+  double volume = 0;
+  if (scene_->groups[of.group(row)].kind == GroupKind::grain) {
+    const double r = p.data<Field::radius>()[row];
+    volume = 4 * std::numbers::pi / 3 * r * r * r;
+  } else {
+    volume = of.mass(row) / p.data<Field::density>()[row];
+  }
+  const double passing = w * of.velocity(row, normal_);
+  to[0].add(of.mass(row) * passing);
+  to[1].add(volume * passing);
+}
+
+}  // namespace sph

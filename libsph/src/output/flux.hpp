@@ -1,0 +1,38 @@
+// What flows through a rectangle normal to an axis, in 2D a line: the mean over a slab around it,
+//     sum m v_n w(r_n),    w(r) = 3/(4 s) (1 - (r/s)^2), |r| < s,
+// of the particles within its edges; s is two smoothing lengths, of a grain four radii. What has passed since some time ago is its
+// integral exactly, but for what is in the slab now and was then: d/dt sum m Theta(r_n) = sum m v_n w(r_n), Theta' = w.
+// Sums are exact: the same bits on any number of ranks.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "decomp/exact_sum.hpp"
+#include "output/particle_values.hpp"
+
+namespace sph {
+
+class Flux {
+ public:
+  static constexpr std::size_t sums = 2;
+
+  Flux(const Simulation& simulation, const Monitor& monitor);
+  /// Positive towards greater coordinates [kg/s, m^3/s; in 2D per metre of depth].
+  [[nodiscard]] static std::vector<std::string> names() { return {"mass_rate", "volume_rate"}; }
+  /// Of a particle that moves.
+  void add(const ParticleValues& of, std::size_t row, std::span<decomp::ExactSum> to) const;
+
+ private:
+  [[nodiscard]] double weight(const ParticleValues& of, std::size_t row) const;
+
+  const Scene* scene_;
+  Wrap wrap_;
+  double quantum_;
+  std::size_t d_, normal_ = 0;
+  std::array<std::int64_t, 3> lower_{}, upper_{};  ///< of the rectangle [quanta], the same along its normal
+};
+
+}  // namespace sph
