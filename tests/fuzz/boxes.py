@@ -1,7 +1,10 @@
 """Where a scene of SPH has matter: a lattice of n cells along each axis, what ends it on each side, and regions."""
 
+import functools
 import math
+from pathlib import Path
 
+RING = Path(__file__).resolve().parents[1] / "scenes/ring.obj"
 ENDS = {2: {"open": 3, "wall": 3, "floor": 2, "periodic": 4}, 3: {"open": 4, "wall": 3, "floor": 2, "periodic": 2}}
 
 
@@ -70,9 +73,17 @@ class Box:
             group = r.one("group", groups + ["none"])
             centre = [r.real(f"centre/{a}", 0, n) for a, n in enumerate(self.n)]
             size = r.log("size", least, max(least, 0.4 * max(self.n)))
-            shape = r.weighted("shape", {"ball": 3, "box": 3, "cylinder": 1, "cone": 1})
+            shape = r.weighted("shape", {"ball": 3, "box": 3, "cylinder": 1, "cone": 1, "polygon" if self.dim == 2 else "mesh": 1})
             if shape == "ball":
                 out.append({"group": group, "shape": "ball", "centre": centre, "radius": size})
+            elif shape == "polygon":
+                corners = r.whole("corners", 3, 7)
+                turned = [2 * math.pi * r.whole("step", 1, 2) * c / corners for c in range(corners)]
+                out.append({"group": group, "shape": shape, "points": [
+                    [centre[0] + size * r.log(f"reach/{c}", 0.5, 2) * math.cos(a), centre[1] + size * math.sin(a)]
+                    for c, a in enumerate(turned)]})
+            elif shape == "mesh":
+                out.append({"group": group, "shape": shape, "file": str(RING), "scale": size, "origin": centre})
             elif shape != "box":
                 axis = r.whole("axis", 0, self.dim - 1)
                 end = [c + size * r.one("way", [-1.5, 1.5]) * (a == axis) for a, c in enumerate(centre)]
@@ -89,13 +100,44 @@ class Box:
 def scaled(region, dx, offset):
     """In metres."""
     out = dict(region)
-    for key in ("lower", "upper", "centre", "from", "to"):
+    for key in ("lower", "upper", "centre", "from", "to", "origin"):
         if key in out:
             out[key] = [dx * x + o for x, o in zip(out[key], offset)]
-    for key in ("radius", "top_radius"):
+    if "points" in out:
+        out["points"] = [[dx * x + o for x, o in zip(point, offset)] for point in out["points"]]
+    for key in ("radius", "top_radius", "scale"):
         if key in out:
             out[key] *= dx
     return out
+
+
+def odd(corners, point):
+    """Whether a ray along x crosses the edges between these corners an odd number of times."""
+    inside = False
+    for u, v in zip(corners, corners[1:] + corners[:1]):
+        if (u[1] > point[1]) != (v[1] > point[1]):
+            inside ^= point[0] < u[0] + (point[1] - u[1]) * (v[0] - u[0]) / (v[1] - u[1])
+    return inside
+
+
+@functools.cache
+def ring():
+    lines = [line.split() for line in RING.read_text().splitlines()]
+    corners = [[float(x) for x in words[1:]] for words in lines if words[0] == "v"]
+    return [[corners[int(k) - 1] for k in words[1:]] for words in lines if words[0] == "f"]
+
+
+def in_ring(point):
+    """A ray along z: its facets are flat."""
+    inside = False
+    for facet in ring():
+        if not odd([corner[:2] for corner in facet], point[:2]):
+            continue
+        p, q, r = facet[:3]
+        a, b = [y - x for x, y in zip(p, q)], [y - x for x, y in zip(p, r)]
+        normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        inside ^= point[2] < p[2] - sum((x - y) * n for x, y, n in zip(point[:2], p[:2], normal[:2])) / normal[2]
+    return inside
 
 
 def painted(regions, point):
@@ -114,6 +156,10 @@ def painted(regions, point):
             top = r["radius"] if shape == "cylinder" else r.get("top_radius", 0)
             inside = 0 <= part < 1 and sum((x - c) ** 2 for a, (x, c) in enumerate(zip(point, r["from"])) if a != axis) < (
                 r["radius"] + (top - r["radius"]) * part) ** 2
+        if shape == "polygon":
+            inside = odd(r["points"], point)
+        if shape == "mesh":
+            inside = in_ring([(x - o) / r["scale"] for x, o in zip(point, r["origin"])])
         if inside:
             group = None if r["group"] == "none" else r["group"]
     return group

@@ -80,6 +80,20 @@ const std::string painted_cube =
     region("oil", ball("[0.6, 0.4, 0.3]", 0.233)) + region("water", ball("[0.61, 0.4, 0.3]", 0.05)) +
     region("oil", ball("[0.95, 0.75, 0.55]", 0.2));
 
+std::string polygon(const std::string& points) { return "shape = \"polygon\"\npoints = " + points + "\n"; }
+std::string ring(const std::string& origin, double scale) {
+  return "shape = \"mesh\"\nfile = \"" PEPERITE_TEST_DIR "/scenes/ring.obj\"\norigin = " + origin +
+         "\nscale = " + std::to_string(scale) + "\n";
+}
+const std::string bays_of_square =
+    region("water", "") +
+    region("oil", polygon("[[0.1, -0.4], [0.9, -0.3], [0.8, 0.4], [0.6, -0.2], [0.3, 0.45]]")) +
+    region("none", polygon("[[0.2, -0.1], [0.7, 0.1], [0.7, -0.1], [0.2, 0.1]]")) +
+    region("wall", ball("[0.5, 0.2]", 0.1));
+const std::string bays_of_cube = region("water", "") + region("oil", ring("[0.5, 0.4, 0.3]", 0.25)) +
+                                 region("none", ring("[0.2, 0.1, 0.5]", 0.2)) +
+                                 region("wall", ball("[0.5, 0.4, 0.3]", 0.1));
+
 class StartCounts : public ::testing::Test {
  protected:
   void expect_as_placed(const Scene& scene) {
@@ -121,6 +135,10 @@ TEST_F(StartCounts, EqualWhatIsPlaced) {
     expect_as_placed(scene_of(cube, dx + "lattice = \"fcc\"\n" + pointed_cube));
     expect_as_placed(scene_of(cube, dx + painted_cube));
     expect_as_placed(scene_of(cube, dx + "lattice = \"fcc\"\n" + painted_cube));
+    expect_as_placed(scene_of(square, dx + bays_of_square));
+    expect_as_placed(scene_of(square, dx + "lattice = \"hexagonal\"\n" + bays_of_square));
+    expect_as_placed(scene_of(cube, dx + bays_of_cube));
+    expect_as_placed(scene_of(cube, dx + "lattice = \"fcc\"\n" + bays_of_cube));
   }
 }
 

@@ -12,6 +12,10 @@ inline constexpr Special curve_of_time{
     "a value, or an array of times and values", R"([["0 s", 1.0], ["2 s", 3.0]])",
     R"({"type": ["number", "string", "array"], "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["number", "string"]}}})"};
 
+inline constexpr Special corners_of_polygon{
+    "an array of corners", R"([[0, 0], ["3 m", 0], ["1 m", "2 m"]])",
+    R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["number", "string"]}}})"};
+
 /// Scenes of fluids and solids; `why` those of grains alone have no such key.
 constexpr Condition sph_only(std::string_view why) {
   return {[](const Scene& s) { return s.has_matter(); }, "fluids and solids", why};

@@ -214,7 +214,7 @@ inline constexpr Where bubbly = where("eos", "bubbly"), gas = where("eos", "idea
 inline constexpr Where solid = where("kind", "solid"), walls = where("kind", "wall");
 inline constexpr Where grain = where("kind", "grain");
 inline constexpr Where not_of_grains = unless("kind", "grain", "grains have no temperature");
-inline constexpr Where matter{"kind", "fluid", {}, {}, "solid"};
+inline constexpr Where matter = among("kind", "fluid", "solid");
 inline constexpr Where of_sph = unless(
     "kind", "grain", "it is of fluids and solids; grains have a contact law, melts flow slowly", "melt");
 inline constexpr Where of_viscous =

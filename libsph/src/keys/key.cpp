@@ -98,18 +98,22 @@ std::string default_of(const Key& key) {
 
 std::string place_of(const Key& key) {
   std::string out(key.scenes.of);
-  for (const Where& w : key.where)
-    if (!w.key.empty())
-      out +=
-          fmt::format("{}{} {} \"{}\"{}", out.empty() ? "" : ", ", w.key, w.but.empty() ? "=" : "!=", w.word,
-                      w.or_word.empty() ? "" : fmt::format(", \"{}\"", w.or_word));
+  for (const Where& w : key.where) {
+    if (w.key.empty()) continue;
+    out += fmt::format("{}{} {} \"{}\"", out.empty() ? "" : ", ", w.key, w.but.empty() ? "=" : "!=", w.word);
+    for (std::string_view other : {w.or_word, w.or_third})
+      if (!other.empty()) out += fmt::format(", \"{}\"", other);
+  }
   return out;
 }
 
 std::string refusal(const KeyTable& table, const Where& where) {
   if (!where.but.empty()) return std::string(where.but);
   const bool many = !table.plural.empty();
-  const std::string other = where.or_word.empty() ? "" : fmt::format(" or \"{}\"", where.or_word);
+  std::string other;
+  if (!where.or_word.empty())
+    other = fmt::format("{} \"{}\"", where.or_third.empty() ? " or" : ",", where.or_word);
+  if (!where.or_third.empty()) other += fmt::format(" or \"{}\"", where.or_third);
   return fmt::format("only {}{} = \"{}\"{} {} it{}", many ? fmt::format("{} with ", table.plural) : "",
                      where.key, where.word, other, many ? "have" : "has", where.more);
 }

@@ -83,19 +83,23 @@ struct Condition {
 };
 
 /// A key of some elements of its table: of those whose `key` is `word` (absent, it is the first of its words) or,
-/// if `but` says why, of all others; `or_word` is another such word.
+/// if `but` says why, of all others; `or_word` and `or_third` are other such words.
 struct Where {
-  std::string_view key, word, more, but, or_word;
+  std::string_view key, word, more, but, or_word, or_third;
   [[nodiscard]] constexpr bool holds(std::string_view is) const {
-    return (is == word || (!or_word.empty() && is == or_word)) == but.empty();
+    return (is == word || (!is.empty() && (is == or_word || is == or_third))) == but.empty();
   }
 };
 constexpr Where where(std::string_view key, std::string_view word, std::string_view more = {}) {
-  return {key, word, more, {}, {}};
+  return {key, word, more, {}, {}, {}};
+}
+constexpr Where among(std::string_view key, std::string_view word, std::string_view or_word,
+                      std::string_view or_third = {}) {
+  return {key, word, {}, {}, or_word, or_third};
 }
 constexpr Where unless(std::string_view key, std::string_view word, std::string_view but,
                        std::string_view or_word = {}) {
-  return {key, word, {}, but, or_word};
+  return {key, word, {}, but, or_word, {}};
 }
 
 /// Of a key that must be there.

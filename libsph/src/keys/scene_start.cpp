@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "core/nearest.hpp"
+#include "files/mesh_file.hpp"
 #include "keys/scene_resolve.hpp"
+#include "scene/mesh_volume.hpp"
 
 namespace sph {
 namespace {
@@ -20,6 +24,14 @@ bool can_move(const Group& group) { return group.kind != GroupKind::wall && !gro
 /// The box around a region, along x, y, z.
 std::array<std::array<double, 2>, 3> extent_of(const Region& r) {
   std::array<std::array<double, 2>, 3> out{};
+  for (const auto& point : r.points)
+    for (std::size_t a = 0; a < 2; ++a)
+      out[a] = &point == r.points.data()
+                   ? std::array{point[a], point[a]}
+                   : std::array{std::min(out[a][0], point[a]), std::max(out[a][1], point[a])};
+  if (r.shape == RegionShape::mesh)
+    for (std::size_t a = 0; a < 3; ++a) out[a] = {r.read.volume->lower()[a], r.read.volume->upper()[a]};
+  if (r.shape == RegionShape::polygon || r.shape == RegionShape::mesh) return out;
   for (std::size_t a = 0; a < 3; ++a) {
     const double widest = std::max(r.radius, r.shape == RegionShape::cone ? r.top_radius : 0.0);
     const double aside = r.from[a] == r.to[a] ? widest : 0;
@@ -35,8 +47,9 @@ void check_place(const Reader<keys::region>& table, const Region& region, const 
   const LatticeFill& lattice = scene.start.lattice;
   if (region.shape == RegionShape::everywhere) return;
   const bool pointed = region.shape == RegionShape::cone && region.top_radius > 0;
-  if (region.shape != RegionShape::box && !pointed && !(region.radius > 0))
-    table.fail("radius", "is 0", "it must be positive");
+  const bool round = region.shape == RegionShape::ball || region.shape == RegionShape::cylinder ||
+                     region.shape == RegionShape::cone;
+  if (round && !pointed && !(region.radius > 0)) table.fail("radius", "is 0", "it must be positive");
   if (region.shape == RegionShape::cylinder || region.shape == RegionShape::cone) {
     int along = 0;
     for (std::size_t a = 0; a < 3; ++a) along += region.from[a] != region.to[a] ? 1 : 0;
@@ -55,9 +68,44 @@ void check_place(const Reader<keys::region>& table, const Region& region, const 
     table.fail("shape", "lies outside the filled lattice", "move it between start.lower and start.upper");
 }
 
+void read_points(const Reader<keys::region>& table, const Scene& scene, Region& region) {
+  if (scene.dim != 2) table.fail("shape", "is \"polygon\", which exists in 2D only", "use \"mesh\"");
+  const std::optional<KeyValue> value = table.value("points");
+  if (!value) table.fail_missing("points", "give [[x, y], ...]");
+  const toml_tree::Array* points = value->node().array();
+  if (points == nullptr || points->size() < 3)
+    value->fail("is no polygon", "give three corners or more, [[x, y], ...]");
+  for (const toml_tree::Node& point : *points) {
+    const toml_tree::Array* pair = point.array();
+    if (pair == nullptr || pair->size() != 2)
+      value->fail("has a corner that is no pair", "give [[x, y], ...]");
+    region.points.push_back(
+        {value->number_in((*pair)[0], dimension::length), value->number_in((*pair)[1], dimension::length)});
+  }
+}
+
+void read_volume(const Reader<keys::region>& table, const Scene& scene, Region& region) {
+  if (scene.dim != 3) table.fail("shape", "is \"mesh\", which exists in 3D only", "use \"polygon\"");
+  const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+  region.file = std::filesystem::absolute(folder / region.file).lexically_normal().string();
+  check_file(table, "file", region.file);
+  const std::string content = hash_of_file(region.file);
+  if (!region.content.empty() && content != region.content)
+    table.fail("file", fmt::format("\"{}\" is another than the run began with", region.file),
+               "restore it, or begin a new run");
+  region.content = content;
+  Triangles read =
+      read_triangles(region.file, fmt::format("{}: start.region.file: \"{}\"", scene.file, region.file));
+  for (auto& v : read.vertices)
+    for (std::size_t a = 0; a < 3; ++a) v[a] = v[a] * region.scale + region.origin[a];
+  region.read.volume = std::make_shared<const MeshVolume>(std::move(read.vertices), std::move(read.corners));
+}
+
 Region read_region(const Reader<keys::region>& table, const Scene& scene) {
   Region region;
   table.read(region);
+  if (region.shape == RegionShape::polygon) read_points(table, scene, region);
+  if (region.shape == RegionShape::mesh) read_volume(table, scene, region);
   if (const Group* g = region.group < 0 ? nullptr : &scene.groups[static_cast<std::size_t>(region.group)];
       g != nullptr && g->kind == GroupKind::grain) {
     if (scene.has_grains_in_flow())

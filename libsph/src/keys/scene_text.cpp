@@ -12,6 +12,13 @@
 namespace sph {
 namespace {
 
+std::string points_text(const Region& region) {
+  std::vector<std::string> points;
+  for (const auto& [x, y] : region.points)
+    points.push_back(fmt::format("[{}, {}]", SceneWriter::real(x), SceneWriter::real(y)));
+  return fmt::format("[{}]", fmt::join(points, ", "));
+}
+
 void write_start_motion(SceneWriter& out, const RigidMaterial& body, int dim) {
   std::vector<std::string> held;
   for (std::size_t k = 0; k < body.held.size(); ++k)
@@ -57,7 +64,10 @@ void write_start(SceneWriter& out, const Scene& scene) {
     out.text("velocity", s.velocity.kind == InitialVelocity::rest ? "rest" : "taylor_green");
   if (!s.tile.file.empty()) out.table(keys::tile, s.tile);
   for (const Layer& layer : s.layers) out.table(keys::layer, layer);
-  for (const Region& region : s.lattice.regions) out.table(keys::region, region);
+  for (const Region& region : s.lattice.regions) {
+    out.table(keys::region, region);
+    if (!region.points.empty()) out.raw("points", points_text(region));
+  }
   for (const GrainFill& fill : s.fills) out.table(keys::fill, fill);
 }
 

@@ -17,14 +17,28 @@ inline constexpr auto region_keys = std::to_array<Key>({
     {"from", Vector{dimension::length},
      "Of a cylinder or cone: one end of its axis, which is parallel to x, y or z; in two dimensions they are "
      "a box and a trapezium.",
-     at<&Region::from>, Where{"shape", "cylinder", {}, {}, "cone"}, required},
-    {"to", Vector{dimension::length}, "The other end.", at<&Region::to>,
-     Where{"shape", "cylinder", {}, {}, "cone"}, required},
-    {"radius", Number{dimension::length, not_negative}, "Of a ball, a cylinder or a cone at `from`.",
-     at<&Region::radius>, unless("shape", "everywhere", "it is of balls, cylinders and cones", "box"),
+     at<&Region::from>, among("shape", "cylinder", "cone"), required},
+    {"to", Vector{dimension::length}, "The other end.", at<&Region::to>, among("shape", "cylinder", "cone"),
      required},
+    {"radius", Number{dimension::length, not_negative}, "Of a ball, a cylinder or a cone at `from`.",
+     at<&Region::radius>, among("shape", "ball", "cylinder", "cone"), required},
     {"top_radius", Number{dimension::length, not_negative}, "Of a cone at `to`.", at<&Region::top_radius>,
      where("shape", "cone")},
+    {"points", corners_of_polygon,
+     "Of a polygon, in two dimensions: its corners one after the other; the last is joined to the first.",
+     where("shape", "polygon"), required},
+    {"file", File{},
+     "Of a mesh, in three dimensions: STL (text or binary) or OBJ, its path from the folder of the scene, of "
+     "closed "
+     "surfaces; where two of them enclose a place it is outside.",
+     at<&Region::file>, where("shape", "mesh"), required},
+    {"content", Text{},
+     "Hash of the file: a run goes on with the file that it began with. Written by the program.",
+     at<&Region::content>, where("shape", "mesh"), Default{"of the file as it is"}},
+    {"scale", Number{dimension::length, positive}, "A unit of the file, \"1 mm\" say.", at<&Region::scale>,
+     where("shape", "mesh")},
+    {"origin", Vector{dimension::length}, "Where the origin of the file is.", at<&Region::origin>,
+     where("shape", "mesh")},
 });
 inline constexpr Table<Region> region{
     {"start.region", true, "A lattice point belongs to the last region that contains it.", region_keys}};

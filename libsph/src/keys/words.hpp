@@ -88,7 +88,9 @@ inline constexpr auto region_shape_words = std::to_array<Word>({{"everywhere", R
                                                                 {"box", RegionShape::box},
                                                                 {"ball", RegionShape::ball},
                                                                 {"cylinder", RegionShape::cylinder},
-                                                                {"cone", RegionShape::cone}});
+                                                                {"cone", RegionShape::cone},
+                                                                {"polygon", RegionShape::polygon},
+                                                                {"mesh", RegionShape::mesh}});
 inline constexpr auto lattice_kind_words = std::to_array<Word>(
     {{"square", LatticeKind::square}, {"hexagonal", LatticeKind::hexagonal}, {"fcc", LatticeKind::fcc}});
 inline constexpr auto initial_pressure_words =

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scene/mesh_volume.hpp"
 #include "sph/scene/scene.hpp"
 
 namespace sph {
@@ -28,10 +29,23 @@ namespace sph {
   return distance2;
 }
 
-/// Monotonic in each axis' distance from the region's middle, as computed: a row of the lattice meets it in
+/// Whether a row of the lattice may leave a region and meet it again.
+[[nodiscard]] inline bool has_bays(const Region& r) {
+  return r.shape == RegionShape::polygon || r.shape == RegionShape::mesh;
+}
+[[nodiscard]] inline bool is_in_polygon(const Region& r, const Double3& x) {
+  bool inside = false;
+  for (std::size_t k = 0; k < r.points.size(); ++k)
+    inside ^= passes_beyond(r.points[k], r.points[(k + 1) % r.points.size()], {x[0], x[1]});
+  return inside;
+}
+
+/// Without bays monotonic in each axis' distance from the region's middle, as computed: a row of the lattice meets it in
 /// one interval.
 inline bool contains(const Region& r, const Double3& x, std::size_t dim) {
   if (r.shape == RegionShape::everywhere) return true;
+  if (r.shape == RegionShape::polygon) return is_in_polygon(r, x);
+  if (r.shape == RegionShape::mesh) return r.read.volume->contains(x);
   if (r.shape == RegionShape::cylinder || r.shape == RegionShape::cone) {
     const double part = part_of_axis(r, x[axis_of(r)]), radius = radius_at(r, part);
     return part >= 0 && part < 1 && from_axis2(r, x, dim) < radius * radius;

@@ -52,9 +52,23 @@ class Row {
       case RegionShape::cone:
         return within_cone(r);
       case RegionShape::everywhere:
+      case RegionShape::polygon:
+      case RegionShape::mesh:
         break;
     }
     return {lattice_.first(0), lattice_.first(0) + lattice_.count(0)};
+  }
+  /// Of one with bays each interval within `all`.
+  template <class Visit>
+  void for_parts(const Region& r, const Interval& all, Visit&& visit) const {
+    if (!has_bays(r)) return visit(all);
+    const std::size_t d = static_cast<std::size_t>(scene_.dim);
+    for (std::int64_t k = all.first; k < all.end;) {
+      const std::int64_t first = k;
+      const bool inside = contains(r, lattice_.point({k, at_[1], at_[2]}), d);
+      while (k < all.end && contains(r, lattice_.point({k, at_[1], at_[2]}), d) == inside) ++k;
+      if (inside) visit(Interval{first, k});
+    }
   }
 
  private:
@@ -157,7 +171,8 @@ void count_lattice(const decomp::Comm& comm, const Scene& scene, StartCount& cou
     for (const Region& region : scene.start.lattice.regions) {
       const Interval all = row.within(region);
       const Interval part{std::max(all.first, filled.first), std::min(all.end, filled.end)};
-      if (part.first < part.end) painted.push_back({part, region.group});
+      if (part.first >= part.end) continue;
+      row.for_parts(region, part, [&](const Interval& i) { painted.push_back({i, region.group}); });
     }
     add_row(painted, y, z, tally);
   }

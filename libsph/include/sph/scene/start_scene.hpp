@@ -1,7 +1,9 @@
 // The first state of a scene: [start] and the tables in it.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +12,15 @@
 
 namespace sph {
 
-enum class RegionShape { everywhere, box, ball, cylinder, cone };
+enum class RegionShape { everywhere, box, ball, cylinder, cone, polygon, mesh };
+
+class MeshVolume;
+
+/// What was read of a file that is named beside it.
+struct ReadVolume {
+  std::shared_ptr<const MeshVolume> volume;
+  friend bool operator==(const ReadVolume&, const ReadVolume&) { return true; }
+};
 
 /// Painter's rule: a lattice point belongs to the last region that contains it. group -1 leaves it empty.
 struct Region {
@@ -21,6 +31,12 @@ struct Region {
   Double3 from{}, to{};      ///< cylinder, cone: ends of the axis, which is that of a coordinate [m]
   double radius = 0;         ///< of a cone at `from` ...
   double top_radius = 0;     ///< ... and at `to`
+  std::vector<std::array<double, 2>> points;  ///< polygon: its corners [m]
+  std::string file;                           ///< mesh: closed triangles, STL or OBJ ...
+  std::string content;                        ///< ... hash of what was read when the run began ...
+  double scale = 1;                           ///< ... metres of a unit of the file ...
+  Double3 origin{};                           ///< ... and where its origin is [m]
+  ReadVolume read;
   friend bool operator==(const Region&, const Region&) = default;
 };
 
