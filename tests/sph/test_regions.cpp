@@ -58,7 +58,7 @@ Region box(const Double3& lower, const Double3& upper) {
 Region mesh(MeshVolume volume) {
   Region r;
   r.shape = RegionShape::mesh;
-  r.read.volume = std::make_shared<const MeshVolume>(std::move(volume));
+  r.mesh.volume = std::make_shared<const MeshVolume>(std::move(volume));
   return r;
 }
 
@@ -147,8 +147,8 @@ TEST(Regions, AreWrittenAsTheyWereRead) {
   const Scene s = parse_scene(ring_scene("scale = 0.5\norigin = [0.1, 0, 0]\n"), "ring.toml", {});
   EXPECT_EQ(parse_scene(to_toml(s), "ring.toml", {}), s);
   const Scene again = parse_scene(to_toml(s), "elsewhere/ring.toml", {});
-  EXPECT_EQ(again.start.lattice.regions.at(0).file, s.start.lattice.regions.at(0).file);
-  EXPECT_EQ(s.start.lattice.regions.at(0).content.size(), 16U);
+  EXPECT_EQ(again.start.lattice.regions.at(0).mesh.file, s.start.lattice.regions.at(0).mesh.file);
+  EXPECT_EQ(s.start.lattice.regions.at(0).mesh.content.size(), 16U);
 }
 
 // A run goes on with the file that it began with.

@@ -30,7 +30,7 @@ std::array<std::array<double, 2>, 3> extent_of(const Region& r) {
                    ? std::array{point[a], point[a]}
                    : std::array{std::min(out[a][0], point[a]), std::max(out[a][1], point[a])};
   if (r.shape == RegionShape::mesh)
-    for (std::size_t a = 0; a < 3; ++a) out[a] = {r.read.volume->lower()[a], r.read.volume->upper()[a]};
+    for (std::size_t a = 0; a < 3; ++a) out[a] = {r.mesh.volume->lower()[a], r.mesh.volume->upper()[a]};
   if (r.shape == RegionShape::polygon || r.shape == RegionShape::mesh) return out;
   for (std::size_t a = 0; a < 3; ++a) {
     const double widest = std::max(r.radius, r.shape == RegionShape::cone ? r.top_radius : 0.0);
@@ -87,18 +87,18 @@ void read_points(const Reader<keys::region>& table, const Scene& scene, Region& 
 void read_volume(const Reader<keys::region>& table, const Scene& scene, Region& region) {
   if (scene.dim != 3) table.fail("shape", "is \"mesh\", which exists in 3D only", "use \"polygon\"");
   const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
-  region.file = std::filesystem::absolute(folder / region.file).lexically_normal().string();
-  check_file(table, "file", region.file);
-  const std::string content = hash_of_file(region.file);
-  if (!region.content.empty() && content != region.content)
-    table.fail("file", fmt::format("\"{}\" is another than the run began with", region.file),
+  region.mesh.file = std::filesystem::absolute(folder / region.mesh.file).lexically_normal().string();
+  check_file(table, "file", region.mesh.file);
+  const std::string content = hash_of_file(region.mesh.file);
+  if (!region.mesh.content.empty() && content != region.mesh.content)
+    table.fail("file", fmt::format("\"{}\" is another than the run began with", region.mesh.file),
                "restore it, or begin a new run");
-  region.content = content;
-  Triangles read =
-      read_triangles(region.file, fmt::format("{}: start.region.file: \"{}\"", scene.file, region.file));
+  region.mesh.content = content;
+  Triangles read = read_triangles(region.mesh.file,
+                                  fmt::format("{}: start.region.file: \"{}\"", scene.file, region.mesh.file));
   for (auto& v : read.vertices)
-    for (std::size_t a = 0; a < 3; ++a) v[a] = v[a] * region.scale + region.origin[a];
-  region.read.volume = std::make_shared<const MeshVolume>(std::move(read.vertices), std::move(read.corners));
+    for (std::size_t a = 0; a < 3; ++a) v[a] = v[a] * region.mesh.scale + region.mesh.origin[a];
+  region.mesh.volume = std::make_shared<const MeshVolume>(std::move(read.vertices), std::move(read.corners));
 }
 
 Region read_region(const Reader<keys::region>& table, const Scene& scene) {

@@ -31,14 +31,14 @@ inline constexpr auto region_keys = std::to_array<Key>({
      "Of a mesh, in three dimensions: STL (text or binary) or OBJ, its path from the folder of the scene, of "
      "closed "
      "surfaces; where two of them enclose a place it is outside.",
-     at<&Region::file>, where("shape", "mesh"), required},
+     at<&Region::mesh, &RegionMesh::file>, where("shape", "mesh"), required},
     {"content", Text{},
      "Hash of the file: a run goes on with the file that it began with. Written by the program.",
-     at<&Region::content>, where("shape", "mesh"), Default{"of the file as it is"}},
-    {"scale", Number{dimension::length, positive}, "A unit of the file, \"1 mm\" say.", at<&Region::scale>,
-     where("shape", "mesh")},
-    {"origin", Vector{dimension::length}, "Where the origin of the file is.", at<&Region::origin>,
-     where("shape", "mesh")},
+     at<&Region::mesh, &RegionMesh::content>, where("shape", "mesh"), Default{"of the file as it is"}},
+    {"scale", Number{dimension::length, positive}, "A unit of the file, \"1 mm\" say.",
+     at<&Region::mesh, &RegionMesh::scale>, where("shape", "mesh")},
+    {"origin", Vector{dimension::length}, "Where the origin of the file is.",
+     at<&Region::mesh, &RegionMesh::origin>, where("shape", "mesh")},
 });
 inline constexpr Table<Region> region{
     {"start.region", true, "A lattice point belongs to the last region that contains it.", region_keys}};

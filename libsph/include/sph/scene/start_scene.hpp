@@ -16,10 +16,16 @@ enum class RegionShape { everywhere, box, ball, cylinder, cone, polygon, mesh };
 
 class MeshVolume;
 
-/// What was read of a file that is named beside it.
-struct ReadVolume {
-  std::shared_ptr<const MeshVolume> volume;
-  friend bool operator==(const ReadVolume&, const ReadVolume&) { return true; }
+/// Closed triangles.
+struct RegionMesh {
+  std::string file;                          ///< STL or OBJ
+  std::string content;                       ///< hash of what was read when the run began
+  double scale = 1;                          ///< metres of a unit of the file
+  Double3 origin{};                          ///< where the origin of the file is [m]
+  std::shared_ptr<const MeshVolume> volume;  ///< what was read
+  friend bool operator==(const RegionMesh& a, const RegionMesh& b) {
+    return a.file == b.file && a.content == b.content && a.scale == b.scale && a.origin == b.origin;
+  }
 };
 
 /// Painter's rule: a lattice point belongs to the last region that contains it. group -1 leaves it empty.
@@ -32,11 +38,7 @@ struct Region {
   double radius = 0;         ///< of a cone at `from` ...
   double top_radius = 0;     ///< ... and at `to`
   std::vector<std::array<double, 2>> points;  ///< polygon: its corners [m]
-  std::string file;                           ///< mesh: closed triangles, STL or OBJ ...
-  std::string content;                        ///< ... hash of what was read when the run began ...
-  double scale = 1;                           ///< ... metres of a unit of the file ...
-  Double3 origin{};                           ///< ... and where its origin is [m]
-  ReadVolume read;
+  RegionMesh mesh;
   friend bool operator==(const Region&, const Region&) = default;
 };
 
