@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs a dyke that stays, one that rises, and one that turns into a sill, and draws them in gallery/: half an hour on two cores.
+# Runs a dyke that stays, one that rises, and one that turns into a sill, and draws them in gallery/: a quarter of an hour on two cores.
 # Runs that have already come to their end in RUNS are only drawn.
 #
 #     sh apps/dyke/gallery.sh [PROGRAMS] [RUNS]     default: build/bin out/gallery
