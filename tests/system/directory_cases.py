@@ -75,6 +75,28 @@ class Cases:
         assert result.fingerprint == whole.fingerprint, "another skin has changed the bits"
         assert "skin = 0.5" in (out / "scene.toml").read_text() and rows_in(out / "series.csv") < 20
 
+    def test_branch(self):
+        """Another run begins with a checkpoint: unchanged with the bits of the one that goes on, changed with others, on any number of
+        ranks the same; what would change the parts of the scene is refused, and the first run stays as it is."""
+        out, other = self.folder("trunk"), {ranks: self.folder(f"branch{ranks}") for ranks in (1, 3)}
+        self.go(out, steps=10)
+        before = self.run.files("trunk")
+        words = ("peperite", "resume", out, "--branch")
+        plain = self.run.run(2, *words, self.folder("plain"), "--steps", 30)
+        changed = [self.run.run(ranks, *words, other[ranks], "--steps", 30, "--set", "group.melt.viscosity=900",
+                                "--set", "terms.artificial_viscosity=0.05", "--set", "domain.gravity=[1, -9]") for ranks in (1, 3)]
+        assert changed[0].fingerprint == changed[1].fingerprint != plain.fingerprint
+        assert "viscosity = 900" in (other[1] / "scene.toml").read_text()
+        assert (other[1] / "series.csv").read_bytes() == (other[3] / "series.csv").read_bytes()
+        for key, value in {"group.melt.density": 2000, "kernel.h_over_dx": 1.1, "domain.upper": "[99, 99]", "reset": "[]",
+                           "group.melt.becomes": "[]", "group": "[]", "terms.none": 1}.items():
+            self.run.refused(2, *words, self.folder("refused"), "--set", f"{key}={value}", says=key)
+        self.run.refused(2, *words, self.folder("refused"), "--set", "terms.shifting=true", "--set", "terms.none=1", says="none")
+        self.run.refused(1, *words, other[1], says="holds a run already")
+        self.run.refused(1, *words, "", says="--branch: is empty")
+        assert self.run.files("trunk") == before, "a branch has changed the run that it comes from"
+        assert self.run.run(1, "peperite", "resume", out, "--steps", 30).fingerprint == plain.fingerprint
+
     def test_resume_keeps(self):
         """What lies in the directory besides the run's own files outlives a resume."""
         out = self.folder("keeps")

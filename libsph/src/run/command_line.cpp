@@ -102,6 +102,13 @@ struct Arguments {
                run.out = text;
              });
   }
+  void add_branch(CLI::App& app) {
+    add_text(app, "--branch", "begin another run in this directory with the state of the last checkpoint",
+             "DIR", [this](const std::string& text) {
+               if (text.empty()) throw InputError("--branch: is empty; name a directory");
+               run.branch = text;
+             });
+  }
   void add_max_time(CLI::App& app) {
     add_text(app, "--max-time", "checkpoint, stop and exit 75 before so much wall time", "H:M:S",
              [this](const std::string& text) { run.max_seconds = seconds_of(text); });
@@ -221,9 +228,11 @@ int tool_main(int argc, char** argv) {
                    "print the stages of a step: what they read, send and write");
     CLI::App& resume = *app.add_subcommand("resume", "go on from the last checkpoint of a run");
     resume.add_option("dir", arguments.run.resume, "the directory of the run")->required()->type_name("DIR");
-    arguments.add_set(
-        resume,
-        "change when files are written, or how the domain is cut: --set output.snapshot_interval=0.1");
+    arguments.add_set(resume,
+                      "change when files are written, or how the domain is cut: --set "
+                      "output.snapshot_interval=0.1; of a branch "
+                      "also constants of laws");
+    arguments.add_branch(resume);
     arguments.add_end(resume);
     arguments.add_max_time(resume);
     CLI::App& info = *app.add_subcommand("info", "describe a snapshot or a checkpoint");

@@ -153,7 +153,9 @@ class Run {
 
 int run_case(const RunOptions& options, const decomp::Comm& comm, Failure& failure) {
   const auto begin = WallClock::now();
-  RunStart start = options.resume.empty() ? start_new(options, comm) : start_again(options, comm);
+  RunStart start = options.resume.empty()   ? start_new(options, comm)
+                   : options.branch.empty() ? start_again(options, comm)
+                                            : start_branch(options, comm);
   const Simulation& simulation = *start.simulation;
   if (start.memory && is_finished(simulation.scene(), simulation.global()) &&
       is_complete(simulation, start.dir)) {

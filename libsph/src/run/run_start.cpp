@@ -1,15 +1,14 @@
 #include "run/run_start.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 
 #include "checkpoint/checkpoint_files.hpp"
 #include "files/agree.hpp"
 #include "files/durable_file.hpp"
 #include "models/stability.hpp"
+#include "run/changes.hpp"
 #include "run/memory_need.hpp"
 #include "run/run_directory.hpp"
 #include "sph/checkpoint/checkpoint.hpp"
@@ -49,26 +48,6 @@ void claim(RunStart& start, const decomp::Comm& comm) {
   refuse_used_directory(comm, start.dir, true);  // again: another run may have come and gone since
 }
 
-/// What a run that goes on may change: what its next state, its columns and its snapshots do not depend on.
-void refuse_other_changes(const std::vector<std::string>& overrides) {
-  constexpr std::array changeable{"output.snapshot_interval",
-                                  "output.series_interval",
-                                  "output.checkpoint_interval",
-                                  "output.status_interval",
-                                  "output.sort_limit",
-                                  "output.checkpoint_files",
-                                  "time.until",
-                                  "time.steps"};
-  for (const std::string& given : overrides) {
-    const std::string key = given.substr(0, given.find_first_of(" ="));
-    if (key.starts_with("decomposition.") || std::ranges::find(changeable, key) != changeable.end()) continue;
-    throw InputError(fmt::format(
-        "--set {}: a run that goes on keeps its {}; change decomposition.*, {}, or begin another run "
-        "from a snapshot by start.file",
-        given, key, fmt::join(changeable, ", ")));
-  }
-}
-
 bool has_checkpoint(const fs::path& dir) {
   const std::vector<fs::path> found = checkpoint_directories(checkpoint_root(dir));
   return std::any_of(found.begin(), found.end(),
@@ -93,6 +72,22 @@ RunStart start_new(const RunOptions& options, const decomp::Comm& comm) {
   refuse_used_directory(comm, start.dir, false);
   prepare_record(comm, scene, false);
   start.simulation = simulate(scene, [&] { return begun(comm, scene); });
+  claim(start, comm);
+  return start;
+}
+
+RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
+  refuse_changes_of_parts(options.overrides);
+  RunStart start;
+  start.dir = options.branch;
+  refuse_used_directory(comm, start.dir, false);
+  const CheckpointHandle checkpoint = find_checkpoint(comm, options.resume);
+  if (!checkpoint.warning.empty() && comm.rank() == 0)
+    fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
+  const Scene scene = parse_scene(checkpoint.record.scene_toml, (options.resume / "scene.toml").string(),
+                                  options.overrides, options.end);
+  prepare_record(comm, scene, false);
+  start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
   claim(start, comm);
   return start;
 }

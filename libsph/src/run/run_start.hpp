@@ -21,6 +21,9 @@ struct RunStart {
 
 /// Collective; InputError on all ranks.
 [[nodiscard]] RunStart start_new(const RunOptions& options, const decomp::Comm& comm);
+/// A new run, in a directory of its own, that begins with the newest checkpoint of another and a scene that differs from its in
+/// constants.
+[[nodiscard]] RunStart start_branch(const RunOptions& options, const decomp::Comm& comm);
 /// A run that was ended before its first checkpoint begins anew.
 [[nodiscard]] RunStart start_again(const RunOptions& options, const decomp::Comm& comm);
 

@@ -16,6 +16,7 @@ namespace sph {
 struct RunOptions {
   std::string scene;                   ///< TOML file of a new run ...
   std::filesystem::path resume;        ///< ... or the directory of one that goes on
+  std::filesystem::path branch;        ///< ... whose state begins a new run here
   std::filesystem::path out;           ///< of a new run; empty: out/<stem of the scene file>
   std::vector<std::string> overrides;  ///< "a.b=v"
   End end;                             ///< instead of what the scene says
