@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "sph/models/energies.hpp"
+
 namespace sph {
 
 Flux::Flux(const Simulation& s, const Monitor& monitor)
@@ -38,11 +40,13 @@ double Flux::weight(const ParticleValues& of, std::size_t row) const {
 }
 
 void Flux::add(const ParticleValues& of, std::size_t row, std::span<decomp::ExactSum> to) const {
+  const Group& group = scene_->groups[of.group(row)];
+  if (is_held(group) || group.kind == GroupKind::melt) return;
   const double w = weight(of, row);
   if (w == 0) return;
   const Particles& p = of.particles();
   double volume = 0;
-  if (scene_->groups[of.group(row)].kind == GroupKind::grain) {
+  if (group.kind == GroupKind::grain) {
     const double r = p.data<Field::radius>()[row];
     volume = 4 * std::numbers::pi / 3 * r * r * r;
   } else {

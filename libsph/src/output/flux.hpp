@@ -22,7 +22,7 @@ class Flux {
   Flux(const Simulation& simulation, const Monitor& monitor);
   /// Positive towards greater coordinates [kg/s, m^3/s; in 2D per metre of depth].
   [[nodiscard]] static std::vector<std::string> names() { return {"mass_rate", "volume_rate"}; }
-  /// Of a particle that moves.
+  /// Of a particle; nothing of what is held, and of cells.
   void add(const ParticleValues& of, std::size_t row, std::span<decomp::ExactSum> to) const;
 
  private:

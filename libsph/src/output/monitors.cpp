@@ -126,6 +126,19 @@ void add_energies(const State& s, std::span<decomp::ExactSum> sums) {
   for (Energy e : energies_of(s)) sums[k++].add(all[e]);
 }
 
+/// Of fluids, solids and grains, whichever set they are in.
+template <class PartOf>
+void add_fluxes(const Simulation& s, const std::vector<Monitor>& monitors, PartOf&& part) {
+  for (std::size_t k = 0; k < monitors.size(); ++k) {
+    if (monitors[k].kind != MonitorKind::flux) continue;
+    const Flux flux(s, monitors[k]);
+    for (const ParticleSet& set : s.sets()) {
+      const ParticleValues of(s, set.particles);
+      for (std::size_t row = 0; row < set.particles.owned(); ++row) flux.add(of, row, part(k));
+    }
+  }
+}
+
 void add_contact(const Monitor& monitor, const ContactRecord& contact, std::span<decomp::ExactSum> sums) {
   if (monitor.kind == MonitorKind::energy) sums.back().add(contact.energy);
   if (monitor.kind == MonitorKind::contacts) sums[contact.with_wall() || contact.fixed ? 1 : 0].add(1);
@@ -217,10 +230,8 @@ std::vector<double> Monitors::values(Simulation& s) const {
   const ParticleValues of(s);
   std::vector<std::size_t> first{0};
   std::vector<std::optional<Gauge>> gauges(monitors.size());
-  std::vector<std::optional<Flux>> fluxes(monitors.size());
   for (std::size_t k = 0; k < monitors.size(); ++k) {
     if (is_gauge(monitors[k])) gauges[k].emplace(s, monitors[k]);
-    if (monitors[k].kind == MonitorKind::flux) fluxes[k].emplace(s, monitors[k]);
     first.push_back(first.back() + (gauges[k] ? gauges[k]->sums() : sums_of(monitors[k], s)));
   }
   std::vector<decomp::ExactSum> sums(first.back());
@@ -229,10 +240,9 @@ std::vector<double> Monitors::values(Simulation& s) const {
     for (std::size_t k = 0; k < monitors.size(); ++k)
       if (gauges[k])
         gauges[k]->add(of, row, part(k));
-      else if (fluxes[k] && !is_held(s.scene().groups[of.group(row)]))
-        fluxes[k]->add(of, row, part(k));
       else if (first[k + 1] > first[k])
         add_row(s.scene(), monitors[k], of, row, part(k));
+  add_fluxes(s, monitors, part);
   for (std::size_t k = 0; k < monitors.size(); ++k)
     if (monitors[k].kind == MonitorKind::energy) add_energies(s, part(k));
   if (contacts)

@@ -14,8 +14,10 @@ namespace sph {
 
 class ParticleValues {
  public:
-  explicit ParticleValues(const Simulation& s)
-      : particles_(s.particles()),
+  explicit ParticleValues(const Simulation& s) : ParticleValues(s, s.particles()) {}
+  /// Of one of its sets.
+  ParticleValues(const Simulation& s, const Particles& particles)
+      : particles_(particles),
         scale_(s.scale()),
         wrap_(s.wrap()),
         d_(static_cast<std::size_t>(s.scene().dim)) {}

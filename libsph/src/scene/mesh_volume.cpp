@@ -90,7 +90,10 @@ bool MeshVolume::is_before(std::size_t axis, const Corners& triangle, const Doub
   const double qb = q[b] - p[b], qc = q[c] - p[c], rb = r[b] - p[b], rc = r[c] - p[c];
   const double xb = x[b] - p[b], xc = x[c] - p[c], area = qb * rc - qc * rb;
   const double along_q = (xb * rc - xc * rb) / area, along_r = (qb * xc - qc * xb) / area;
-  return x[axis] < p[axis] + along_q * (q[axis] - p[axis]) + along_r * (r[axis] - p[axis]);
+  // Of a triangle that is seen edge-on it may be anything: no number is the lowest corner.
+  const auto [lowest, highest] = std::minmax({p[axis], q[axis], r[axis]});
+  const double there = p[axis] + along_q * (q[axis] - p[axis]) + along_r * (r[axis] - p[axis]);
+  return x[axis] < (there > lowest ? std::min(there, highest) : lowest);
 }
 
 }  // namespace sph
