@@ -103,6 +103,51 @@ class Package(Case):
             self.assertTrue(np.all(run[-1].where(kind=kind)[chosen]))
         self.assertTrue(np.array_equal(run[-1].moves(), ~run[-1].where(kind="wall")))
 
+    def test_profiles_hold_what_there_is(self):
+        snapshot = self.open("grains")[-1]
+        domain = snapshot.scene["domain"]
+        size = np.array(domain["upper"]) - domain["lower"]
+        volume = 4 / 3 * np.pi * snapshot.radius**3
+        for axis in "xz":
+            profile = snapshot.profile(axis, slices=7, lower=-1, upper=1, fixed=True)
+            k = "xyz".index(axis)
+            across = np.prod(np.delete(size, k))
+            self.assertAlmostEqual((profile.fraction * profile.volume).sum() / volume.sum(), 1, places=12)
+            full = profile.fraction > 0
+            momentum = np.einsum("k,ki->i", (profile.fraction * profile.volume)[full], profile.velocity[full])
+            self.assertTrue(np.allclose(momentum, volume @ snapshot.velocity, rtol=1e-12))
+            self.assertTrue(np.allclose(profile.volume, across * 2 / 7))
+            contacts = snapshot.contacts
+            end = np.where((contacts.second >= 0)[:, None], snapshot.position[contacts.second], contacts.point)
+            line = snapshot.nearest_image(end - snapshot.position[contacts.first])
+            virial = -np.einsum("ni,nj->ij", contacts.force, line)
+            self.assertTrue(np.allclose(np.einsum("k,kij->ij", profile.volume, profile.stress), virial))
+        self.refused("along", lambda: snapshot.profile("w"))
+        self.refused("no slices", lambda: snapshot.profile("z", lower=1, upper=0))
+        self.refused("no grains", lambda: self.open("fluid")[-1].profile())
+        self.assertIsNone(self.open("owners")[-1].profile().stress)
+
+    def test_profiles_bear_weights(self):
+        """Balls on each other at rest: the stress in a slice is the weight above, over its area."""
+        (self.folder / "pile.csv").write_text("\n".join(["id,x,y,z,vx,vy,vz,group,radius", *(
+            f"{k},0.005,0.005,{0.001 * (2 * k + 1) - 1e-9},0,0,0,0,0.001" for k in range(5))]) + "\n")
+        (self.folder / "pile.toml").write_text(f"""
+            domain = {{ lower = [0, 0, 0], upper = [0.01, 0.01, 0.012], gravity = [0, 0, -9.81] }}
+            contact = {{ law = "linear" }}
+            group = [{{ name = "ball", kind = "grain", density = 2500, diameter = "2 mm", normal_stiffness = 1000, restitution = 0.1 }}]
+            wall = [{{ name = "floor", material = "ball", point = [0, 0, 0], normal = [0, 0, 1] }}]
+            start = {{ file = "{self.folder / 'pile.csv'}" }}
+            time = {{ steps = 40000 }}
+            output = {{ contacts = true }}
+            """)
+        self.run_of.run(1, "peperite", "run", self.folder / "pile.toml", "--out", "pile")
+        last = self.open("pile")[-1]
+        weight = 2500 * 4 / 3 * np.pi * 0.001**3 * 9.81
+        fine = last.profile("z", slices=100, lower=0.0002, upper=0.0008)
+        self.assertTrue(np.allclose(fine.stress[:, 2, 2] * 1e-4, 5 * weight, rtol=1e-6), fine.stress[0, 2, 2] * 1e-4 / weight)
+        upper = last.profile("z", slices=10, lower=0.0072, upper=0.0088)
+        self.assertTrue(np.allclose(upper.stress[:, 2, 2] * 1e-4, weight, rtol=1e-6), upper.stress[:, 2, 2] * 1e-4 / weight)
+
     def test_contacts_bear_what_grains_are_given(self):
         snapshot = self.open("grains")[-1]
         contacts = snapshot.contacts

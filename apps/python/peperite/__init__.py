@@ -6,6 +6,7 @@
     last = run[-1]                        # or run.at(0.5), the one nearest to 0.5 s
     last["position"], last.unit("pressure")
     last["pressure"][last.where(group="melt")]
+    last.profile("z", slices=30).stress   # of grains in slices: fraction, velocity, stress
     run.series["t"]                       # monitors: columns of series.csv
     run.plot()                            # pictures of any scene, into its folder; returns their paths
 
@@ -19,11 +20,12 @@ as much memory as one of 10. Units are SI. What is wrong raises peperite.Error, 
 
 from .contacts import Contacts
 from .errors import Error, GuardError, InputError, OutputError
+from .profile import Profile
 from .run import Run, Series
 from .simulation import Simulation
 from .snapshot import Snapshot
 
-__all__ = ["Contacts", "Error", "GuardError", "InputError", "OutputError", "Run", "Series", "Simulation", "Snapshot", "open"]
+__all__ = ["Contacts", "Error", "GuardError", "InputError", "OutputError", "Profile", "Run", "Series", "Simulation", "Snapshot", "open"]
 
 
 def open(folder):  # noqa: A001  as in numpy, h5py and gzip

@@ -9,6 +9,7 @@ import numpy as np
 
 from .contacts import Contacts
 from .errors import Error
+from .profile import Profile
 
 
 @functools.lru_cache(maxsize=8)  # the same text in all snapshots of a run
@@ -159,6 +160,10 @@ class Snapshot:
         place = np.minimum(np.searchsorted(before, ids), len(before) - 1)
         way = self.nearest_image(self["position"] - first["position"][place])
         return np.where((before[place] == ids)[:, None], way, np.nan)
+
+    def profile(self, axis="z", **options):
+        """Of grains in slices along an axis: Profile."""
+        return Profile(self, axis, **options)
 
     @functools.cached_property
     def contacts(self):
