@@ -18,15 +18,37 @@ struct Point {
   double t, value;
 };
 
-constexpr std::array measured_pressure{Point{3.2, 0.563}, {3.37, 0.541}, {3.52, 0.545}, {3.68, 0.541},
-                                       {3.9, 0.544},      {4.06, 0.556}, {4.22, 0.558}, {4.36, 0.555},
-                                       {4.57, 0.543},     {4.72, 0.538}, {4.82, 0.517}, {5.04, 0.514}};
+constexpr auto measured_pressure = std::to_array<Point>({{3.2, 0.563},
+                                                         {3.37, 0.541},
+                                                         {3.52, 0.545},
+                                                         {3.68, 0.541},
+                                                         {3.9, 0.544},
+                                                         {4.06, 0.556},
+                                                         {4.22, 0.558},
+                                                         {4.36, 0.555},
+                                                         {4.57, 0.543},
+                                                         {4.72, 0.538},
+                                                         {4.82, 0.517},
+                                                         {5.04, 0.514}});
 constexpr double measured_impact = 2.48;  ///< of the first pressure that is felt
 /// At H and 2.883 H from the back.
-constexpr std::array level_behind{Point{1, 0.931}, {1.5, 0.8535}, {2, 0.7825},   {2.5, 0.705}, {3, 0.632},
-                                  {3.5, 0.568},    {4, 0.5005},   {4.5, 0.4515}, {5, 0.4015}};
-constexpr std::array level_before{Point{1.6, 0.2005}, {2, 0.216},  {2.5, 0.247},  {3, 0.266},
-                                  {3.5, 0.2775},      {4, 0.2925}, {4.5, 0.2985}, {5, 0.2975}};
+constexpr auto level_behind = std::to_array<Point>({{1, 0.931},
+                                                    {1.5, 0.8535},
+                                                    {2, 0.7825},
+                                                    {2.5, 0.705},
+                                                    {3, 0.632},
+                                                    {3.5, 0.568},
+                                                    {4, 0.5005},
+                                                    {4.5, 0.4515},
+                                                    {5, 0.4015}});
+constexpr auto level_before = std::to_array<Point>({{1.6, 0.2005},
+                                                    {2, 0.216},
+                                                    {2.5, 0.247},
+                                                    {3, 0.266},
+                                                    {3.5, 0.2775},
+                                                    {4, 0.2925},
+                                                    {4.5, 0.2985},
+                                                    {5, 0.2975}});
 
 struct Gauged {
   std::vector<double> t, pressure, behind, before;
