@@ -150,8 +150,8 @@ name = "gas"
 kind = "fluid"
 density = 3
 sound_speed = 10
-velocity = [0.5, -0.25, 0]
 [start]
+velocity = [0.5, -0.25, 0]
 spacing = 0.125
 jitter = 0.1
 [[start.region]]
@@ -175,7 +175,7 @@ steps = 1
 TEST(Gauges, add_up_what_passes_to_what_came) {
   const decomp::Comm comm(MPI_COMM_SELF);
   Simulation s(comm, parse_scene(tank("h_over_dx = 1.2", flux("gate", "[2, 0]", "[2, 5]")), "tank",
-                                 {"start.region.2.upper=[1.5, 3]", "start.jitter=0", "time.steps=200"}));
+                                 {"start.region.2.upper=[1.5, 3]", "start.jitter=0", "time.steps=700"}));
   const auto beyond = [&] {  // sum m Theta, Theta' = w of output/flux.hpp
     const Particles& p = s.particles();
     const double reach = 0.24;
@@ -189,7 +189,7 @@ TEST(Gauges, add_up_what_passes_to_what_came) {
     return sum;
   };
   double passed = 0, before = value_of(s, "gate_mass_rate"), time = 0;
-  for (int k = 0; k < 200; ++k) {
+  for (int k = 0; k < 700; ++k) {
     s.step();
     const double now = value_of(s, "gate_mass_rate");
     passed += 0.5 * (before + now) * (s.global().time - time);

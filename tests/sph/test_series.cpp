@@ -120,8 +120,8 @@ TEST_F(SeriesTest, RefusesAnotherContentOfTheSameLength) {
 TEST_F(SeriesTest, RefusesAFileThatIsMissingOrTooShort) {
   EXPECT_THROW(Series(file(), 10, {}), InputError);
   { const Series series(file(), {"x"}, {"m"}); }
-  EXPECT_THROW(Series(file(), 10, {}), InputError);
-  EXPECT_NO_THROW(Series(file(), 9, {}));
+  EXPECT_THROW(Series(file(), 18, {}), InputError);
+  EXPECT_NO_THROW(Series(file(), 17, {}));
 }
 
 TEST_F(SeriesTest, SaysWhyItCannotWrite) {

@@ -74,7 +74,7 @@ void read_points(const Reader<keys::region>& table, const Scene& scene, Region& 
   if (!value) table.fail_missing("points", "give [[x, y], ...]");
   const toml_tree::Array* points = value->node().array();
   if (points == nullptr || points->size() < 3)
-    value->fail("is no polygon", "give three corners or more, [[x, y], ...]");
+    value->fail("is no polygon", "give an array of three corners or more, [[x, y], ...]");
   for (const toml_tree::Node& point : *points) {
     const toml_tree::Array* pair = point.array();
     if (pair == nullptr || pair->size() != 2)

@@ -81,8 +81,8 @@ bool MeshVolume::is_before(std::size_t axis, const Corners& triangle, const Doub
   const std::array<double, 2> at = seen_along(axis, x);
   bool meets = false;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto [u, v] = std::minmax(triangle[k], triangle[(k + 1) % 3]);  // as the triangle beside it does
-    meets ^= passes_beyond(seen_along(axis, vertices_[u]), seen_along(axis, vertices_[v]), at);
+    meets ^= passes_beyond(seen_along(axis, vertices_[triangle[k]]),
+                           seen_along(axis, vertices_[triangle[(k + 1) % 3]]), at);
   }
   if (!meets) return false;
   const Double3 &p = vertices_[triangle[0]], &q = vertices_[triangle[1]], &r = vertices_[triangle[2]];

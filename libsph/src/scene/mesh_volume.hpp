@@ -1,6 +1,6 @@
 // What lies inside closed triangles: a place from which a ray meets them an odd number of times. A ray along each axis is asked and the
 // majority counts, so that a gap, which one ray may slip through, does not turn a row of places inside out. A triangle's edges belong to
-// it as those of a box do, lower <= x < upper, and two triangles judge their common edge by the same numbers: no ray passes between.
+// it as those of a box do, lower <= x < upper, and two triangles, or polygons, judge their common edge by the same numbers: no ray passes between.
 #pragma once
 
 #include <array>
@@ -51,7 +51,8 @@ class MeshVolume {
 [[nodiscard]] inline bool passes_beyond(const std::array<double, 2>& u, const std::array<double, 2>& v,
                                         const std::array<double, 2>& x) {
   if ((u[1] > x[1]) == (v[1] > x[1])) return false;
-  return x[0] < u[0] + (x[1] - u[1]) * (v[0] - u[0]) / (v[1] - u[1]);
+  const auto &low = u[1] < v[1] ? u : v, &high = u[1] < v[1] ? v : u;  // whichever way round it is gone
+  return x[0] < low[0] + (x[1] - low[1]) * (high[0] - low[0]) / (high[1] - low[1]);
 }
 
 }  // namespace sph
