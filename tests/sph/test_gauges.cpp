@@ -183,7 +183,7 @@ TEST(Gauges, add_up_what_passes_to_what_came) {
     for (std::size_t i = 0; i < p.owned(); ++i) {
       if (s.scene().groups[p.data<Field::group>()[i]].kind != GroupKind::fluid) continue;
       const double r = (s.scale().metres(p.data<Field::position>()[2 * i]) - 2) / reach;
-      const double share = r > 1 ? 1 : r < -1 ? 0 : 0.5 + 0.75 * (r - r * r * r / 3);
+      const double share = r > 1 ? 1 : r < -1 ? 0 : 0.5 + 15.0 / 16 * (r - r * r * r * (2.0 / 3 - r * r / 5));
       sum += p.data<Field::mass>()[i] * share;
     }
     return sum;

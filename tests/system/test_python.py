@@ -175,7 +175,7 @@ class Package(Case):
         table = np.loadtxt(self.folder / "fluid/series.csv", delimiter=",", skiprows=1)
         self.assertEqual([f"{name} [{run.series.unit(name)}]" if run.series.unit(name) else name for name in run.series], titles)
         self.assertTrue(np.array_equal(np.array(list(run.series.values())).T, table))
-        self.assertEqual([run.series.unit(name) for name in ("step", "t", "energy_kinetic")], ["", "s", "J/m"])
+        self.assertEqual([run.series.unit(name) for name in ("step", "t", "energy_kinetic")], ["", "s", "J"])
         self.refused("no column depth", lambda: run.series["depth"])
         copy = self.folder / "going_on"
         shutil.copytree(self.folder / "fluid", copy)

@@ -48,7 +48,7 @@ class Report(Case):
         super().setUpClass()
         sys.path.insert(0, str(cls.source / "apps/python"))
         import peperite.report
-        cls.report = peperite.report
+        cls.report, cls.series = peperite.report, peperite.Series
         cls.run_of.run(2, "peperite", "run", cls.source / "apps/buoyant_cylinder/gas.toml", "--steps", 40, "--out", "gas",
                        "--set", "output.series_interval=0", "--set", 'title="Bubbles </script> & <b>fire</b>"')
         cls.run_of.run(2, "peperite", "run", cls.source / "tests/scenes/grains_pour.toml", "--steps", 20, "--out", "grains")
@@ -97,7 +97,7 @@ class Report(Case):
         self.assertIn("lower = ", text, "the resolved scene is in it")
 
     def test_curves_are_those_of_the_series(self):
-        series = self.peperite.Series(self.folder / "gas/series.csv")
+        series = self.series(self.folder / "gas/series.csv")
         curves = json.loads(re.search(r'<script id="curves"[^>]*>(.*?)</script>', self.page("gas"))[1])
         drawn = {}
         for curve in curves:

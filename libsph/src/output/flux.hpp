@@ -1,5 +1,5 @@
 // What flows through a rectangle normal to an axis, in 2D a line: the mean over a slab around it,
-//     sum m v_n w(r_n),    w(r) = 3/(4 s) (1 - (r/s)^2), |r| < s,
+//     sum m v_n w(r_n),    w(r) = 15/(16 s) (1 - (r/s)^2)^2, |r| < s,
 // of the particles within its edges; s is two smoothing lengths, of a grain four radii. What has passed since some time ago is its
 // integral exactly, but for what is in the slab now and was then: d/dt sum m Theta(r_n) = sum m v_n w(r_n), Theta' = w.
 // Sums are exact: the same bits on any number of ranks.
