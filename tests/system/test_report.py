@@ -101,7 +101,8 @@ class Report(Case):
         curves = json.loads(re.search(r'<script id="curves"[^>]*>(.*?)</script>', self.page("gas"))[1])
         drawn = {}
         for curve in curves:
-            monitor = curve["title"].split(":")[0]
+            monitor, unit = re.fullmatch(r"([^:]*?)(?::.*?)?(?: \((.*)\))?", curve["title"]).groups()
+            self.assertEqual({series.unit(f"{monitor}_{label}") for label in curve["labels"][1:]}, {unit or ""})
             table = np.array(curve["rows"], dtype=float)
             self.assertTrue(np.array_equal(table[:, 0], series["t"]))
             for k, label in enumerate(curve["labels"][1:], 1):

@@ -91,7 +91,9 @@ def curves_of(run):
             continue
         rows = thinned(series["t"], values)
         table = np.array([series["t"][rows], *(v[rows] for v in values)]).T
-        charts.append({"title": title, "labels": ["t", *(name[len(monitor) + 1:] for name in columns)],
+        units = {series.unit(name) for name in columns} - {""}
+        unit = f" ({units.pop()})" if len(units) == 1 else ""
+        charts.append({"title": title + unit, "labels": ["t", *(name[len(monitor) + 1:] for name in columns)],
                        "rows": [[x if np.isfinite(x) else None for x in row] for row in table.tolist()]})
     return charts
 
