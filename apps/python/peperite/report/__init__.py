@@ -28,7 +28,10 @@ def data_uri(path):
 
 
 def quantity_of(column, kind):
-    """What the columns of a chart have in common: components along x, y, z; what a budget has and what of it came in."""
+    """What the columns of a chart have in common: components along x, y, z; what a budget has and what of it came in; of a line of
+    gauges one quantity at all its points."""
+    if kind == "gauge" and column[0].isdigit():
+        return column.partition("_")[2]
     first = column.split("_")[0]
     if kind == "contacts":  # whose z is a number of neighbours
         return column
