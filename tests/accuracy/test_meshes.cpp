@@ -220,6 +220,74 @@ TEST(Meshes, BallOnATurntable) {
   EXPECT_LT(PINNED(off), 0.01);
 }
 
+/// A level plate.
+std::string plate(const Files& files, double z) {
+  Mesh mesh;
+  mesh.sheet(3, 3, [&](int i, int j) { return Point{i - 1.5, j - 1.5, z}; });
+  return "[[mesh]]\nname = \"plate\"\nmaterial = \"steel\"\nfile = \"" + files.add("plate.obj", mesh.text()) +
+         "\"\n";
+}
+
+/// A ball that lies on a floor under a plate, and gravity along z.
+std::string pressed(const Files& files, double gravity) {
+  char text[400];
+  (void)std::snprintf(text, sizeof text,
+                      "[domain]\nlower = [-2, -2, -2]\nupper = [2, 2, 2]\ngravity = [0, 0, "
+                      "%.17g]\n[[wall]]\nname = \"floor\"\n"
+                      "material = \"steel\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n",
+                      gravity);
+  return steel + "friction = 0.5\nrestitution = 0.2\n" + start_of(files, {{{0, 0, 0.1}, {}, {}}}) + text +
+         plate(files, 0.203);
+}
+
+double way_of_plate(const sph::Simulation& s) {
+  return s.scale().metres(s.global().walls[1].offset[2]) - s.scale().metres(0);
+}
+
+// The springs of the ball's two contacts bear the plate, the lower one the ball too.
+TEST(Meshes, MassesRestOnWhatBearsThem) {
+  const Files files;
+  constexpr double g = 10, mass = 40, ball_mass = 2500 * 4 * std::numbers::pi / 3 * 1e-3, k = 1e5;
+  double way = 0, force = 0;
+  const Ball end =
+      run(pressed(files, -g) + "direction = [0, 0, -1]\nmass = 40\nlargest_speed = 5\n[time]\ndt = 2e-4\n", 3,
+          [&](const sph::Simulation& s) {
+            way = way_of_plate(s);
+            force = s.grains()->walls().newton(s.global().walls[1].force[2]);
+          });
+  const double low = (mass + ball_mass) * g / k, high = mass * g / k;
+  EXPECT_NEAR(force / (mass * g), 1, 1e-6);
+  EXPECT_NEAR(0.1 - end.x[2], low, 1e-4 * low);
+  EXPECT_NEAR(-way, 0.003 + low + high, 1e-4 * low);
+}
+
+TEST(Meshes, MassesFallUntilTheyAreAsFastAsTheyMayBe) {
+  const Files files;
+  const std::string text =
+      pressed(files, -10) +
+      "direction = [0, 1, 2]\nmass = 3\nforce = 90\nlargest_speed = 2\n[time]\ndt = 1e-4\n";
+  double worst = 0;
+  const double along = -10 * 2 / std::sqrt(5.0) + 30,
+               free = 2 / along;  // of gravity along it, and the force's
+  run(text, 0.3, [&](const sph::Simulation& s) {
+    const double t = s.global().time;
+    const double exact = t < free ? along * t * t / 2 : along * free * free / 2 + 2 * (t - free);
+    worst = std::max(worst, std::abs(way_of_plate(s) - 2 / std::sqrt(5.0) * exact));
+  });
+  EXPECT_LT(worst, 3e-4);  // the first half step has no kick: along dt t / 2
+}
+
+TEST(Meshes, ServosPressAsTold) {
+  const Files files;
+  double force = 0;
+  const Ball end = run(
+      pressed(files, 0) +
+          "direction = [0, 0, -1]\nforce = 300\nservo_gain = 1e-3\nlargest_speed = 0.1\n[time]\ndt = 2e-4\n",
+      1, [&](const sph::Simulation& s) { force = s.grains()->walls().newton(s.global().walls[1].force[2]); });
+  EXPECT_NEAR(force / 300, 1, 1e-6);
+  EXPECT_NEAR(0.1 - end.x[2], 300 / 1e5, 1e-7);
+}
+
 /// Period of a ball that rolls to and fro in a tube of so many facets, over that in a round one.
 double swing(int facets) {
   const Files files;

@@ -254,6 +254,18 @@ class Maker:
             speed = 0.3 * self.speed
             if m.chance("smooth", 0.3):
                 mesh["smooth_angle"] = m.one("angle", [0, 1, 16, 50, 89])
+            if m.chance("driven", 0.25):
+                mesh["direction"] = m.vector("direction", 1, 3)
+                mesh["largest_speed"] = speed
+                force = self.mass * self.speed / self.contact_time * m.log("force", 0.01, 3)
+                if m.chance("servo", 0.5):
+                    mesh |= {"force": force, "servo_gain": speed / force * m.log("gain", 0.1, 10)}
+                else:
+                    mesh["mass"] = m.log("mass", 0.5, 50) * self.mass
+                    if m.chance("pushed", 0.5):
+                        mesh["force"] = m.one("push", [-0.5, 1.0]) * force
+                out.append(mesh)
+                continue
             if m.chance("moves", 0.4):
                 mesh["direction"] = m.vector("direction", 1, 3)
                 mesh["velocity"] = m.one("velocity", [speed, [[0, 0], [0.5 * lasts, speed], [lasts, -speed]]])

@@ -18,9 +18,9 @@ namespace sph {
   return curve;
 }
 
-/// What `table.read()` leaves of it.
+/// What `table.read()` leaves of it. `driven`: it moves along the direction otherwise.
 template <class Table>
-void read_motion(const Table& table, PrescribedMotion& motion) {
+void read_motion(const Table& table, PrescribedMotion& motion, bool driven = false) {
   using Name = typename Table::template Name<>;
   motion.speed = read_speed(table.value("velocity"), dimension::speed);
   motion.spin = read_speed(table.value("spin"), dimension::rate);
@@ -31,7 +31,7 @@ void read_motion(const Table& table, PrescribedMotion& motion) {
   };
   normalise("direction", motion.direction);
   normalise("axis", motion.axis);
-  table.only_if(table.has("velocity"), "direction", "it is of velocity, which is not given");
+  table.only_if(table.has("velocity") || driven, "direction", "it is of velocity, which is not given");
   table.only_if(table.has("spin"), "axis", "it is of spin, which is not given");
   table.only_if(table.has("spin"), "centre", "it is of spin, which is not given");
   if (table.has("amplitude") != table.has("frequency"))

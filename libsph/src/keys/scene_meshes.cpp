@@ -20,11 +20,27 @@ void check_periods(const MeshReader& table, const Scene& scene) {
                  "grains would pass beside its images: set domain.periodic to false");
 }
 
+/// A servo or a mass, which moves along the direction alone.
+void read_drive(const MeshReader& table, MeshWall& mesh) {
+  const MeshDrive& drive = mesh.drive;
+  table.not_both("servo_gain", "mass");
+  for (const auto key : {MeshReader::Name<>("force"), MeshReader::Name<>("largest_speed")})
+    table.only_if(drive.any(), key, "it is of a servo or a mass: give servo_gain or mass");
+  if (!drive.any()) return;
+  if (!table.has("direction")) table.fail_missing("direction", "a servo or a mass moves along it");
+  if (!table.has("largest_speed")) table.fail_missing("largest_speed", "it goes no faster, in m/s");
+  if (drive.servo_gain > 0 && !drive.force) table.fail_missing("force", "a servo presses with it, in N");
+  for (const auto key :
+       {MeshReader::Name<>("velocity"), MeshReader::Name<>("spin"), MeshReader::Name<>("amplitude")})
+    table.only_if(false, key, "a servo or a mass moves along its direction alone");
+}
+
 MeshWall read_mesh(const MeshReader& table, const Scene& scene) {
   MeshWall mesh;
   table.read(mesh);
   check_periods(table, scene);
-  read_motion(table, mesh.motion);
+  read_drive(table, mesh);
+  read_motion(table, mesh.motion, mesh.drive.any());
   if (mesh.end && !(mesh.begin < *mesh.end))
     table.fail("end", fmt::format("is {} s, not after {} s, when it begins", *mesh.end, mesh.begin),
                "it would never be there");
@@ -59,7 +75,7 @@ void find_meshes(const TopReader& top, Scene& scene) {
 void write_meshes(SceneWriter& out, const Scene& scene) {
   for (const MeshWall& mesh : scene.grains.meshes) {
     out.table(keys::mesh, mesh);
-    write_motion(out, mesh.motion);
+    if (!mesh.drive.any()) write_motion(out, mesh.motion);
   }
 }
 

@@ -72,11 +72,12 @@ void check_wall_speeds(const Scene& scene) {
     check(wall, "wall.largest_speed", wall.largest_speed);
   }
   for (const MeshWall& mesh : scene.grains.meshes) {
-    double most = 0;
+    double most = mesh.drive.largest_speed;
     for (const auto& [t, v] : mesh.motion.speed) most = std::max(most, std::fabs(v));
     if (most * dt > limit)
-      throw InputError(fmt::format("{}: mesh.velocity: mesh \"{}\" at {:.6g} m/s: {}, or this speed",
-                                   scene.file, mesh.name, most, grain_move_text(scene, most * dt)));
+      throw InputError(fmt::format("{}: mesh.{}: mesh \"{}\" at {:.6g} m/s: {}, or this speed", scene.file,
+                                   mesh.drive.any() ? "largest_speed" : "velocity", mesh.name, most,
+                                   grain_move_text(scene, most * dt)));
   }
   for (const Insertion& in : scene.domain.openings.insertions) {
     const double speed = speed_of(in);

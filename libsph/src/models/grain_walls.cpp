@@ -44,7 +44,7 @@ void GrainWalls::set_stage(GlobalState& global) const {
 }
 
 WallsNow GrainWalls::now(const GlobalState& global) const {
-  WallsNow out{{}, meshes_.now(global.time)};
+  WallsNow out{{}, meshes_.now(global.time, std::span(global.walls).subspan(planes()))};
   for (std::size_t w = 0; w < planes(); ++w) {
     const Wall& wall = scene_->grains.walls[w];
     PlaneNow plane{{},
@@ -59,11 +59,12 @@ WallsNow GrainWalls::now(const GlobalState& global) const {
   return out;
 }
 
-// A tangential velocity drags the grains; the plane itself moves along its normal only.
+// A tangential velocity drags the grains; the plane itself moves along its normal only, a mesh along its direction.
 void GrainWalls::move(GlobalState& global) const {
-  for (std::size_t w = 0; w < planes(); ++w) {
+  for (std::size_t w = 0; w < count(); ++w) {
     WallState& state = global.walls[w];
-    const Double3& normal = scene_->grains.walls[w].normal;
+    const Double3& normal =
+        w < planes() ? scene_->grains.walls[w].normal : scene_->grains.meshes[w - planes()].motion.direction;
     double along = 0;
     for (std::size_t a = 0; a < 3; ++a) along += state.velocity[a] * normal[a];
     for (std::size_t a = 0; a < 3; ++a)
@@ -75,7 +76,10 @@ void GrainWalls::push(GlobalState& global, std::span<const std::int64_t> forces)
   for (std::size_t w = 0; w < count(); ++w) {
     WallState& state = global.walls[w];
     for (std::size_t a = 0; a < 3; ++a) state.force[a] = forces[3 * w + a];
-    if (w >= planes()) continue;
+    if (w >= planes()) {
+      drive(w - planes(), global);
+      continue;
+    }
     const Wall& wall = scene_->grains.walls[w];
     double pressed = 0;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -87,6 +91,26 @@ void GrainWalls::push(GlobalState& global, std::span<const std::int64_t> forces)
     const double speed = std::clamp(wanted, -wall.largest_speed, wall.largest_speed);
     for (std::size_t a = 0; a < 3; ++a) state.velocity[a] = speed * wall.normal[a];
   }
+}
+
+void GrainWalls::drive(std::size_t mesh, GlobalState& global) const {
+  const MeshWall& m = scene_->grains.meshes[mesh];
+  if (!m.drive.any()) return;
+  WallState& state = global.walls[planes() + mesh];
+  double force = m.drive.force.value_or(0), speed = 0, weight = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    force += newton(state.force[a]) * m.motion.direction[a];
+    speed += state.velocity[a] * m.motion.direction[a];
+    weight += m.drive.mass * scene_->domain.gravity[a] * m.motion.direction[a];
+  }
+  if (!meshes_.present(mesh, global.time))
+    speed = 0;
+  else if (m.drive.mass > 0)
+    speed += (force + weight) / m.drive.mass * global.dt;
+  else
+    speed = m.drive.servo_gain * force;
+  speed = std::clamp(speed, -m.drive.largest_speed, m.drive.largest_speed);
+  for (std::size_t a = 0; a < 3; ++a) state.velocity[a] = speed * m.motion.direction[a];
 }
 
 double GrainWalls::longest_way(const GlobalState& global) const {

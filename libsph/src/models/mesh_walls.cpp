@@ -29,7 +29,7 @@ std::size_t MeshWalls::bytes() const {
   return sum;
 }
 
-std::vector<MeshNow> MeshWalls::now(double time) const {
+std::vector<MeshNow> MeshWalls::now(double time, std::span<const WallState> driven) const {
   std::vector<MeshNow> out;
   for (std::size_t m = 0; m < count(); ++m) {
     const MeshWall& mesh = scene_->grains.meshes[m];
@@ -39,8 +39,9 @@ std::vector<MeshNow> MeshWalls::now(double time) const {
     place.surface = surfaces_[m].get();
     place.way = moved.way;
     place.velocity = moved.velocity;
+    if (mesh.drive.any()) place.velocity = driven[m].velocity;
     for (std::size_t a = 0; a < 3; ++a) {
-      place.centre[a] = scale_.quanta(motion.centre[a]);
+      place.centre[a] = scale_.quanta(motion.centre[a]) + driven[m].offset[a];
       place.spin[a] = moved.spin * motion.axis[a];
     }
     place.rotation = rotation_of(motion.axis, moved.angle);

@@ -22,6 +22,7 @@ inline constexpr Dimension density{1, -3, 0};
 inline constexpr Dimension pressure{1, -1, -2};
 inline constexpr Dimension viscosity{1, -1, -1};
 inline constexpr Dimension specific_energy{0, 2, -2};
+inline constexpr Dimension mass{1, 0, 0};
 inline constexpr Dimension force{1, 1, -2};
 inline constexpr Dimension stiffness{1, 0, -2};
 inline constexpr Dimension rate{0, 0, -1};

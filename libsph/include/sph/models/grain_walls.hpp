@@ -1,5 +1,5 @@
 // Walls beside grains: planes, where stages of the scene put and move them, and servos, which answer to the force on them; meshes.
-// What of a wall is state (way and velocity of a plane, the force) is in the global record, planes first.
+// What of a wall is state (way and velocity of a plane or a driven mesh, the force) is in the global record, planes first.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class GrainWalls {
   void set_stage(GlobalState& global) const;
   /// A step's drift.
   void move(GlobalState& global) const;
-  /// Servos answer to the forces of a step [quanta].
+  /// Servos and masses answer to the forces of a step [quanta].
   void push(GlobalState& global, std::span<const std::int64_t> forces) const;
 
   [[nodiscard]] WallsNow now(const GlobalState& global) const;
@@ -52,6 +52,7 @@ class GrainWalls {
     std::optional<double> force;
   };
   [[nodiscard]] Now now_of(std::size_t wall, const GlobalState& global) const;
+  void drive(std::size_t mesh, GlobalState& global) const;
 
   const Scene* scene_;
   PositionScale scale_;

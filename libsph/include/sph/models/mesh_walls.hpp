@@ -1,10 +1,12 @@
-// Meshes beside grains. Where one is, and how fast, follows from the time alone (scene/mesh_scene.hpp): it is no state.
+// Meshes beside grains (scene/mesh_scene.hpp).
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "decomp/comm.hpp"
+#include "sph/core/particles.hpp"
 #include "sph/pairs/wall_places.hpp"
 #include "sph/scene/positions.hpp"
 #include "sph/scene/scene.hpp"
@@ -19,9 +21,10 @@ class MeshWalls {
   [[nodiscard]] std::size_t count() const { return surfaces_.size(); }
   [[nodiscard]] const TriangleSurface& surface(std::size_t mesh) const { return *surfaces_[mesh]; }
   [[nodiscard]] std::size_t bytes() const;
-  [[nodiscard]] std::vector<MeshNow> now(double time) const;
+  /// `driven`: ways and velocities of those that a force moves.
+  [[nodiscard]] std::vector<MeshNow> now(double time, std::span<const WallState> driven) const;
   [[nodiscard]] bool present(std::size_t mesh, double time) const;
-  /// No point of any mesh goes further between two times [m].
+  /// No point of any mesh goes further between two times, but for what drives it [m].
   [[nodiscard]] double longest_way(double from, double to) const;
 
  private:
