@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "keys/scene_record.hpp"
 #include "sph/laws/contact/law.hpp"
 
 namespace sph {
@@ -20,7 +21,7 @@ std::string shown(double x) {
 /// Bytes of an entry: its key and the doubles that the scene's contacts carry.
 std::size_t entry_width(const StateFile& file) {
   try {
-    const Scene scene = parse_scene(file.summary().scene_toml, file.summary().path.string(), {});
+    const Scene scene = parse_record(file.summary().scene_toml, file.summary().path.string());
     return scene.has_grains() ? 8 * (1 + static_cast<std::size_t>(contact_fusion(scene).history)) : 0;
   } catch (const InputError&) {
     return 0;  // of another version: entries can still be compared as bytes

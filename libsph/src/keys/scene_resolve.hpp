@@ -102,7 +102,9 @@ void read_openings(const TopReader& top, const DomainReader& domain, Scene& scen
 void check_background(const DomainReader& domain, const Scene& scene);
 
 /// [start], once dimension, domain, groups and spacing of `scene` are known.
-void read_start(const StartReader& table, Scene& scene);
+/// Of the meshes that regions of the start name. Left: of a scene that only says what a file is of.
+enum class MeshFiles { read, leave };
+void read_start(const StartReader& table, Scene& scene, MeshFiles meshes);
 /// [terms], once the groups are known.
 void read_terms(const TermsReader& table, Scene& scene);
 void check_implicit_viscosity(const TermsReader& terms, const Scene& scene);

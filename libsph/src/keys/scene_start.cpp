@@ -29,7 +29,7 @@ std::array<std::array<double, 2>, 3> extent_of(const Region& r) {
       out[a] = &point == r.points.data()
                    ? std::array{point[a], point[a]}
                    : std::array{std::min(out[a][0], point[a]), std::max(out[a][1], point[a])};
-  if (r.shape == RegionShape::mesh)
+  if (r.shape == RegionShape::mesh && r.mesh.volume != nullptr)
     for (std::size_t a = 0; a < 3; ++a) out[a] = {r.mesh.volume->lower()[a], r.mesh.volume->upper()[a]};
   if (r.shape == RegionShape::polygon || r.shape == RegionShape::mesh) return out;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -46,6 +46,7 @@ std::array<std::array<double, 2>, 3> extent_of(const Region& r) {
 void check_place(const Reader<keys::region>& table, const Region& region, const Scene& scene) {
   const LatticeFill& lattice = scene.start.lattice;
   if (region.shape == RegionShape::everywhere) return;
+  if (region.shape == RegionShape::mesh && region.mesh.volume == nullptr) return;
   const bool pointed = region.shape == RegionShape::cone && region.top_radius > 0;
   const bool round = region.shape == RegionShape::ball || region.shape == RegionShape::cylinder ||
                      region.shape == RegionShape::cone;
@@ -82,6 +83,24 @@ void read_points(const Reader<keys::region>& table, const Scene& scene, Region& 
     region.points.push_back(
         {value->number_in((*pair)[0], dimension::length), value->number_in((*pair)[1], dimension::length)});
   }
+  const auto& p = region.points;
+  const auto on_line = [&](const std::array<double, 2>& b, const std::array<double, 2>& c) {
+    return (b[0] - p[0][0]) * (c[1] - p[0][1]) == (b[1] - p[0][1]) * (c[0] - p[0][0]);
+  };
+  const auto other = std::ranges::find_if(p, [&](const auto& b) { return b != p[0]; });
+  if (other == p.end() || std::ranges::all_of(p, [&](const auto& c) { return on_line(*other, c); }))
+    value->fail("has all its corners on one line", "it would cover nothing");
+}
+
+/// Messages of the file's contents as those of the key.
+Triangles triangles_of(const Reader<keys::region>& table, const std::string& file) {
+  try {
+    return read_triangles(file, "");
+  } catch (const InputError& error) {
+    const std::string text = error.what();  // ": what; what would be right"
+    const std::size_t end = text.rfind("; ");
+    table.fail("file", fmt::format("\"{}\": {}", file, text.substr(2, end - 2)), text.substr(end + 2));
+  }
 }
 
 void read_volume(const Reader<keys::region>& table, const Scene& scene, Region& region) {
@@ -94,18 +113,22 @@ void read_volume(const Reader<keys::region>& table, const Scene& scene, Region& 
     table.fail("file", fmt::format("\"{}\" is another than the run began with", region.mesh.file),
                "restore it, or begin a new run");
   region.mesh.content = content;
-  Triangles read = read_triangles(region.mesh.file,
-                                  fmt::format("{}: start.region.file: \"{}\"", scene.file, region.mesh.file));
+  constexpr double most = 1e12;
+  Triangles read = triangles_of(table, region.mesh.file);
   for (auto& v : read.vertices)
-    for (std::size_t a = 0; a < 3; ++a) v[a] = v[a] * region.mesh.scale + region.mesh.origin[a];
+    for (std::size_t a = 0; a < 3; ++a) {
+      v[a] = v[a] * region.mesh.scale + region.mesh.origin[a];
+      if (!(std::fabs(v[a]) <= most))
+        table.fail("scale", fmt::format("takes the mesh to {:.3g} m", v[a]), "check its unit");
+    }
   region.mesh.volume = std::make_shared<const MeshVolume>(std::move(read.vertices), std::move(read.corners));
 }
 
-Region read_region(const Reader<keys::region>& table, const Scene& scene) {
+Region read_region(const Reader<keys::region>& table, const Scene& scene, MeshFiles meshes) {
   Region region;
   table.read(region);
   if (region.shape == RegionShape::polygon) read_points(table, scene, region);
-  if (region.shape == RegionShape::mesh) read_volume(table, scene, region);
+  if (region.shape == RegionShape::mesh && meshes == MeshFiles::read) read_volume(table, scene, region);
   if (const Group* g = region.group < 0 ? nullptr : &scene.groups[static_cast<std::size_t>(region.group)];
       g != nullptr && g->kind == GroupKind::grain) {
     if (scene.has_grains_in_flow())
@@ -163,7 +186,7 @@ void check_seam(const StartReader& table, const Scene& scene) {
   }
 }
 
-void read_lattice(const StartReader& table, Scene& scene) {
+void read_lattice(const StartReader& table, Scene& scene, MeshFiles meshes) {
   Start& start = scene.start;
   if (start.lattice.kind == LatticeKind::hexagonal && scene.dim != 2)
     table.fail("lattice", "is \"hexagonal\", which exists in 2D only", "use \"square\" or \"fcc\"");
@@ -176,7 +199,7 @@ void read_lattice(const StartReader& table, Scene& scene) {
   if (regions.empty()) table.fail_missing("region", "paint groups with [[start.region]], or give start.file");
   bool matter = !scene.domain.openings.insertions.empty();  // of grains, that may come later
   for (const auto& r : regions) {
-    start.lattice.regions.push_back(read_region(r, scene));
+    start.lattice.regions.push_back(read_region(r, scene, meshes));
     const int group = start.lattice.regions.back().group;
     matter = matter || (group >= 0 && can_move(scene.groups[static_cast<std::size_t>(group)]));
   }
@@ -274,7 +297,7 @@ void read_pressure(const StartReader& table, const Scene& scene, Start& start) {
 
 }  // namespace
 
-void read_start(const StartReader& table, Scene& scene) {
+void read_start(const StartReader& table, Scene& scene, MeshFiles meshes) {
   Start& start = scene.start;
   const bool tile = scene.of_grains() && table.has("tile");
   const bool from_file = tile || table.has("file");
@@ -298,7 +321,7 @@ void read_start(const StartReader& table, Scene& scene) {
   if (scene.is_mixture())
     table.only_if(false, "file", "grains in a fluid start from a lattice and [[start.grains]]");
   table.only_if(table.has("file"), "free_surface", "it is for start.file; of a lattice it is known");
-  if (!from_file) read_lattice(table, scene);
+  if (!from_file) read_lattice(table, scene, meshes);
   if (scene.of_grains() && from_file) table.only_if(false, "velocity", "the velocities come from the file");
   read_velocity(table, scene, start);
   if (scene.has_melt()) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 
+#include "keys/scene_record.hpp"
 #include "keys/scene_resolve.hpp"
 
 namespace sph {
@@ -183,7 +184,8 @@ void check_total_lagrangian(const Tables& tables, const Scene& scene) {
     tables.start.fail("pressure", "is of fluids", "solids with lagrangian = \"total\" start free of stress");
 }
 
-Scene resolve(const toml_tree::Node& root, const std::string& file, const End& end, bool check_files) {
+Scene resolve(const toml_tree::Node& root, const std::string& file, const End& end, bool check_files,
+              MeshFiles meshes = MeshFiles::read) {
   if (root.table()->empty())
     toml_tree::fail(fmt::format("{}:1:1", file), "scene", "the file is empty", "describe the scene in TOML");
   Scene scene;
@@ -199,7 +201,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
     check_extent(tables.domain, scene);
   }
   if (scene.has_grains_in_flow()) read_drag(tables.top, tables.drag, scene);
-  read_start(tables.start, scene);
+  read_start(tables.start, scene, meshes);
   if (scene.has_matter()) read_terms(tables.terms, scene);
   if (scene.has_matter()) read_openings(tables.top, tables.domain, scene);
   read_time(tables.time, end, scene);
@@ -255,6 +257,10 @@ void check_file(const TableReader& table, std::string_view name, const std::stri
 Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                   const End& end) {
   return parse_and_resolve(text, name, overrides, end, false);
+}
+
+Scene parse_record(const std::string& text, const std::string& name) {
+  return resolve(toml_tree::parse(text, name), name, {}, false, MeshFiles::leave);
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides, const End& end) {

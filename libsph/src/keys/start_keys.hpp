@@ -30,7 +30,9 @@ inline constexpr auto region_keys = std::to_array<Key>({
     {"file", File{},
      "Of a mesh, in three dimensions: STL (text or binary) or OBJ, its path from the folder of the scene, of "
      "closed "
-     "surfaces; where two of them enclose a place it is outside.",
+     "surfaces; where two of them enclose a place it is outside. Coordinates are read in single precision: "
+     "keep "
+     "them near the origin of the file.",
      at<&Region::mesh, &RegionMesh::file>, where("shape", "mesh"), required},
     {"content", Text{},
      "Hash of the file: a run goes on with the file that it began with. Written by the program.",

@@ -34,7 +34,9 @@ double Flux::weight(const ParticleValues& of, std::size_t row) const {
   std::int64_t way = std::abs(of.quanta(row, normal_) - lower_[normal_]);
   const std::int64_t period = wrap_.period[normal_];
   if (period > 0) way = std::min(way, period - way);
-  const double reach = 2 * size, r = static_cast<double>(way) * quantum_ / reach;
+  double reach = 2 * size;  // within a period each particle counts once
+  if (period > 0) reach = std::min(reach, 0.5 * static_cast<double>(period) * quantum_);
+  const double r = static_cast<double>(way) * quantum_ / reach;
   constexpr double peak = 15.0 / 16;  // the integral over -1..1 is 1
   return r < 1 ? peak / reach * (1 - r * r) * (1 - r * r) : 0;
 }

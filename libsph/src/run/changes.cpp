@@ -16,9 +16,10 @@ constexpr auto of_files = std::to_array<std::string_view>(
     {"output.snapshot_interval", "output.series_interval", "output.checkpoint_interval",
      "output.status_interval", "output.sort_limit", "output.checkpoint_files", "time.until", "time.steps"});
 
-/// Whole keys, or tables whose keys may all change. Terms that would add fields are refused when these are read.
+constexpr std::string_view kept_by_bonds = "terms.bond_reach";  ///< particles have counted them
+/// Whole keys, or tables whose keys may all change. What would add fields is refused when these are read.
 constexpr auto of_branches = std::to_array<std::string_view>(
-    {"title", "time", "output", "monitor", "terms", "domain.gravity", "domain.central_pull"});
+    {"title", "time", "output", "monitor", "terms", "domain.gravity", "domain.central_pull", "contact.pair"});
 /// Keys of elements: table, key or table in it.
 constexpr auto of_elements = std::to_array<std::array<std::string_view, 2>>({{"group", "viscosity"},
                                                                              {"group", "bulk_viscosity"},
@@ -29,7 +30,6 @@ constexpr auto of_elements = std::to_array<std::array<std::string_view, 2>>({{"g
                                                                              {"group", "viscosity_law"},
                                                                              {"group", "strength"},
                                                                              {"group", "heat_flux"},
-                                                                             {"contact", "pair"},
                                                                              {"inlet", "velocity"},
                                                                              {"inlet", "pressure"},
                                                                              {"inlet", "temperature"},
@@ -71,11 +71,11 @@ void refuse_other_changes(const std::vector<std::string>& overrides) {
 void refuse_changes_of_parts(const std::vector<std::string>& overrides) {
   for (const std::string& given : overrides) {
     const std::string key = key_of(given);
-    const bool good =
+    const bool listed =
         is_of_files(key) ||
         std::ranges::any_of(of_branches, [&](std::string_view t) { return is_under(key, t); }) ||
         std::ranges::any_of(of_elements, [&](const auto& e) { return is_of_element(key, e); });
-    if (good) continue;
+    if (listed && key != kept_by_bonds && key != "terms") continue;
     std::vector<std::string> elements;
     for (const auto& [table, name] : of_elements) elements.push_back(fmt::format("{}.NAME.{}", table, name));
     throw InputError(
@@ -84,6 +84,13 @@ void refuse_changes_of_parts(const std::vector<std::string>& overrides) {
                     "start.file",
                     given, key, fmt::join(of_branches, ", "), fmt::join(elements, ", ")));
   }
+}
+
+bool change_laws(const std::vector<std::string>& overrides) {
+  return std::ranges::any_of(overrides, [](const std::string& given) {
+    const std::string key = key_of(given);
+    return !is_of_files(key) && key != "title" && !is_under(key, "output") && !is_under(key, "monitor");
+  });
 }
 
 }  // namespace sph

@@ -101,11 +101,12 @@ std::optional<std::int64_t> step_of_snapshot(const fs::path& file) {
   return step;
 }
 
-void refuse_used_directory(const decomp::Comm& comm, const fs::path& dir, bool locked) {
+void refuse_used_directory(const decomp::Comm& comm, const fs::path& dir, bool locked,
+                           const std::string& option) {
   const std::string failure = agree(
       comm, attempt([&] {
         if (comm.rank() != 0) return;
-        const std::string advice = "; choose another with --out";
+        const std::string advice = "; choose another with " + option;
         std::error_code none;
         if (!fs::exists(dir, none)) return;
         if (!fs::is_directory(dir)) throw InputError(dir.string() + " is not a directory" + advice);

@@ -23,7 +23,8 @@ namespace sph {
 
 /// Throws InputError if the directory holds a file named like a run's own. `locked`: it is this run's, and
 /// what a killed one has left is gone. Collective.
-void refuse_used_directory(const decomp::Comm& comm, const std::filesystem::path& dir, bool locked);
+void refuse_used_directory(const decomp::Comm& comm, const std::filesystem::path& dir, bool locked,
+                           const std::string& option = "--out");
 
 /// Deletes what interrupted writing of a run has left. One rank.
 void remove_leftovers(const std::filesystem::path& dir);

@@ -7,11 +7,13 @@
 #include "checkpoint/checkpoint_files.hpp"
 #include "files/agree.hpp"
 #include "files/durable_file.hpp"
+#include "keys/scene_record.hpp"
 #include "models/stability.hpp"
 #include "run/changes.hpp"
 #include "run/memory_need.hpp"
 #include "run/run_directory.hpp"
 #include "sph/checkpoint/checkpoint.hpp"
+#include "sph/laws/contact/law.hpp"
 
 namespace sph {
 namespace {
@@ -32,11 +34,12 @@ std::unique_ptr<Simulation> begun(const decomp::Comm& comm, const Scene& scene) 
 }
 
 /// Makes the directory of a new run this run's.
-void claim(RunStart& start, const decomp::Comm& comm) {
+void claim(RunStart& start, const decomp::Comm& comm, const std::string& option = "--out") {
   const std::string failure = agree(comm, attempt([&] {
                                       if (comm.rank() == 0) fs::create_directories(start.dir);
                                     }));
-  const std::string what = "cannot write in " + start.dir.string() + ", choose another place with --out: ";
+  const std::string what =
+      "cannot write in " + start.dir.string() + ", choose another place with " + option + ": ";
   if (!failure.empty()) throw InputError(what + failure);
   start.lock = std::make_unique<RunLock>(comm, start.dir);
   if (start.lock->inherited()) {  // of a run that was killed before it had written anything else
@@ -45,7 +48,12 @@ void claim(RunStart& start, const decomp::Comm& comm) {
                                    }));
     if (!left.empty()) throw InputError(what + left);
   }
-  refuse_used_directory(comm, start.dir, true);  // again: another run may have come and gone since
+  refuse_used_directory(comm, start.dir, true, option);  // again: another run may have come and gone since
+}
+
+/// Doubles that a contact carries.
+int history_of(const Scene& scene) {
+  return scene.has_grains() ? static_cast<int>(contact_fusion(scene).history) : 0;
 }
 
 bool has_checkpoint(const fs::path& dir) {
@@ -77,18 +85,31 @@ RunStart start_new(const RunOptions& options, const decomp::Comm& comm) {
 }
 
 RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
+  constexpr double at_first = 1e-6;
   refuse_changes_of_parts(options.overrides);
   RunStart start;
   start.dir = options.branch;
-  refuse_used_directory(comm, start.dir, false);
-  const CheckpointHandle checkpoint = find_checkpoint(comm, options.resume);
+  refuse_used_directory(comm, start.dir, false, "--branch");
+  CheckpointHandle checkpoint = find_checkpoint(comm, options.resume);
   if (!checkpoint.warning.empty() && comm.rank() == 0)
     fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
-  const Scene scene = parse_scene(checkpoint.record.scene_toml, (options.resume / "scene.toml").string(),
-                                  options.overrides, options.end);
+  const std::string file = (options.resume / "scene.toml").string();
+  const Scene scene = parse_scene(checkpoint.record.scene_toml, file, options.overrides, options.end);
+  if (history_of(parse_record(checkpoint.record.scene_toml, file)) != history_of(scene))
+    throw InputError(
+        "--set: contacts would have other histories, with rolling friction or without: a branch keeps them");
+  // How large a step may be is known at the end of one.
+  if (change_laws(options.overrides)) checkpoint.record.global.dt *= at_first;
+  if (scene.time.dt) checkpoint.record.global.dt = *scene.time.dt;
   prepare_record(comm, scene, false);
-  start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
-  claim(start, comm);
+  try {
+    start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
+  } catch (const InputError& error) {
+    throw InputError(
+        std::string(error.what()) +
+        "; a branch keeps the fields of its particles: leave out the --set that adds or removes one");
+  }
+  claim(start, comm, "--branch");
   return start;
 }
 

@@ -6,7 +6,8 @@
 namespace sph {
 namespace {
 
-constexpr double most_squares = 2048;  ///< along an axis
+constexpr double most_squares = 2048;    ///< along an axis
+constexpr std::size_t most_places = 16;  ///< of a triangle, on average
 
 std::array<double, 2> seen_along(std::size_t axis, const Double3& x) {
   const auto [b, c] = others(axis);
@@ -33,23 +34,40 @@ std::size_t MeshVolume::square(std::size_t axis, std::size_t other, double x) co
 
 void MeshVolume::sort(std::size_t axis) {
   Across& across = across_[axis];
-  const double wanted = std::ceil(std::sqrt(static_cast<double>(corners_.size())));
-  for (std::size_t o = 0; o < 2; ++o) {
-    const double length = upper_[others(axis)[o]] - lower_[others(axis)[o]];
-    across.count[o] = length > 0 ? static_cast<std::size_t>(std::min(wanted, most_squares)) : 1;
-    across.per_length[o] = length > 0 ? static_cast<double>(across.count[o]) / length : 0;
-  }
-  const auto for_squares = [&](const Corners& t, auto&& visit) {
-    std::array<std::size_t, 2> lo{}, hi{};
+  const auto divide = [&](double wanted) {
+    for (std::size_t o = 0; o < 2; ++o) {
+      const double length = upper_[others(axis)[o]] - lower_[others(axis)[o]];
+      across.count[o] = length > 0 ? static_cast<std::size_t>(wanted) : 1;
+      across.per_length[o] = length > 0 ? static_cast<double>(across.count[o]) / length : 0;
+    }
+  };
+  const auto box_of = [&](const Corners& t) {
+    std::array<std::array<std::size_t, 2>, 2> box{};
     for (std::size_t o = 0; o < 2; ++o) {
       const std::size_t a = others(axis)[o];
       const auto [least, most] = std::minmax({vertices_[t[0]][a], vertices_[t[1]][a], vertices_[t[2]][a]});
-      lo[o] = square(axis, o, least);
-      hi[o] = square(axis, o, most);
+      box[o] = {square(axis, o, least), square(axis, o, most)};
     }
-    for (std::size_t c = lo[1]; c <= hi[1]; ++c)
-      for (std::size_t b = lo[0]; b <= hi[0]; ++b) visit(c * across.count[0] + b);
+    return box;
   };
+  const auto squares_of = [&](const Corners& t) {
+    const auto box = box_of(t);
+    return (box[0][1] - box[0][0] + 1) * (box[1][1] - box[1][0] + 1);
+  };
+  const auto for_squares = [&](const Corners& t, auto&& visit) {
+    const auto [b_range, c_range] = box_of(t);
+    for (std::size_t c = c_range[0]; c <= c_range[1]; ++c)
+      for (std::size_t b = b_range[0]; b <= b_range[1]; ++b) visit(c * across.count[0] + b);
+  };
+  // Slender triangles that lie askew have many squares in their boxes.
+  double wanted = std::min(std::ceil(std::sqrt(static_cast<double>(corners_.size()))), most_squares);
+  for (std::size_t places = most_places * corners_.size() + 1; places > most_places * corners_.size();
+       wanted = std::ceil(wanted / 2)) {
+    divide(wanted);
+    places = 0;
+    for (const Corners& t : corners_) places += squares_of(t);
+    if (wanted == 1) break;
+  }
   across.first.assign(across.count[0] * across.count[1] + 1, 0);
   for (const Corners& t : corners_) for_squares(t, [&](std::size_t s) { ++across.first[s + 1]; });
   for (std::size_t s = 1; s < across.first.size(); ++s) across.first[s] += across.first[s - 1];

@@ -45,7 +45,7 @@ namespace sph {
 inline bool contains(const Region& r, const Double3& x, std::size_t dim) {
   if (r.shape == RegionShape::everywhere) return true;
   if (r.shape == RegionShape::polygon) return is_in_polygon(r, x);
-  if (r.shape == RegionShape::mesh) return r.mesh.volume->contains(x);
+  if (r.shape == RegionShape::mesh) return r.mesh.volume != nullptr && r.mesh.volume->contains(x);
   if (r.shape == RegionShape::cylinder || r.shape == RegionShape::cone) {
     const double part = part_of_axis(r, x[axis_of(r)]), radius = radius_at(r, part);
     return part >= 0 && part < 1 && from_axis2(r, x, dim) < radius * radius;

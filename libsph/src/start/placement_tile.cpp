@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "files/hdf5_file.hpp"
+#include "keys/scene_record.hpp"
 #include "start/start_rows.hpp"
 
 namespace sph {
@@ -37,7 +38,7 @@ void check_lengths(const Scene& scene, const StartRows& rows) {
   if (rows.position.quanta.empty()) return;
   constexpr double rounding = 1e-9;
   const std::string& file = scene.start.tile.file;
-  const Scene settled = parse_scene(Hdf5Reader(file).text("scene"), file, {});
+  const Scene settled = parse_record(Hdf5Reader(file).text("scene"), file);
   for (std::size_t a = 0; a < 3; ++a) {
     const auto copies = static_cast<double>(scene.start.tile.repeat[a]);
     const double wanted = (scene.domain.upper[a] - scene.domain.lower[a]) / copies;
