@@ -92,8 +92,20 @@ class Cases:
                            "group.melt.becomes": "[]", "group": "[]", "terms.none": 1}.items():
             self.run.refused(2, *words, self.folder("refused"), "--set", f"{key}={value}", says=key)
         self.run.refused(2, *words, self.folder("refused"), "--set", "terms.shifting=true", "--set", "terms.none=1", says="none")
-        self.run.refused(1, *words, other[1], says="holds a run already")
+        self.run.refused(2, *words, self.folder("refused"), "--set", "terms.bond_reach=2", says="terms.bond_reach")
+        self.run.refused(1, *words, other[1], says="holds a run already; choose another with --branch")
+        # Far more viscous than its step was made for: energy does not rise.
+        stiff = self.folder("stiff")
+        self.run.run(1, *words, stiff, "--steps", 12, "--set", "output.series_interval=0", "--set", "group.melt.viscosity=1e8",
+                     "--set", "group.wall.viscosity=1e8", "--set", 'monitor=[{kind="energy"}]')
+        kinetic = [float(row.split(",")[2]) for row in (stiff / "series.csv").read_text().splitlines()[1:]]
+        assert len(kinetic) > 2 and max(kinetic) <= 1.001 * kinetic[0], kinetic
         self.run.refused(1, *words, "", says="--branch: is empty")
+        grains, sand = self.folder("grains"), self.scene.parents[2] / "tests/scenes/grains_pour.toml"
+        self.run.run(2, "peperite", "run", sand, "--out", grains, "--steps", 60)
+        self.run.refused(2, "peperite", "resume", grains, "--branch", self.folder("rolling"), "--set", "group.sand.rolling_friction=0.1",
+                         says="rolling")
+        self.run.run(2, "peperite", "resume", grains, "--branch", self.folder("rougher"), "--steps", 80, "--set", "group.sand.friction=0.7")
         assert self.run.files("trunk") == before, "a branch has changed the run that it comes from"
         assert self.run.run(1, "peperite", "resume", out, "--steps", 30).fingerprint == plain.fingerprint
 

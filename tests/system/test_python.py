@@ -108,21 +108,25 @@ class Package(Case):
         domain = snapshot.scene["domain"]
         size = np.array(domain["upper"]) - domain["lower"]
         volume = 4 / 3 * np.pi * snapshot.radius**3
-        for axis in "xz":
-            profile = snapshot.profile(axis, slices=7, lower=-1, upper=1, fixed=True)
+        for axis in "xyz":
             k = "xyz".index(axis)
+            whole = {} if snapshot.periodic()[k] else {"lower": -1, "upper": 1}
+            profile = snapshot.profile(axis, slices=7, fixed=True, **whole)
             across = np.prod(np.delete(size, k))
             self.assertAlmostEqual((profile.fraction * profile.volume).sum() / volume.sum(), 1, places=12)
             full = profile.fraction > 0
             momentum = np.einsum("k,ki->i", (profile.fraction * profile.volume)[full], profile.velocity[full])
             self.assertTrue(np.allclose(momentum, volume @ snapshot.velocity, rtol=1e-12))
-            self.assertTrue(np.allclose(profile.volume, across * 2 / 7))
+            self.assertTrue(np.allclose(profile.volume, across * (2 if whole else size[k]) / 7))
             contacts = snapshot.contacts
             end = np.where((contacts.second >= 0)[:, None], snapshot.position[contacts.second], contacts.point)
             line = snapshot.nearest_image(end - snapshot.position[contacts.first])
             virial = -np.einsum("ni,nj->ij", contacts.force, line)
             self.assertTrue(np.allclose(np.einsum("k,kij->ij", profile.volume, profile.stress), virial))
         self.refused("along", lambda: snapshot.profile("w"))
+        self.refused("of 2.5", lambda: snapshot.profile("z", slices=2.5))
+        self.refused("above 0", lambda: snapshot.profile("z", area=0))
+        self.assertTrue(any(snapshot.periodic()))
         self.refused("no slices", lambda: snapshot.profile("z", lower=1, upper=0))
         self.refused("no grains", lambda: self.open("fluid")[-1].profile())
         self.assertIsNone(self.open("owners")[-1].profile().stress)

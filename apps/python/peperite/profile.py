@@ -18,8 +18,10 @@ class Profile:
     def __init__(self, snapshot, axis="z", slices=20, lower=None, upper=None, area=None, fixed=False):
         if "radius" not in snapshot:
             raise Error(f"{snapshot.path}: there are no grains in it")
-        if axis not in COMPONENTS or slices < 1:
+        if axis not in COMPONENTS or not isinstance(slices, (int, np.integer)) or slices < 1:
             raise Error(f"a profile is along \"x\", \"y\" or \"z\", of one slice or more; not along \"{axis}\", of {slices}")
+        if area is not None and not area > 0:
+            raise Error(f"a profile has slices of an area above 0, not {area} m2")
         self.axis, along = axis, COMPONENTS[axis]
         domain = snapshot.scene["domain"]
         low, high = (np.array(domain[side], dtype=float) for side in ("lower", "upper"))
@@ -29,6 +31,8 @@ class Profile:
             raise Error(f"a profile from {self.edges[0]:g} to {self.edges[-1]:g} m has no slices")
         across = np.prod(np.delete(high - low, along)) if area is None else area
         self.volume = np.diff(self.edges) * across
+        # Across a period what reaches over its end is in the slice at the other.
+        self._shifts = (0, -(high - low)[along], (high - low)[along]) if snapshot.periodic()[along] else (0,)
         grains = snapshot["radius"] > 0
         if not fixed:
             grains &= snapshot.moves()
@@ -37,8 +41,10 @@ class Profile:
 
     def _of_grains(self, snapshot, grains, along):
         x, r, v = snapshot["position"][grains, along], snapshot["radius"][grains], snapshot["velocity"][grains]
-        density = np.array([g["density"] for g in snapshot.scene["group"]])[snapshot["group"][grains]]
-        slices = len(self.middle)
+        density = np.array([g.get("density", np.nan) for g in snapshot.scene["group"]])[snapshot["group"][grains]]
+        slices, images = len(self.middle), len(self._shifts)
+        x = np.concatenate([x + shift for shift in self._shifts])
+        r, v, density = np.tile(r, images), np.tile(v, (images, 1)), np.tile(density, images)
         self.fraction, self.temperature = np.zeros(slices), np.full(slices, np.nan)
         self.velocity, self.kinetic_stress = np.full((slices, 3), np.nan), np.zeros((slices, 3, 3))
         below = volume_below(self.edges[0] - x, r)
@@ -62,6 +68,8 @@ class Profile:
         begin = position[contacts.first, along]
         low, high = (edge(begin, begin + line[:, along]) for edge in (np.minimum, np.maximum))
         dyad = -np.einsum("ni,nj->nij", contacts.force, line)
+        low, high = (np.concatenate([end + shift for shift in self._shifts]) for end in (low, high))
+        dyad = np.tile(dyad, (len(self._shifts), 1, 1))
         out = np.empty((len(self.middle), 3, 3))
         for k, (start, stop) in enumerate(zip(self.edges, self.edges[1:])):
             inside = np.clip(np.minimum(high, stop) - np.maximum(low, start), 0, None)

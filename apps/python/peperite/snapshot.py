@@ -147,11 +147,16 @@ class Snapshot:
     def speed(self):
         return np.linalg.norm(self["velocity"], axis=1)
 
+    def periodic(self):
+        """Along which axes."""
+        domain = self.scene["domain"]
+        return np.array(domain.get("periodic", [False] * len(domain["upper"])))
+
     def nearest_image(self, way):
         """Differences of positions, the shortest where axes are periodic."""
         domain = self.scene["domain"]
         length = np.array(domain["upper"], dtype=float) - np.array(domain["lower"], dtype=float)
-        around = np.array(domain.get("periodic", [False] * len(length)))
+        around = self.periodic()
         return way - np.where(around, length * np.round(way / length), 0)
 
     def displacement_since(self, first):
