@@ -282,8 +282,8 @@ TEST(Meshes, ServosPressAsTold) {
   double force = 0;
   const Ball end = run(
       pressed(files, 0) +
-          "direction = [0, 0, -1]\nforce = 300\nservo_gain = 1e-3\nlargest_speed = 0.1\n[time]\ndt = 2e-4\n",
-      1, [&](const sph::Simulation& s) { force = s.grains()->walls().newton(s.global().walls[1].force[2]); });
+          "direction = [0, 0, -1]\nforce = 300\nservo_gain = 1e-4\nlargest_speed = 0.1\n[time]\ndt = 2e-4\n",
+      8, [&](const sph::Simulation& s) { force = s.grains()->walls().newton(s.global().walls[1].force[2]); });
   EXPECT_NEAR(force / 300, 1, 1e-6);
   EXPECT_NEAR(0.1 - end.x[2], 300 / 1e5, 1e-7);
 }

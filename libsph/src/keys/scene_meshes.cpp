@@ -30,9 +30,6 @@ void read_drive(const MeshReader& table, MeshWall& mesh) {
   if (!table.has("direction")) table.fail_missing("direction", "a servo or a mass moves along it");
   if (!table.has("largest_speed")) table.fail_missing("largest_speed", "it goes no faster, in m/s");
   if (drive.servo_gain > 0 && !drive.force) table.fail_missing("force", "a servo presses with it, in N");
-  for (const auto key :
-       {MeshReader::Name<>("velocity"), MeshReader::Name<>("spin"), MeshReader::Name<>("amplitude")})
-    table.only_if(false, key, "a servo or a mass moves along its direction alone");
 }
 
 MeshWall read_mesh(const MeshReader& table, const Scene& scene) {
@@ -41,6 +38,12 @@ MeshWall read_mesh(const MeshReader& table, const Scene& scene) {
   check_periods(table, scene);
   read_drive(table, mesh);
   read_motion(table, mesh.motion, mesh.drive.any());
+  if (mesh.drive.any()) {
+    constexpr std::string_view why = "a servo or a mass moves along its direction alone";
+    table.only_if(mesh.motion.speed.empty(), "velocity", why);
+    table.only_if(mesh.motion.spin.empty(), "spin", why);
+    table.only_if(mesh.motion.amplitude == Double3{}, "amplitude", why);
+  }
   if (mesh.end && !(mesh.begin < *mesh.end))
     table.fail("end", fmt::format("is {} s, not after {} s, when it begins", *mesh.end, mesh.begin),
                "it would never be there");
@@ -75,7 +78,7 @@ void find_meshes(const TopReader& top, Scene& scene) {
 void write_meshes(SceneWriter& out, const Scene& scene) {
   for (const MeshWall& mesh : scene.grains.meshes) {
     out.table(keys::mesh, mesh);
-    if (!mesh.drive.any()) write_motion(out, mesh.motion);
+    write_motion(out, mesh.motion);
   }
 }
 
