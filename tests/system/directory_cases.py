@@ -96,7 +96,7 @@ class Cases:
         self.run.refused(1, *words, other[1], says="holds a run already; choose another with --branch")
         # Far more viscous than its step was made for: energy does not rise.
         stiff = self.folder("stiff")
-        self.run.run(1, *words, stiff, "--steps", 12, "--set", "output.series_interval=0", "--set", "group.melt.viscosity=1e8",
+        self.run.run(1, *words, stiff, "--steps", 14, "--set", "output.series_interval=0", "--set", "group.melt.viscosity=1e8",
                      "--set", "group.wall.viscosity=1e8", "--set", 'monitor=[{kind="energy"}]')
         kinetic = [float(row.split(",")[2]) for row in (stiff / "series.csv").read_text().splitlines()[1:]]
         assert len(kinetic) > 2 and max(kinetic) <= 1.001 * kinetic[0], kinetic
