@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "keys/scene_record.hpp"
+#include "scene/record.hpp"
 #include "sph/laws/contact/law.hpp"
 
 namespace sph {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <system_error>
 
-#include "keys/scene_record.hpp"
+#include "scene/record.hpp"
 #include "keys/scene_resolve.hpp"
 
 namespace sph {

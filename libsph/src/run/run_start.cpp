@@ -7,11 +7,11 @@
 #include "checkpoint/checkpoint_files.hpp"
 #include "files/agree.hpp"
 #include "files/durable_file.hpp"
-#include "keys/scene_record.hpp"
 #include "models/stability.hpp"
 #include "run/changes.hpp"
 #include "run/memory_need.hpp"
 #include "run/run_directory.hpp"
+#include "scene/record.hpp"
 #include "sph/checkpoint/checkpoint.hpp"
 #include "sph/laws/contact/law.hpp"
 
@@ -99,15 +99,15 @@ RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
     throw InputError(
         "--set: contacts would have other histories, with rolling friction or without: a branch keeps them");
   // How large a step may be is known at the end of one.
-  if (change_laws(options.overrides)) checkpoint.record.global.dt *= at_first;
-  if (scene.time.dt) checkpoint.record.global.dt = *scene.time.dt;
+  if (double& dt = checkpoint.record.global.dt; change_laws(options.overrides))
+    dt = scene.time.dt && !scene.has_melt() ? *scene.time.dt : at_first * dt;
   prepare_record(comm, scene, false);
   try {
     start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
   } catch (const InputError& error) {
-    throw InputError(
-        std::string(error.what()) +
-        "; a branch keeps the fields of its particles: leave out the --set that adds or removes one");
+    const std::string what = error.what();
+    if (what.find("does not fit the scene") == std::string::npos) throw;
+    throw InputError(what + "; leave out the --set that adds or removes it");
   }
   claim(start, comm, "--branch");
   return start;

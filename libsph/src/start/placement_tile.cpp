@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "files/hdf5_file.hpp"
-#include "keys/scene_record.hpp"
+#include "scene/record.hpp"
 #include "start/start_rows.hpp"
 
 namespace sph {
