@@ -42,7 +42,7 @@ FOLDERS = {
     "checkpoint": "core files",
     "step": "core scene plan start models checkpoint",
     "output": "core files scene laws step",
-    "inspect": "core files laws checkpoint output",
+    "inspect": "core files scene laws checkpoint output",
     "run": "core files scene pairs laws keys plan start models checkpoint step output inspect",
 }
 # path, longest first: what it may include

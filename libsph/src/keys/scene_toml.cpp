@@ -10,8 +10,8 @@
 #include <optional>
 #include <system_error>
 
-#include "scene/record.hpp"
 #include "keys/scene_resolve.hpp"
+#include "scene/record.hpp"
 
 namespace sph {
 namespace {
