@@ -17,7 +17,7 @@ sys.path.append(str(here.parent / "apps/python"))
 import peperite  # noqa: E402
 
 SCENE = here.parent / "tests/scenes/grains_silo.toml"
-STEP, CYCLE, DUST = 15e-6, 0.3, 250  # [s, s, grains of dust that come in a millisecond]
+STEP, CYCLE, BIRTHS = 15e-6, 0.3, 145e3  # [s, s, grains that come in a second, on average]
 LEGS = 10
 
 
@@ -43,7 +43,7 @@ def main():
     arguments.add_argument("--births", type=int, default=1_000_000)
     options = arguments.parse_args()
     program = os.path.abspath(options.build / "bin/peperite")
-    steps = round(options.births / (DUST + 100) / 1e3 / STEP / LEGS) * LEGS  # of sand there come 100 in a millisecond
+    steps = round(options.births / BIRTHS / STEP / LEGS) * LEGS
     with tempfile.TemporaryDirectory() as work:
         one, took = legs(program, f"{work}/one", steps, [1])
         many, _ = legs(program, f"{work}/many", steps, [1 + leg % 3 for leg in range(LEGS)])
