@@ -25,7 +25,7 @@ def settings(steps):
     """Sand comes in the first half of each cycle."""
     times = [k * CYCLE / 2 for k in range(2 + int(2 * steps * STEP / CYCLE))]
     sand = [point for k, t in enumerate(times) for point in ([t, 0.2 * (k % 2 == 0)], [t + 0.49 * CYCLE, 0.2 * (k % 2 == 0)])]
-    return (f"insertion.0.rate={sand}", f"time.steps={steps}", "output.series_interval=0.01", 'monitor=[{kind="budget"}]')
+    return (f"insertion.0.rate={sand}", f"time.steps={steps}", "output.series_interval=0.01", "output.snapshot_interval=1e9", 'monitor=[{kind="budget"}]')
 
 
 def legs(program, folder, steps, ranks):
@@ -49,18 +49,18 @@ def main():
         many, _ = legs(program, f"{work}/many", steps, [1 + leg % 3 for leg in range(LEGS)])
         series = one.series
         came, left = int(series["budget_n_in"][-1]), int(series["budget_n_out"][-1])
-        here_now = came - left + len(one[0])
-        print(f"{steps} steps, {came} grains came, {left} left, {len(one[-1])} are there"
-              f"{'' if here_now == len(one[-1]) else f', but there should be {here_now}'}")
+        there_now, expected = len(one[-1]), len(one[0]) + came - left
+        print(f"{steps} steps, {came} grains came, {left} left, {there_now} are there"
+              f"{'' if expected == there_now else f', but there should be {expected}'}")
         held = series["budget_mass"] + series["budget_mass_out"] - series["budget_mass_in"]
-        print(f"mass, less what came, with what left: off by at most {abs(held / held[0] - 1).max():.1e}")
+        print(f"mass, less what came, with what left: off by at most {abs(held - held[0]).max() / series['budget_mass_in'][-1]:.1e} of that")
         there = series["budget_n_in"] - series["budget_n_out"]
         fills = sum(a < b > c for a, b, c in zip(there[:-20:20], there[10:-10:20], there[20::20]))
         print(f"filled and emptied {fills} times, {there.min():.0f} to {there.max():.0f} more than at the start")
         same = one.perf["fingerprint"] == many.perf["fingerprint"]
         print(f"one rank, and 1 to 3 ranks over {LEGS - 1} restarts: {'the same bits' if same else 'OTHER BITS'}, {one.perf['fingerprint']}")
         print(f"{took:.0f} s on one rank")
-    return 0 if same and here_now == len(one[-1]) else 1
+    return 0 if same and expected == there_now else 1
 
 
 if __name__ == "__main__":
