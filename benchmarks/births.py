@@ -19,13 +19,14 @@ import peperite  # noqa: E402
 SCENE = here.parent / "tests/scenes/grains_silo.toml"
 STEP, CYCLE, BIRTHS = 15e-6, 0.3, 145e3  # [s, s, grains that come in a second, on average]
 LEGS = 10
+ROWS = 100  # steps between lines of the series, the last of which is that of the last step
 
 
 def settings(steps):
     """Sand comes in the first half of each cycle."""
     times = [k * CYCLE / 2 for k in range(2 + int(2 * steps * STEP / CYCLE))]
     sand = [point for k, t in enumerate(times) for point in ([t, 0.2 * (k % 2 == 0)], [t + 0.49 * CYCLE, 0.2 * (k % 2 == 0)])]
-    return (f"insertion.0.rate={sand}", f"time.steps={steps}", "output.series_interval=0.01", "output.snapshot_interval=1e9", 'monitor=[{kind="budget"}]')
+    return (f"insertion.0.rate={sand}", f"time.steps={steps}", f"output.series_interval={ROWS * STEP * (1 - 1e-6)}", "output.snapshot_interval=1e9", 'monitor=[{kind="budget"}]')
 
 
 def legs(program, folder, steps, ranks):
@@ -43,7 +44,7 @@ def main():
     arguments.add_argument("--births", type=int, default=1_000_000)
     options = arguments.parse_args()
     program = os.path.abspath(options.build / "bin/peperite")
-    steps = round(options.births / BIRTHS / STEP / LEGS) * LEGS
+    steps = round(options.births / BIRTHS / STEP / LEGS / ROWS) * LEGS * ROWS
     with tempfile.TemporaryDirectory() as work:
         one, took = legs(program, f"{work}/one", steps, [1])
         many, _ = legs(program, f"{work}/many", steps, [1 + leg % 3 for leg in range(LEGS)])
@@ -55,7 +56,7 @@ def main():
         held = series["budget_mass"] + series["budget_mass_out"] - series["budget_mass_in"]
         print(f"mass, less what came, with what left: off by at most {abs(held - held[0]).max() / series['budget_mass_in'][-1]:.1e} of that")
         there = series["budget_n_in"] - series["budget_n_out"]
-        fills = sum(a < b > c for a, b, c in zip(there[:-20:20], there[10:-10:20], there[20::20]))
+        fills = sum(a < b > c for a, b, c in zip(there[::100], there[50::100], there[100::100]))
         print(f"filled and emptied {fills} times, {there.min():.0f} to {there.max():.0f} more than at the start")
         same = one.perf["fingerprint"] == many.perf["fingerprint"]
         print(f"one rank, and 1 to 3 ranks over {LEGS - 1} restarts: {'the same bits' if same else 'OTHER BITS'}, {one.perf['fingerprint']}")
