@@ -16,6 +16,7 @@ NOT_VARIED = {
     "decomposition.record": "fuzz_ranks writes the cuts of every replayed row to a file",
     "decomposition.replay": "fuzz_ranks names the file of every row with cuts = replay",
     "mesh.content": "the program notes it when it reads the scene",
+    "start.region.content": "the same",
     "decomposition.chaos_seed": "fuzz_ranks draws it for every row with cuts = chaos",
 }
 # As the key table names them, without the words of a start file, which cases add when they are written.
