@@ -180,7 +180,9 @@ const std::vector<Source>& sources() {
       {"slope2d", "tests/scenes/slope2d.toml", {}},
       {"rock3d",
        "tests/scenes/box3d_solid.toml",
-       {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3", "start.region.4.radius=1.3",
+       {"start.velocity=[3, 0, 0]", "start.region.3.radius=1.3",
+        "start.region.4={group=\"rock\", shape=\"mesh\", scale=1.5, origin=[58, 4, 4], "
+        "file=\"" PEPERITE_SOURCE_DIR "/tests/scenes/ring.obj\"}",
         "group.rock.strength={cohesion=500, friction_angle=25, dilatancy_angle=10, tensile_strength=400}"}},
       // ... that crack: what fails becomes fluid
       {"crack2d", "tests/scenes/crack2d.toml", {}},
