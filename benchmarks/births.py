@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from speed import here, run
+from speed import here, run_in_legs
 
 sys.path.append(str(here.parent / "apps/python"))
 import peperite  # noqa: E402
@@ -26,15 +26,13 @@ def settings(steps):
     """Sand comes in the first half of each cycle."""
     times = [k * CYCLE / 2 for k in range(2 + int(2 * steps * STEP / CYCLE))]
     sand = [point for k, t in enumerate(times) for point in ([t, 0.2 * (k % 2 == 0)], [t + 0.49 * CYCLE, 0.2 * (k % 2 == 0)])]
-    return (f"insertion.0.rate={sand}", f"time.steps={steps}", f"output.series_interval={ROWS * STEP * (1 - 1e-6)}", "output.snapshot_interval=1e9", 'monitor=[{kind="budget"}]')
+    return (f"insertion.0.rate={sand}", f"time.steps={steps}", f"output.series_interval={ROWS * STEP * (1 - 1e-6)}",
+            "output.snapshot_interval=1e9", 'monitor=[{kind="budget"}]')
 
 
 def legs(program, folder, steps, ranks):
-    words = [word for s in settings(steps) for word in ("--set", s)]
     began = time.monotonic()
-    for leg in range(1, len(ranks) + 1):
-        what = ["run", SCENE, "--out", folder, *words] if leg == 1 else ["resume", folder]
-        run(["mpirun", "-np", str(ranks[leg - 1]), program, *what, "--steps", str(steps * leg // len(ranks))])
+    run_in_legs(program, SCENE, folder, settings(steps), steps, ranks)
     return peperite.open(folder), time.monotonic() - began
 
 

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from speed import here, run
+from speed import here, run_in_legs
 
 sys.path.append(str(here.parent / "apps/python"))
 import peperite  # noqa: E402
@@ -33,11 +33,8 @@ def main():
     program = os.path.abspath(options.build / "bin/peperite")
     with tempfile.TemporaryDirectory() as directory:
         folder = f"{directory}/run"
-        words = [word for s in settings for word in ("--set", s)]
-        scene = here.parent / "tests/scenes/freezing2d.toml"
-        for leg in range(1, 11):
-            what = ["run", scene, "--out", folder, *words] if leg == 1 else ["resume", folder]
-            run(["mpirun", "-np", str(1 + leg % 3), program, *what, "--steps", str(options.steps * leg // 10)])
+        run_in_legs(program, here.parent / "tests/scenes/freezing2d.toml", folder, settings, options.steps,
+                    [1 + leg % 3 for leg in range(1, 11)])
         series = peperite.open(folder).series
         rows = [dict(zip(series, line)) for line in zip(*series.values())]
     print(f"{len(rows) - 1} steps, {rows[-1]['t']:.4g} s")

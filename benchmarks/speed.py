@@ -38,6 +38,14 @@ def run(command):
     return done.stdout
 
 
+def run_in_legs(program, scene, folder, settings, steps, ranks):
+    """Stopped and gone on with: a leg on each of these numbers of ranks."""
+    words = [word for s in settings for word in ("--set", s)]
+    for leg, n in enumerate(ranks, 1):
+        what = ["run", scene, "--out", folder, *words] if leg == 1 else ["resume", folder]
+        run(["mpirun", "-np", str(n), program, *what, "--steps", str(steps * leg // len(ranks))])
+
+
 def ours(build, scene, ranks, steps, settings=()):
     """perf.json of a run of `scene` on `ranks` ranks."""
     with tempfile.TemporaryDirectory() as directory:

@@ -101,9 +101,9 @@ void read_openings(const TopReader& top, const DomainReader& domain, Scene& scen
 /// Refuses what a background cannot bear, once all is read.
 void check_background(const DomainReader& domain, const Scene& scene);
 
-/// [start], once dimension, domain, groups and spacing of `scene` are known.
 /// Of the meshes that regions of the start name. Left: of a scene that only says what a file is of.
 enum class MeshFiles { read, leave };
+/// [start], once dimension, domain, groups and spacing of `scene` are known.
 void read_start(const StartReader& table, Scene& scene, MeshFiles meshes);
 /// [terms], once the groups are known.
 void read_terms(const TermsReader& table, Scene& scene);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -105,8 +104,6 @@ Triangles triangles_of(const Reader<keys::region>& table, const std::string& fil
 
 void read_volume(const Reader<keys::region>& table, const Scene& scene, Region& region) {
   if (scene.dim != 3) table.fail("shape", "is \"mesh\", which exists in 3D only", "use \"polygon\"");
-  const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
-  region.mesh.file = std::filesystem::absolute(folder / region.mesh.file).lexically_normal().string();
   check_file(table, "file", region.mesh.file);
   const std::string content = hash_of_file(region.mesh.file);
   if (!region.mesh.content.empty() && content != region.mesh.content)

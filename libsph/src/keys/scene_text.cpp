@@ -12,13 +12,6 @@
 namespace sph {
 namespace {
 
-std::string points_text(const Region& region) {
-  std::vector<std::string> points;
-  for (const auto& [x, y] : region.points)
-    points.push_back(fmt::format("[{}, {}]", SceneWriter::real(x), SceneWriter::real(y)));
-  return fmt::format("[{}]", fmt::join(points, ", "));
-}
-
 void write_start_motion(SceneWriter& out, const RigidMaterial& body, int dim) {
   std::vector<std::string> held;
   for (std::size_t k = 0; k < body.held.size(); ++k)
@@ -66,7 +59,7 @@ void write_start(SceneWriter& out, const Scene& scene) {
   for (const Layer& layer : s.layers) out.table(keys::layer, layer);
   for (const Region& region : s.lattice.regions) {
     out.table(keys::region, region);
-    if (!region.points.empty()) out.raw("points", points_text(region));
+    write_curve(out, "points", region.points);  // pairs of numbers too
   }
   for (const GrainFill& fill : s.fills) out.table(keys::fill, fill);
 }
