@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstring>
 #include <functional>
 #include <vector>
 
@@ -26,7 +27,11 @@ struct DoubleSums {
   using Sum = double;
   static Simd<double>::Native lanes(Simd<double> x) { return x.v; }
   static double scalar(double x) { return x; }
-  static double value(double sum) { return sum; }
+  static FourDoubles values(const double* four) {
+    FourDoubles sums;
+    std::memcpy(&sums, four, sizeof sums);
+    return sums;
+  }
 };
 
 template <class Normal>

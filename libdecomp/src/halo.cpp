@@ -31,12 +31,6 @@ bool contiguous(std::span<const std::uint32_t> ascending) {
   return ascending.empty() || ascending.back() - ascending.front() + 1 == ascending.size();
 }
 
-std::size_t width_sum(const Table& table, std::span<const int> columns) {
-  std::size_t sum = 0;
-  for (const int c : columns) sum += table.column(c).width();
-  return sum;
-}
-
 void grow(std::vector<std::byte>& buffer, std::size_t bytes) {
   if (buffer.size() < bytes) buffer.resize(bytes);
 }
@@ -93,14 +87,22 @@ HaloPlan::HaloPlan(const Comm& comm, const JaggedPartition& partition, std::int6
 }
 
 void HaloPlan::begin(Table& table, std::span<const int> columns) {
-  if (table_ != nullptr) throw std::logic_error("halo refresh begun before the last one ended");
   if (!peers_.empty() && (table.owned() != owned_ || table.halo() != halo_))
     throw std::logic_error("halo plan used after the table's rows changed");
-  table_ = &table;
-  columns_.assign(columns.begin(), columns.end());
+  std::vector<Rows> rows;
+  for (const int c : columns)
+    rows.push_back({table.column(c).data(), table.column(c).width(), c == position_});
+  begin(rows);
+}
+
+void HaloPlan::begin(std::span<const Rows> of) {
+  if (under_way_) throw std::logic_error("halo refresh begun before the last one ended");
+  under_way_ = true;
+  sent_.assign(of.begin(), of.end());
   if (poisons()) poison();
 
-  const std::size_t width = width_sum(table, columns);
+  std::size_t width = 0;
+  for (const Rows& rows : sent_) width += rows.width;
   for (Peer& peer : peers_) {
     if (is_self(peer)) continue;
     grow(peer.in, peer.receive.size() * width);
@@ -129,60 +131,55 @@ void HaloPlan::progress() {
 void HaloPlan::wait() { wait_all(requests_); }
 
 void HaloPlan::end() {
-  if (table_ == nullptr) throw std::logic_error("halo refresh ended but not begun");
+  if (!under_way_) throw std::logic_error("halo refresh ended but not begun");
   wait();
   for (Peer& peer : peers_)
     if (!is_self(peer)) unpack(peer);
-  table_ = nullptr;
+  under_way_ = false;
 }
 
 void HaloPlan::poison() {
-  for (const int c : columns_) {
-    Column& column = table_->column(c);
+  for (const Rows& rows : sent_)
     for (const Peer& peer : peers_)
-      for (const std::uint32_t r : peer.receive)
-        decomp::poison(column.data() + r * column.width(), column.width());
-  }
+      for (const std::uint32_t r : peer.receive) decomp::poison(rows.data + r * rows.width, rows.width);
 }
 
 void HaloPlan::copy_to_self(Peer& peer) {
-  for (const int c : columns_) {
-    Column& column = table_->column(c);
-    copy_rows(column.data(), peer.receive, peer.send, column.width());
-    if (c == position_) shift_positions(peer, column.data());
+  for (const Rows& rows : sent_) {
+    copy_rows(rows.data, peer.receive, peer.send, rows.width);
+    if (rows.positions) shift_positions(peer, rows);
   }
 }
 
 void HaloPlan::pack(Peer& peer) {
   std::byte* to = peer.out.data();
-  for (const int c : columns_) {
-    const Column& column = table_->column(c);
-    gather_rows(to, column.data(), peer.send, column.width());
-    to += peer.send.size() * column.width();
+  for (const Rows& rows : sent_) {
+    gather_rows(to, rows.data, peer.send, rows.width);
+    to += peer.send.size() * rows.width;
   }
 }
 
 void HaloPlan::unpack(Peer& peer) {
   if (peer.receive.empty()) return;
   const std::byte* from = peer.in.data();
-  for (const int c : columns_) {
-    Column& column = table_->column(c);
-    const std::size_t bytes = peer.receive.size() * column.width();
+  for (const Rows& rows : sent_) {
+    const std::size_t bytes = peer.receive.size() * rows.width;
     if (contiguous(peer.receive))
-      std::memcpy(column.data() + peer.receive.front() * column.width(), from, bytes);
+      std::memcpy(rows.data + peer.receive.front() * rows.width, from, bytes);
     else
-      scatter_rows(column.data(), from, peer.receive, column.width());
-    if (c == position_) shift_positions(peer, column.data());
+      scatter_rows(rows.data, from, peer.receive, rows.width);
+    if (rows.positions) shift_positions(peer, rows);
     from += bytes;
   }
 }
 
-void HaloPlan::shift_positions(const Peer& peer, std::byte* positions) const {
-  auto* x = reinterpret_cast<std::int64_t*>(positions);
+void HaloPlan::shift_positions(const Peer& peer, const Rows& rows) const {
   for (const Segment& s : peer.segments) {
     if (s.shift == Int3{}) continue;
-    for (std::size_t k = s.begin; k < s.end; ++k)
-      for (int a = 0; a < dim_; ++a) x[peer.receive[k] * static_cast<std::size_t>(dim_) + a] += s.shift[a];
+    for (std::size_t k = s.begin; k < s.end; ++k) {
+      auto* x = reinterpret_cast<std::int64_t*>(rows.data + peer.receive[k] * rows.width);
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) x[a] += s.shift[a];
+    }
   }
 }
 

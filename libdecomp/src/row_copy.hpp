@@ -30,6 +30,8 @@ void with_row_width(std::size_t width, Copy&& copy) {
       return copy(std::integral_constant<std::size_t, 32>{});
     case 48:
       return copy(std::integral_constant<std::size_t, 48>{});
+    case 64:
+      return copy(std::integral_constant<std::size_t, 64>{});
     default:
       return copy(width);
   }

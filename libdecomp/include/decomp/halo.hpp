@@ -33,6 +33,13 @@ class HaloPlan {
   /// Between begin and end the halo rows of these columns are undefined (poison.hpp);
   /// their owned rows may change as soon as begin returns.
   void begin(Table& table, std::span<const int> columns);
+  /// The same of rows that are kept elsewhere.
+  struct Rows {
+    std::byte* data;    ///< of row 0, halo rows after the owned ones
+    std::size_t width;  ///< bytes a row
+    bool positions;     ///< a row begins with a position
+  };
+  void begin(std::span<const Rows> of);
   void progress();  ///< cheap; lets messages move while the caller computes between begin and end
   void wait();      ///< the waiting part of end, for callers that time it apart from unpacking
   void end();
@@ -75,7 +82,7 @@ class HaloPlan {
   void copy_to_self(Peer& peer);
   void pack(Peer& peer);
   void unpack(Peer& peer);
-  void shift_positions(const Peer& peer, std::byte* positions) const;
+  void shift_positions(const Peer& peer, const Rows& rows) const;
 
   const Comm* comm_ = nullptr;
   int dim_ = 0, position_ = -1;
@@ -83,8 +90,8 @@ class HaloPlan {
   std::vector<Peer> peers_;           ///< ascending rank
   std::size_t bytes_sent_ = 0;
   // Of the refresh under way; memory is kept from one to the next.
-  Table* table_ = nullptr;
-  std::vector<int> columns_;
+  bool under_way_ = false;
+  std::vector<Rows> sent_;
   std::vector<MPI_Request> requests_;
 };
 

@@ -46,7 +46,7 @@ std::size_t find_within(std::span<const std::uint32_t> listed, const std::int64_
   for (std::size_t k = 0; k < listed.size(); k += V::lanes) {
     const std::uint32_t* index = listed.data() + k;
     V of[4], square = V::zero();
-    load_vectors(reinterpret_cast<const double*>(x), index, of);
+    load_vectors<3>(reinterpret_cast<const double*>(x), index, of);
     for (int a = 0; a < 3; ++a) {
       const V d = coordinate_difference(own[a], of[a]) * V(unit);
       square += d * d;

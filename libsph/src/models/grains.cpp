@@ -86,6 +86,7 @@ Plan Grains::plan() {
                        if (alone_ || !std::isfinite(most))
                          s.maxima.acceleration = larger(most, s.maxima.acceleration);
                      }});
+  plan.kick.back().stages.front().in_lines = true;
   return plan;
 }
 

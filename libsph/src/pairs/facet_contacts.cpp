@@ -18,7 +18,7 @@ double dot(const Point3& a, const Point3& b) { return a[0] * b[0] + a[1] * b[1] 
 }  // namespace
 
 std::span<const FacetContact> FacetContacts::look(const ContactGroups& list, std::size_t first,
-                                                  std::size_t last, const Particles& grains) {
+                                                  std::size_t last, const GrainPlaces& grains) {
   begin_ = first * lanes;
   of_entry_.assign((last - first) * lanes, -1);
   found_.clear();
@@ -29,8 +29,7 @@ std::span<const FacetContact> FacetContacts::look(const ContactGroups& list, std
     if (k == start)
       ++k;
     else
-      look_at_row(list, start, k, grains.data<Field::position>() + std::size_t{row} * 3,
-                  grains.data<Field::radius>()[row]);
+      look_at_row(list, start, k, grains.x(row).data(), grains.radius(row));
   }
   for (std::size_t n = 0; n < found_.size(); ++n)
     of_entry_[found_[n].entry - begin_] = static_cast<std::int32_t>(n);

@@ -37,6 +37,10 @@ void PlanRunner::run(const Stage& stage, StepState& state) {
     stage.work(state, side);
   };
   ParticleSet* other = stage.other ? &sets_[stage.other->set] : nullptr;
+  if (stage.in_lines) {
+    const auto timing = timers_.time(stage.region);
+    (void)set.particles.lines();
+  }
   if (stage.refresh.empty() && other == nullptr) {
     work(Side::all);
   } else {

@@ -6,11 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "decomp/table.hpp"
 #include "sph/core/fields.hpp"
+#include "sph/core/grain_lines.hpp"
 
 namespace sph {
 
@@ -36,24 +39,43 @@ class Particles {
   [[nodiscard]] std::size_t owned() const { return table_.owned(); }
   [[nodiscard]] std::size_t rows() const { return table_.rows(); }
   [[nodiscard]] int column(Field f) const { return column_[static_cast<std::size_t>(f)]; }
-  [[nodiscard]] decomp::Table& table() { return table_; }
-  [[nodiscard]] const decomp::Table& table() const { return table_; }
+  [[nodiscard]] decomp::Table& table() {
+    settle();
+    return table_;
+  }
+  [[nodiscard]] const decomp::Table& table() const {
+    settle();
+    return table_;
+  }
 
   /// Pointer to row 0; `components` values a row. nullptr if the scene does not have the field.
   template <Field F>
   [[nodiscard]] field_type<F>* data() {
+    if constexpr (in_lines.has(F) || F == Field::radius || F == Field::mass || F == Field::group) settle();
     return has(F) ? table_.as<field_type<F>>(column(F)) : nullptr;
   }
   template <Field F>
   [[nodiscard]] const field_type<F>* data() const {
-    return has(F) ? table_.as<field_type<F>>(column(F)) : nullptr;
+    if constexpr (in_lines.has(F)) settle();
+    return has(F) ? std::as_const(table_).as<field_type<F>>(column(F)) : nullptr;
   }
 
+  /// What a sweep over contacts changes of grains lives in lines from lines() on, until anyone asks for a column of it.
+  static constexpr FieldSet in_lines{Field::position, Field::velocity, Field::spin};
+  [[nodiscard]] GrainLines& lines();
+  [[nodiscard]] bool has_lines() const { return lines_ != nullptr; }
+
  private:
+  void settle() const {
+    if (has_lines()) leave_lines();
+  }
+  void leave_lines() const;
+
   int dim_;
   FieldSet fields_;
   std::array<int, field_count> column_{};
-  decomp::Table table_;
+  mutable decomp::Table table_;
+  mutable std::unique_ptr<GrainLines> lines_;
 };
 
 /// Fields of `fields` that are state, in the order of the field table.

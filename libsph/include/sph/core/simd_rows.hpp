@@ -145,16 +145,11 @@ template <int Stride, class T>
   for (; k < Stride; k += 4) simd_detail::load4(base + k, Stride, index, out + k);
 }
 
-/// Rows index[0 .. lanes) of a table of vectors of three, transposed. Reads 8 bytes beyond the last row.
+/// The first four values of rows index[0 .. lanes) of a table of Stride values a row, transposed.
+template <int Stride>
 [[gnu::always_inline]] inline void load_vectors(const double* base, const std::uint32_t* index,
-                                                Simd<double> (&out)[4]) {
-  simd_detail::load4(base, 3, index, out);
-}
-
-[[gnu::always_inline]] inline Simd<double> load_scalars(const double* base, const std::uint32_t* index) {
-  Simd<double> out;
-  for (int l = 0; l < Simd<double>::lanes; ++l) out.v[l] = base[index[l]];
-  return out;
+                                              Simd<double> (&out)[4]) {
+  simd_detail::load4(base, Stride, index, out);
 }
 
 /// Bit l is set where lane l is above zero.

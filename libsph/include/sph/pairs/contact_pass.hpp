@@ -44,7 +44,7 @@ struct ContactPass {
     for (const ContactBlock& block : blocks) {
       for (std::size_t g = block.pairs; g < block.pairs_end; ++g) add_pairs(c, rows, g, sweep);
       if (c.walls.facets->any()) {
-        c.walls.facets->look(c.lists->walls(), block.walls, block.walls_end, *c.particles);
+        c.walls.facets->look(c.lists->walls(), block.walls, block.walls_end, GrainPlaces(rows.motion));
         c.walls.facets->hand_over(c.lists->walls(), history);
       }
       for (std::size_t g = block.walls; g < block.walls_end; ++g) add_walls(c, rows, g, sweep);
@@ -145,8 +145,7 @@ struct ContactPass {
   [[gnu::cold, gnu::noinline]] static void note(const ContactContext& c, std::uint32_t i,
                                                 std::uint64_t partner, double value, double limit,
                                                 ContactFault& fault) {
-    const std::int64_t* x = c.particles->data<Field::position>() + std::size_t{i} * 3;
-    fault.add({c.particles->data<Field::id>()[i], partner, value, limit, {x[0], x[1], x[2]}});
+    fault.add({c.particles->data<Field::id>()[i], partner, value, limit, position_in(Rows(c).x(i))});
   }
   /// Of pairs, those lanes where `excess` is above 0.
   [[gnu::cold, gnu::noinline]] static void note_pairs(const ContactContext& c, const std::uint32_t* i,
@@ -160,10 +159,10 @@ struct ContactPass {
     }
   }
 
-  /// Two rows in each lane, and their radii.
+  /// Two rows in each lane, their radii and groups.
   struct Partners {
     const std::uint32_t *i, *j;
-    V ri, rj;
+    V ri, rj, group_i{}, group_j{};
   };
 
   static void add_pairs(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
@@ -173,50 +172,52 @@ struct ContactPass {
     prefetch(rows, list, g + 8);
     const V unit(c.quantum.length);
     V xi[4], xj[4];
-    load_vectors(reinterpret_cast<const double*>(rows.x), i, xi);
-    load_vectors(reinterpret_cast<const double*>(rows.x), j, xj);
+    load_vectors<Rows::motion_width>(rows.motion, i, xi);
+    load_vectors<Rows::motion_width>(rows.motion, j, xj);
     Contact<V> contact;
     V d[3], distance2 = V::zero();
     for (int a = 0; a < 3; ++a) {
       d[a] = coordinate_difference(xi[a], xj[a]) * unit;
       distance2 += d[a] * d[a];
     }
-    const Partners two{i, j, load_scalars(rows.radius, i), load_scalars(rows.radius, j)};
+    Partners two{i, j, xi[3], xj[3]};
     const V distance = sqrt(distance2), inverse = V(1.0) / distance;
     // Unused lanes hold a row twice: distance 0 does not touch.
     contact.overlap = where_less(V::zero(), distance2, two.ri + two.rj - distance);
     if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) return;
     for (int a = 0; a < 3; ++a) contact.normal[a] = d[a] * inverse;
     look_at_motion(rows, two, contact);
-    const V mi = load_scalars(rows.mass, i), mj = load_scalars(rows.mass, j);
-    contact.mass = mi * mj / (mi + mj);
     contact.radius = two.ri * two.rj / (two.ri + two.rj);
     contact.dt = V(c.dt);
     std::uint32_t pair[lanes];
     if constexpr (!one_material)
       for (std::size_t l = 0; l < lanes; ++l)
-        pair[l] = rows.group[i[l]] * c.materials.groups + rows.group[j[l]];
+        pair[l] = static_cast<std::uint32_t>(two.group_i[static_cast<int>(l)]) * c.materials.groups +
+                  static_cast<std::uint32_t>(two.group_j[static_cast<int>(l)]);
     const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
     const V excess = contact.overlap - V(c.largest_overlap) * min(two.ri, two.rj);
     if (positive_lanes(excess) != 0) note_pairs(c, i, j, excess, contact.overlap, sweep.deep);
     add_answer(c, rows, two, answer, sweep);
   }
 
-  /// Velocities of two grains, as their contact sees them.
-  [[gnu::always_inline]] static void look_at_motion(const Rows& rows, const Partners& two,
-                                                    Contact<V>& contact) {
+  /// Velocities of two grains, as their contact sees them, and what stands beside them in their lines.
+  [[gnu::always_inline]] static void look_at_motion(const Rows& rows, Partners& two, Contact<V>& contact) {
     V vi[4], vj[4], rel[3], surface[3] = {V::zero(), V::zero(), V::zero()};
-    load_vectors(rows.v, two.i, vi);
-    load_vectors(rows.v, two.j, vj);
-    if constexpr (spins) {
+    load_vectors<Rows::motion_width>(rows.motion + 4, two.i, vi);
+    load_vectors<Rows::motion_width>(rows.motion + 4, two.j, vj);
+    if constexpr (spins || !one_material) {
       V wi[4], wj[4];
-      load_vectors(rows.w, two.i, wi);
-      load_vectors(rows.w, two.j, wj);
-      for (int a = 0; a < 3; ++a) {
-        surface[a] = two.ri * wi[a] + two.rj * wj[a];
-        contact.roll[a] = wj[a] - wi[a];
-      }
+      load_vectors<Rows::spin_width>(rows.spin, two.i, wi);
+      load_vectors<Rows::spin_width>(rows.spin, two.j, wj);
+      two.group_i = wi[3];
+      two.group_j = wj[3];
+      if constexpr (spins)
+        for (int a = 0; a < 3; ++a) {
+          surface[a] = two.ri * wi[a] + two.rj * wj[a];
+          contact.roll[a] = wj[a] - wi[a];
+        }
     }
+    contact.mass = vi[3] * vj[3] / (vi[3] + vj[3]);
     for (int a = 0; a < 3; ++a) rel[a] = vj[a] - vi[a];
     kinematics(contact, rel, surface);
   }
@@ -272,9 +273,10 @@ struct ContactPass {
   };
 
   [[gnu::always_inline]] static WallSide side_of(const ContactContext& c, std::uint32_t wall,
-                                                 std::size_t entry, const std::int64_t* x) {
+                                                 std::size_t entry, const double* line) {
     if (wall < c.walls.planes.size()) {
       const PlaneNow& plane = c.walls.planes[wall];
+      const std::array<std::int64_t, 3> x = position_in(line);
       double away = 0;
       for (std::size_t a = 0; a < 3; ++a)
         away += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
@@ -307,19 +309,19 @@ struct ContactPass {
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::size_t r = i[l];
       const int k = static_cast<int>(l);
-      const WallSide side = side_of(c, walls[l], g * lanes + l, rows.x + r * 3);
+      const WallSide side = side_of(c, walls[l], g * lanes + l, rows.x(r));
       for (std::size_t a = 0; a < 3; ++a) {
         contact.normal[a].v[k] = -side.away[a];
-        rel[a].v[k] = side.velocity[a] - rows.v[r * 3 + a];
+        rel[a].v[k] = side.velocity[a] - rows.v(r)[a];
         if constexpr (spins) {
-          surface[a].v[k] = rows.radius[r] * rows.w[r * 3 + a];
-          contact.roll[a].v[k] = -rows.w[r * 3 + a];
+          surface[a].v[k] = rows.radius(r) * rows.w(r)[a];
+          contact.roll[a].v[k] = -rows.w(r)[a];
         }
       }
-      contact.overlap.v[k] = side.touchable ? rows.radius[r] - side.distance : 0.0;
-      contact.radius.v[k] = rows.radius[r];
-      contact.mass.v[k] = rows.mass[r];
-      pair[l] = rows.group[r] * c.materials.groups + side.group;
+      contact.overlap.v[k] = side.touchable ? rows.radius(r) - side.distance : 0.0;
+      contact.radius.v[k] = rows.radius(r);
+      contact.mass.v[k] = rows.mass(r);
+      pair[l] = rows.group(r) * c.materials.groups + side.group;
       number[l] = side.number;
     }
     kinematics(contact, rel, surface);
@@ -328,7 +330,7 @@ struct ContactPass {
     for (std::size_t l = 0; l < lanes; ++l) {
       const int k = static_cast<int>(l);
       if (!(contact.overlap[k] > 0)) continue;
-      const double deepest = c.largest_overlap * rows.radius[i[l]];
+      const double deepest = c.largest_overlap * rows.radius(i[l]);
       if (contact.overlap[k] > deepest)
         note(c, i[l], c.lists->numbers().key(walls[l]), contact.overlap[k], deepest, sweep.deep);
       for (int a = 0; a < 3; ++a) {
@@ -351,21 +353,15 @@ struct ContactPass {
     }
   }
 
-  /// What group g reads of its partners and adds to. Both ends of a row of 24 bytes: it may lie in two lines.
-  /// Inlined by force: g++ takes a function that only prefetches for one without effect and drops the call.
+  /// What group g reads of its partners and adds to. Inlined by force: g++ takes a function that only prefetches for one
+  /// without effect and drops the call.
   [[gnu::always_inline]] static void prefetch(const Rows& rows, const ContactGroups& list, std::size_t g) {
     if (g >= list.groups()) return;
     const std::uint32_t* j = list.j.data() + g * lanes;
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::size_t r = j[l];
-      for (const std::size_t end : {r * 3, r * 3 + 2}) {
-        __builtin_prefetch(rows.x + end);
-        __builtin_prefetch(rows.v + end);
-        if constexpr (spins) __builtin_prefetch(rows.w + end);
-      }
-      __builtin_prefetch(rows.radius + r);
-      __builtin_prefetch(rows.mass + r);
-      if constexpr (!one_material) __builtin_prefetch(rows.group + r);
+      __builtin_prefetch(rows.x(r));
+      if constexpr (spins || !one_material) __builtin_prefetch(rows.w(r));
       __builtin_prefetch(rows.sums + r * stride, 1);
     }
   }

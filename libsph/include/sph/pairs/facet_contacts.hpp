@@ -22,6 +22,30 @@ struct FacetContact {
   std::size_t mesh;
 };
 
+/// Where grains are and how large they are, in columns or in lines.
+class GrainPlaces {
+ public:
+  explicit GrainPlaces(const Particles& grains)
+      : x_(reinterpret_cast<const std::byte*>(grains.data<Field::position>())),
+        radius_(grains.data<Field::radius>()),
+        x_bytes_(3 * sizeof(double)),
+        radius_width_(1) {}
+  explicit GrainPlaces(const double* motion)
+      : x_(reinterpret_cast<const std::byte*>(motion)),
+        radius_(motion + 3),
+        x_bytes_(GrainLines::motion_width * sizeof(double)),
+        radius_width_(GrainLines::motion_width) {}
+  [[nodiscard]] std::array<std::int64_t, 3> x(std::size_t row) const {
+    return position_in(x_ + row * x_bytes_);
+  }
+  [[nodiscard]] double radius(std::size_t row) const { return radius_[row * radius_width_]; }
+
+ private:
+  const std::byte* x_;
+  const double* radius_;
+  std::size_t x_bytes_, radius_width_;
+};
+
 class FacetContacts {
  public:
   FacetContacts() = default;
@@ -34,7 +58,7 @@ class FacetContacts {
 
   /// Contacts of the entries of groups [first, last) of a list.
   std::span<const FacetContact> look(const ContactGroups& list, std::size_t first, std::size_t last,
-                                     const Particles& grains);
+                                     const GrainPlaces& grains);
   /// That of an entry of the groups looked at last; nullptr if it does not touch.
   [[nodiscard]] const FacetContact* at(std::size_t entry) const;
   /// Moves what contacts remember to the entries that have it from now on.

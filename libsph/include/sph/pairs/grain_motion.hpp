@@ -1,8 +1,10 @@
 // How grains move once their contacts are summed: with inertia, or where a flow carries them without.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "sph/core/fixed_point.hpp"
 #include "sph/core/particles.hpp"
@@ -11,32 +13,42 @@
 
 namespace sph {
 
+typedef double FourDoubles __attribute__((vector_size(32)));
+typedef std::int64_t FourIntegers __attribute__((vector_size(32)));
+
 /// Sums in whole quanta, whose bits depend on no order. benchmarks/contacts.cpp has what they cost.
 struct QuantumSums {
   using Sum = std::uint64_t;
   static Int64x8 lanes(Simd<double> quanta) { return to_integers(quanta); }
   static Sum scalar(double quanta) { return static_cast<Sum>(round_to_quanta(quanta)); }
-  static double value(Sum sum) { return static_cast<double>(static_cast<std::int64_t>(sum)); }
+  static FourDoubles values(const Sum* four) {
+    FourIntegers sums;
+    std::memcpy(&sums, four, sizeof sums);
+    return __builtin_convertvector(sums, FourDoubles);
+  }
 };
 
-/// Columns of grains that a sweep reads and writes.
+/// Lines of grains that a sweep reads and writes.
 template <class Sum>
 struct ContactRows {
-  std::int64_t* x;
-  double *v, *w;
-  const double *radius, *mass;
-  const std::uint32_t* group;
+  static constexpr std::size_t motion_width = GrainLines::motion_width, spin_width = GrainLines::spin_width;
+  double *motion, *spin;
+  const double* inverse;
   Sum* sums;
   explicit ContactRows(const ContactContext& c)
-      : x(c.particles->data<Field::position>()),
-        v(c.particles->data<Field::velocity>()),
-        w(c.particles->data<Field::spin>()),
-        radius(c.particles->data<Field::radius>()),
-        mass(c.particles->data<Field::mass>()),
-        group(c.particles->data<Field::group>()),
+      : motion(c.particles->lines().motion.data()),
+        spin(c.particles->lines().spin.data()),
+        inverse(c.particles->lines().inverse.data()),
         sums(reinterpret_cast<Sum*>(c.sums)) {}
+  [[nodiscard]] double* x(std::size_t row) const { return motion + row * motion_width; }
+  [[nodiscard]] double* v(std::size_t row) const { return motion + row * motion_width + 4; }
+  [[nodiscard]] double* w(std::size_t row) const { return spin + row * spin_width; }
+  [[nodiscard]] double radius(std::size_t row) const { return x(row)[3]; }
+  [[nodiscard]] double mass(std::size_t row) const { return v(row)[3]; }
+  [[nodiscard]] std::uint32_t group(std::size_t row) const { return static_cast<std::uint32_t>(w(row)[3]); }
 };
 
+/// Half a line at a time: what stands beside a vector in it (radius, mass, group) stays as it is.
 /// `stride`: sums of a row.
 template <bool spins, int stride, class Sums>
 struct GrainMotion {
@@ -48,28 +60,24 @@ struct GrainMotion {
   static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
                    ContactSweep& sweep) {
     const double dt = c.dt;
-    [[maybe_unused]] const double quanta = dt / c.quantum.length;
+    const FourDoubles gravity{c.gravity[0], c.gravity[1], c.gravity[2], 0};
+    const FourDoubles quanta = in_vector(dt / c.quantum.length);
     double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
     for (std::size_t r = first; r < last; ++r) {
       Sum* sums = rows.sums + r * stride;
-      const double inverse_mass = 1 / rows.mass[r];
-      double v2 = 0, a2 = 0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const double force = Sums::value(sums[a]) * c.quantum.force;
-        const double acceleration = force * inverse_mass + c.gravity[a];
-        const double v = rows.v[r * 3 + a] + acceleration * dt;
-        rows.v[r * 3 + a] = v;
-        if constexpr (drifts) rows.x[r * 3 + a] = moved_by(rows.x[r * 3 + a], round_to_quanta(v * quanta));
-        v2 += v * v;
-        a2 += acceleration * acceleration;
-      }
+      const double* inverse = rows.inverse + r * GrainLines::inverse_width;
+      const FourDoubles force = Sums::values(sums) * c.quantum.force;
+      const FourDoubles acceleration = force * inverse[0] + gravity;
+      const FourDoubles v = load(rows.v(r)) + acceleration * dt;
+      store(v, rows.v(r));
+      if constexpr (drifts) drift(rows.x(r), v * quanta);
       if constexpr (spins) {
-        const double turn = 2.5 * inverse_mass / (rows.radius[r] * rows.radius[r]) * c.quantum.torque * dt;
-        for (std::size_t a = 0; a < 3; ++a) rows.w[r * 3 + a] += Sums::value(sums[4 + a]) * turn;
+        const double turn = inverse[1] * c.quantum.torque * dt;
+        store(load(rows.w(r)) + Sums::values(sums + 4) * turn, rows.w(r));
       }
       for (int k = 0; k < stride; ++k) sums[k] = 0;
-      speed2 = v2 <= speed2 ? speed2 : v2;
-      acceleration2 = a2 <= acceleration2 ? acceleration2 : a2;
+      speed2 = larger_or_nan(square(v), speed2);
+      acceleration2 = larger_or_nan(square(acceleration), acceleration2);
     }
     sweep.speed2 = speed2;
     sweep.acceleration2 = acceleration2;
@@ -83,26 +91,49 @@ struct GrainMotion {
     double speed2 = sweep.speed2;
     for (std::size_t r = first; r < last; ++r) {
       Sum* sums = rows.sums + r * stride;
-      double v2 = 0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const std::size_t k = r * 3 + a;
-        const double force = Sums::value(sums[a]) * c.quantum.force;
-        const double v = with.free_velocity[k] + force * with.mobility[r * 2];
-        const std::int64_t way = round_to_quanta(v * quanta);
-        rows.v[k] = v;
-        rows.x[k] = moved_by(rows.x[k], way);
-        with.way[k] = moved_by(with.way[k], way);
-        with.force[k] = force;
-        v2 += v * v;
-        if constexpr (spins)
-          rows.w[k] =
-              with.free_spin[k] + Sums::value(sums[4 + a]) * c.quantum.torque * with.mobility[r * 2 + 1];
+      const FourDoubles force = Sums::values(sums) * c.quantum.force;
+      FourDoubles torque{};
+      if constexpr (spins) torque = Sums::values(sums + 4) * c.quantum.torque;
+      FourDoubles v = load(rows.v(r));
+      for (int a = 0; a < 3; ++a) {
+        const std::size_t k = r * 3 + static_cast<std::size_t>(a);
+        v[a] = with.free_velocity[k] + force[a] * with.mobility[r * 2];
+        with.way[k] = moved_by(with.way[k], round_to_quanta(v[a] * quanta));
+        with.force[k] = force[a];
+        if constexpr (spins) rows.w(r)[a] = with.free_spin[k] + torque[a] * with.mobility[r * 2 + 1];
       }
+      store(v, rows.v(r));
+      drift(rows.x(r), v * in_vector(quanta));
       for (int k = 0; k < stride; ++k) sums[k] = 0;
-      speed2 = v2 <= speed2 ? speed2 : v2;
+      speed2 = larger_or_nan(square(v), speed2);
     }
     sweep.speed2 = speed2;
   }
+
+ private:
+  [[gnu::always_inline]] static FourDoubles load(const double* from) {
+    FourDoubles out;
+    std::memcpy(&out, from, sizeof out);
+    return out;
+  }
+  [[gnu::always_inline]] static void store(FourDoubles four, double* to) {
+    std::memcpy(to, &four, sizeof four);
+  }
+  /// A factor that leaves out what stands beside a vector.
+  [[gnu::always_inline]] static FourDoubles in_vector(double x) { return FourDoubles{x, x, x, 0}; }
+  /// As round_to_quanta() and moved_by().
+  [[gnu::always_inline]] static void drift(double* x, FourDoubles way) {
+    typedef std::uint64_t Four __attribute__((vector_size(32)));
+    Four at;
+    std::memcpy(&at, x, sizeof at);
+    at += std::bit_cast<Four>(way + rounding_shift) - std::bit_cast<std::uint64_t>(rounding_shift);
+    std::memcpy(x, &at, sizeof at);
+  }
+  [[gnu::always_inline]] static double square(FourDoubles v) {
+    const FourDoubles squares = v * v;
+    return squares[0] + squares[1] + squares[2];
+  }
+  [[gnu::always_inline]] static double larger_or_nan(double x, double than) { return x <= than ? than : x; }
 };
 
 }  // namespace sph

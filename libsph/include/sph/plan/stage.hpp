@@ -67,6 +67,7 @@ struct Stage {
   std::function<double(const GlobalState&)> moves{};  ///< bound on any particle's path in it [m]; empty: 0
   const Fusion* fusion = nullptr;                     ///< of a stage that sums over pairs
   std::size_t set = 0;                                ///< of particles, as an index
+  bool in_lines = false;                              ///< its grains are in lines (core/grain_lines.hpp)
   /// Another set whose neighbours it reads.
   struct Other {
     std::size_t set;

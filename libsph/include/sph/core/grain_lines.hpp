@@ -1,0 +1,32 @@
+// What a sweep over contacts reads of a grain and changes, in whole cache lines. A pair's partners lie anywhere: in columns a
+// grain takes seven lines, here two. Rows are those of the particles, halo copies included.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "decomp/memory.hpp"
+#include "sph/core/fields.hpp"
+
+namespace sph {
+
+struct GrainLines {
+  static constexpr std::size_t motion_width = 8, spin_width = 4, inverse_width = 2;
+  decomp::LargeVector<double> motion;   ///< position (bits of integers) [quanta], radius | velocity, mass
+  decomp::LargeVector<double> spin;     ///< spin, group
+  decomp::LargeVector<double> inverse;  ///< 1 / m, 5 / (2 m r^2), of owned rows
+
+  /// What the halo has of these fields (decomp/poison.hpp).
+  void poison(FieldSet fields, std::size_t owned);
+};
+
+/// The bits of the coordinates that a row of GrainLines::motion begins with.
+[[nodiscard]] inline std::array<std::int64_t, 3> position_in(const void* line) {
+  std::array<std::int64_t, 3> x;
+  std::memcpy(x.data(), line, sizeof x);
+  return x;
+}
+
+}  // namespace sph
