@@ -124,6 +124,28 @@ TEST(HaloPlan, carries_every_width) {
   });
 }
 
+/// Positions and ids side by side, in memory of the caller's.
+TEST(HaloPlan, carries_rows_that_are_kept_elsewhere) {
+  on_all_scenes([](Fixture& f) {
+    constexpr std::size_t width = 5;
+    const auto dim = static_cast<std::size_t>(f.scene.dim);
+    std::vector<std::int64_t> rows(f.table.rows() * width, -1);
+    for (std::size_t r = 0; r < f.table.owned(); ++r) {
+      const Int3 x = f.x(r);
+      std::copy_n(x.begin(), dim, rows.begin() + static_cast<std::ptrdiff_t>(r * width));
+      rows[r * width + 4] = static_cast<std::int64_t>(f.id(r));
+    }
+    const HaloPlan::Rows of{reinterpret_cast<std::byte*>(rows.data()), width * sizeof(std::int64_t), true};
+    f.plan.begin(std::span(&of, 1));
+    f.plan.end();
+    for (std::size_t r = 0; r < f.table.rows(); ++r) {
+      const Int3 x = f.x(r);
+      for (std::size_t a = 0; a < dim; ++a) EXPECT_EQ(rows[r * width + a], x[a]);
+      EXPECT_EQ(rows[r * width + 4], static_cast<std::int64_t>(f.id(r)));
+    }
+  });
+}
+
 TEST(HaloPlan, counts_what_it_sends) {
   on_all_scenes([](Fixture& f) {
     EXPECT_EQ(f.plan.rows_received() + f.plan.rows_copied(), f.table.halo());

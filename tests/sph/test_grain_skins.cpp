@@ -113,6 +113,31 @@ TEST(GrainSkins, AnySkinGivesTheSameBits) {
   EXPECT_GT(world().sum(parted), 100);
 }
 
+// Between looks grains stay in lines (core/grain_lines.hpp) for many steps.
+TEST(GrainSkins, NobodyNeedsToLookInBetween) {
+  for (const char* skin : {"1e-3", "0.3"}) {
+    Simulation s(world(), scene_with(skin));
+    for (std::size_t k = 0; k < steps; ++k) s.step();
+    EXPECT_EQ(s.fingerprint(), expected().prints.back()) << skin;
+  }
+}
+
+// Pairs that do not touch are not looked at until they may. With new lists in every step all of them are.
+TEST(GrainSkins, PairsThatSleepWakeInTime) {
+  const std::vector<std::string> slow{"start.velocity=[0.4,0.2,-0.5]", "stage=", "time.dt=15e-6"};
+  const auto with = [&](const char* skin, const char* every) {
+    std::vector<std::string> more = slow;
+    more.push_back(std::string("decomposition.rebuild_every=") + every);
+    return scene_with(skin, more);
+  };
+  const decomp::Comm self(MPI_COMM_SELF);
+  Simulation awake(self, with("0.5", "1")), asleep(world(), with("0.5", "0"));
+  for (int k = 0; k < 400; ++k) awake.step(), asleep.step();
+  EXPECT_EQ(asleep.fingerprint(), awake.fingerprint());
+  EXPECT_GT(awake.grains()->pairs().counters().created, 1000);
+  EXPECT_LT(asleep.rebuilds(), 40);
+}
+
 TEST(GrainSkins, RestartsBetweenAnyStepsDoToo) {
   for (const char* skin : {"0", "1e-3"}) {
     test::ScratchDirectory dir(world());

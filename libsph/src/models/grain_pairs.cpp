@@ -77,13 +77,17 @@ ContactCensus GrainPairs::find_pairs(const Particles& particles, const ListSetti
   listed_.walls.clear();
   for (const WallState& w : s.global.walls) listed_.walls.push_back(w.offset);
   listed_.time = s.global.time;
+  listed_.path = 0;
   return found;
 }
 
 void GrainPairs::count(const RowRanges&, std::span<std::uint32_t> entries) const {
+  const auto groups_of = [](const ContactBlock& b) {
+    return b.pairs.last - b.pairs.first + b.candidates.last - b.candidates.first;
+  };
   for (const auto blocks : {lists_.interior(), lists_.boundary()})
     for (const ContactBlock& b : blocks)
-      share_block(entries, b.first, b.last, (b.pairs_end - b.pairs) * ContactGroups::lanes);
+      share_block(entries, b.first, b.last, groups_of(b) * ContactGroups::lanes);
 }
 
 FieldSet GrainPairs::swept() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 
 #include "pairs/candidates.hpp"
 
@@ -50,11 +51,68 @@ class Writer {
     g_.j.resize(n_);
     g_.touching.assign(groups(), 0);
     g_.history.assign(n_ * history, 0.0);
+    g_.asleep.assign(groups(), -1.0);
   }
 
  private:
   ContactGroups& g_;
   std::size_t n_ = 0;
+};
+
+/// Pairs of a block that do not touch, until those of all blocks that do are written.
+class Candidates {
+ public:
+  Candidates(const Particles& p, double quantum)
+      : x_(p.data<Field::position>()), radius_(p.data<Field::radius>()), quantum_(quantum) {}
+
+  /// Takes from `partners` of row i those that are apart from it; returns how many it leaves.
+  std::size_t take(std::uint32_t i, std::span<std::uint32_t> partners) {
+    std::size_t left = 0;
+    for (const std::uint32_t j : partners) {
+      const double gap = gap_between(i, j);
+      if (gap > 0)
+        of_block_.push_back({gap, i, j});
+      else
+        partners[left++] = j;
+    }
+    return left;
+  }
+  /// Which groups those of a block will be, counted from the first of all; `row` of unused lanes.
+  ContactBlock::Groups end_block(std::uint32_t row) {
+    std::ranges::sort(of_block_, {}, [](const Pair& a) { return std::tuple(a.gap, a.i, a.j); });
+    const std::size_t first = all_.size() / lanes;
+    for (const Pair& pair : of_block_) all_.push_back({pair.i, pair.j});
+    while (all_.size() % lanes != 0) all_.push_back({row, row});
+    of_block_.clear();
+    return {first, all_.size() / lanes};
+  }
+  void append_to(Writer& pairs) const {
+    for (const auto& [i, j] : all_) {
+      *pairs.partners(1) = j;
+      pairs.add(i, 1);
+    }
+  }
+
+ private:
+  struct Pair {
+    double gap;
+    std::uint32_t i, j;
+  };
+  [[nodiscard]] double gap_between(std::uint32_t i, std::uint32_t j) const {
+    double distance2 = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d =
+          static_cast<double>(x_[j * std::size_t{3} + a] - x_[i * std::size_t{3} + a]) * quantum_;
+      distance2 += d * d;
+    }
+    return std::sqrt(distance2) - (radius_[i] + radius_[j]);
+  }
+
+  const std::int64_t* x_;
+  const double* radius_;
+  double quantum_;
+  std::vector<Pair> of_block_;
+  decomp::LargeVector<std::array<std::uint32_t, 2>> all_;
 };
 
 /// Finds the walls that a grain may touch before lists are made anew.
@@ -98,6 +156,7 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   const double* radius = p.data<Field::radius>();
   blocks_.clear();
   Writer pairs(pairs_), walls(walls_);
+  Candidates apart(p, quantum);
   numbers_ = WallNumbers(now.planes.size(), now.meshes);
   WallFinder finder(now, numbers_, quantum);
   listed_ = 0;
@@ -110,10 +169,9 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
     for (std::size_t first = range.first; first < range.last; first += ContactBlock::rows) {
       ContactBlock block{static_cast<std::uint32_t>(first),
                          static_cast<std::uint32_t>(std::min(first + ContactBlock::rows, range.last)),
-                         pairs.groups(),
-                         0,
-                         walls.groups(),
-                         0};
+                         {pairs.groups(), 0},
+                         {},
+                         {walls.groups(), 0}};
       for (std::uint32_t row = block.first; row < block.last; ++row) {
         const bool is_fixed = fixed[group[row]];
         if (bins.bin(row) != cell) runs = bins.runs(cell = bins.bin(row), all_runs);
@@ -125,8 +183,8 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
           n = static_cast<std::size_t>(
               std::remove_if(partner, partner + n, [&](std::uint32_t j) { return fixed[group[j]]; }) -
               partner);
-        pairs.add(row, n);
         listed_ += n;
+        pairs.add(row, apart.take(row, {partner, n}));
         if (is_fixed) continue;
         const std::span<const std::uint32_t> near = finder.find(x + row * 3, radius[row] + skin);
         std::ranges::copy(near, walls.partners(near.size()));
@@ -134,11 +192,17 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
       }
       pairs.pad(block.first, block.first);
       walls.pad(block.first, ContactGroups::no_wall);
-      block.pairs_end = pairs.groups();
-      block.walls_end = walls.groups();
+      block.pairs.last = pairs.groups();
+      block.candidates = apart.end_block(block.first);
+      block.walls.last = walls.groups();
       blocks_.push_back(block);
     }
   }
+  for (ContactBlock& block : blocks_) {
+    block.candidates.first += pairs.groups();
+    block.candidates.last += pairs.groups();
+  }
+  apart.append_to(pairs);
   pairs.finish(history_);
   walls.finish(history_);
 }
@@ -146,7 +210,8 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
 std::size_t ContactLists::bytes() const {
   std::size_t sum = blocks_.capacity() * sizeof(ContactBlock);
   for (const ContactGroups* g : {&pairs_, &walls_})
-    sum += (g->i.capacity() + g->j.capacity()) * 4 + g->touching.capacity() + g->history.capacity() * 8;
+    sum += (g->i.capacity() + g->j.capacity()) * 4 + g->touching.capacity() + g->history.capacity() * 8 +
+           g->asleep.capacity() * 8;
   return sum;
 }
 

@@ -48,6 +48,9 @@ class GrainPairs final : public SetPair {
     std::int64_t created = 0, ended = 0, carried = 0;
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
+  /// Grains have moved by at most `way` [m] and a rounding.
+  void moved(double way) { listed_.path += way + 2 * scale_.quantum; }
+  [[nodiscard]] double path() const { return listed_.path; }
   void forget_parted(const Particles& particles);
   void add(const ContactSweep& swept);
 
@@ -71,6 +74,7 @@ class GrainPairs final : public SetPair {
     std::vector<std::int64_t> grains;
     std::vector<std::array<std::int64_t, 3>> walls;
     double time = 0;
+    double path = 0;  ///< no grain has gone further since [m]
   };
   Places listed_;  ///< when the lists were made [quanta, s]
   Counters counters_;

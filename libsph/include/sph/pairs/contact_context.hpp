@@ -51,6 +51,7 @@ struct ContactContext {
   ContactQuanta quantum;
   double dt;
   double gravity[3];
+  double path;             ///< no grain has gone further since the lists were made [m]; infinity: not known
   double largest_overlap;  ///< in radii of the smaller grain
   bool drifts;             ///< grains drift once they are kicked, while they are in the cache
   Gliding gliding{};

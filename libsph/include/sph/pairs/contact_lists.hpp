@@ -1,5 +1,6 @@
 // Contact lists of one rank: every pair of grains, or grain and wall, that may touch before the next rebuild,
-// each pair once. Pairs sit in groups of eight, one SIMD lane each, ordered by blocks of 64 rows: a pair of
+// each pair once. Pairs sit in groups of eight, one SIMD lane each, those that touch before those that do not, both
+// ordered by blocks of 64 rows: a pair of
 // two owned rows belongs to the block of the smaller one, a pair with a halo row to that of the owned one.
 // When a block's pairs and those of all earlier blocks are done, the sums of its rows are complete.
 //
@@ -36,6 +37,8 @@ struct ContactGroups {
   decomp::LargeVector<std::uint32_t> i, j;  ///< [groups * lanes]
   std::vector<std::uint8_t> touching;       ///< [groups] bit l: lane l touched in the last step
   decomp::LargeVector<double> history;      ///< [groups][components][lanes]
+  /// [groups] No pair of the group touches before grains have gone so far since the lists were made [m].
+  std::vector<double> asleep;
   [[nodiscard]] std::size_t groups() const { return touching.size(); }
 };
 
@@ -43,7 +46,12 @@ struct ContactGroups {
 struct ContactBlock {
   static constexpr std::size_t rows = 64;
   std::uint32_t first, last;
-  std::size_t pairs, pairs_end, walls, walls_end;  ///< groups
+  struct Groups {
+    std::size_t first, last;
+  };
+  Groups pairs;       ///< that touched when the lists were made
+  Groups candidates;  ///< those that did not, by how far they were apart
+  Groups walls;
 };
 
 /// What must not change while contacts move between ranks, summed over all: both entries of a pair count,

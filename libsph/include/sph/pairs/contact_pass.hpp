@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "sph/core/fixed_point.hpp"
@@ -35,6 +36,7 @@ struct ContactPass {
   }();
   static constexpr int stride = spins ? 8 : 4;
   static constexpr std::size_t lanes = ContactGroups::lanes;
+  static constexpr std::size_t ahead = 8;  // groups whose rows are fetched before they are read
   using V = Simd<double>;
   using Sum = typename Sums::Sum;
 
@@ -42,12 +44,16 @@ struct ContactPass {
                   ContactSweep& sweep) {
     const Rows rows(c);
     for (const ContactBlock& block : blocks) {
-      for (std::size_t g = block.pairs; g < block.pairs_end; ++g) add_pairs(c, rows, g, sweep);
+      for (std::size_t g = block.pairs.first; g < block.pairs.last; ++g) {
+        prefetch(rows, c.lists->pairs(), g + ahead);
+        add_pairs(c, rows, g, sweep);
+      }
+      add_candidates(c, rows, block.candidates, sweep);
       if (c.walls.facets->any()) {
-        c.walls.facets->look(c.lists->walls(), block.walls, block.walls_end, GrainPlaces(rows.motion));
+        c.walls.facets->look(c.lists->walls(), block.walls.first, block.walls.last, GrainPlaces(rows.motion));
         c.walls.facets->hand_over(c.lists->walls(), history);
       }
-      for (std::size_t g = block.walls; g < block.walls_end; ++g) add_walls(c, rows, g, sweep);
+      for (std::size_t g = block.walls.first; g < block.walls.last; ++g) add_walls(c, rows, g, sweep);
       const auto moves = [&](RowClass k) {
         const RowRange& r = ranges[static_cast<std::size_t>(k)];
         return block.first >= r.first && block.last <= r.last;
@@ -169,7 +175,6 @@ struct ContactPass {
     ContactGroups& list = c.lists->pairs();
     const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* j = list.j.data() + g * lanes;
-    prefetch(rows, list, g + 8);
     const V unit(c.quantum.length);
     V xi[4], xj[4];
     load_vectors<Rows::motion_width>(rows.motion, i, xi);
@@ -184,7 +189,10 @@ struct ContactPass {
     const V distance = sqrt(distance2), inverse = V(1.0) / distance;
     // Unused lanes hold a row twice: distance 0 does not touch.
     contact.overlap = where_less(V::zero(), distance2, two.ri + two.rj - distance);
-    if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) return;
+    if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) {
+      list.asleep[g] = c.path + way_to_touch(contact.overlap, distance2, two);
+      return;
+    }
     for (int a = 0; a < 3; ++a) contact.normal[a] = d[a] * inverse;
     look_at_motion(rows, two, contact);
     contact.radius = two.ri * two.rj / (two.ri + two.rj);
@@ -198,6 +206,26 @@ struct ContactPass {
     const V excess = contact.overlap - V(c.largest_overlap) * min(two.ri, two.rj);
     if (positive_lanes(excess) != 0) note_pairs(c, i, j, excess, contact.overlap, sweep.deep);
     add_answer(c, rows, two, answer, sweep);
+  }
+
+  /// How far grains may go before any of these pairs touches, each of its two; no pair does now.
+  [[gnu::noinline]] static double way_to_touch(V overlap, V distance2, const Partners& two) {
+    double gap = std::numeric_limits<double>::infinity();
+    for (int l = 0; l < V::lanes; ++l)
+      if (distance2[l] > 0)
+        gap = std::min(gap, -overlap[l] - 1e-9 * (two.ri[l] + two.rj[l]));  // for rounding
+    return 0.499 * gap;
+  }
+
+  /// Those that are not asleep. Sums are in whole quanta: whoever has nothing to add need not be asked.
+  [[gnu::always_inline]] static void add_candidates(const ContactContext& c, const Rows& rows,
+                                                    ContactBlock::Groups groups, ContactSweep& sweep) {
+    const ContactGroups& list = c.lists->pairs();
+    const auto sleeps = [&](std::size_t g) { return c.path < list.asleep[g]; };
+    for (std::size_t g = groups.first; g < groups.last; ++g)
+      if (!sleeps(g)) prefetch(rows, list, g);
+    for (std::size_t g = groups.first; g < groups.last; ++g)
+      if (!sleeps(g)) add_pairs(c, rows, g, sweep);
   }
 
   /// Velocities of two grains, as their contact sees them, and what stands beside them in their lines.
