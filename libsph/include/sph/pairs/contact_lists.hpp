@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,20 @@
 
 namespace sph {
 
+/// Facets of one mesh beside one row: consecutive entries of the list of walls. Most cannot touch before the grain has moved on;
+/// sweeps look at those that can (FacetContacts).
+struct FacetRun {
+  std::size_t first, last;  ///< entries
+  std::uint32_t mesh;
+  std::uint32_t near = 0;  ///< so many of them may touch ...
+  Point3 at = {std::numeric_limits<double>::quiet_NaN(), 0,
+               0};  ///< ... a grain near this place in the mesh's frame
+};
+struct FacetRuns {
+  std::vector<FacetRun> runs;
+  std::vector<std::uint32_t> near;  ///< which entries, of each run from its first on
+};
+
 /// Groups of eight pairs (i, j); j is a row, or of a wall its number (WallNumbers). Unused lanes hold i = j (rows), or a
 /// wall that does not exist.
 struct ContactGroups {
@@ -36,6 +51,7 @@ struct ContactGroups {
   decomp::LargeVector<std::uint32_t> i, j;  ///< [groups * lanes]
   std::vector<std::uint8_t> touching;       ///< [groups] bit l: lane l touched in the last step
   decomp::LargeVector<double> history;      ///< [groups][components][lanes]
+  FacetRuns facets;                         ///< of walls
   [[nodiscard]] std::size_t groups() const { return touching.size(); }
 };
 
@@ -44,6 +60,7 @@ struct ContactBlock {
   static constexpr std::size_t rows = 64;
   std::uint32_t first, last;
   std::size_t pairs, pairs_end, walls, walls_end;  ///< groups
+  std::size_t facets, facets_end;                  ///< runs
 };
 
 /// What must not change while contacts move between ranks, summed over all: both entries of a pair count,

@@ -44,7 +44,7 @@ struct ContactPass {
     for (const ContactBlock& block : blocks) {
       for (std::size_t g = block.pairs; g < block.pairs_end; ++g) add_pairs(c, rows, g, sweep);
       if (c.walls.facets->any()) {
-        c.walls.facets->look(c.lists->walls(), block.walls, block.walls_end, *c.particles);
+        c.walls.facets->look(c.lists->walls(), c.lists->walls().facets, block, *c.particles);
         c.walls.facets->hand_over(c.lists->walls(), history);
       }
       for (std::size_t g = block.walls; g < block.walls_end; ++g) add_walls(c, rows, g, sweep);
@@ -300,6 +300,10 @@ struct ContactPass {
     ContactGroups& list = c.lists->walls();
     const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* walls = list.j.data() + g * lanes;
+    // Of fine meshes most facets that are listed touch nothing.
+    if (list.touching[g] == 0 && c.walls.facets->any() && !c.walls.facets->any_in(g) &&
+        *std::min_element(walls, walls + lanes) >= c.walls.planes.size())
+      return;
     Contact<V> contact;
     V rel[3], surface[3];
     std::uint32_t pair[lanes];
