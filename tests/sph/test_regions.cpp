@@ -98,6 +98,13 @@ TEST(Regions, MeshesOfBoxesAreBoxes) {
   }
 }
 
+TEST(Regions, OpenEdgesAreThoseOfOneTriangle) {
+  const Double3 lower{0, 0, 0}, upper{1, 1, 1};
+  EXPECT_EQ(cuboid(lower, upper).open_edges(), 0U);
+  EXPECT_EQ(cuboid(lower, upper, 1).open_edges(), 3U);
+  EXPECT_EQ(cuboid(lower, upper, 2).open_edges(), 4U);
+}
+
 std::string ring_scene(const std::string& more) {
   return R"(
 dimension = 3

@@ -227,6 +227,11 @@ TEST_F(StartCounts, ShareOfTheMachine) {
   EXPECT_EQ(memory_problem(need, {24e9, 1.0 / 200}), "");
   EXPECT_NE(memory_problem(need, {24e9, 1.0 / 100}).find("3 TB, 30 GB on each machine"), std::string::npos);
   EXPECT_EQ(memory_problem(need, {24e9, 1.0 / 100}, 1.5), "");
+  // Meshes are there once a machine, mesh regions once a rank.
+  need = {.meshes = 5e9, .regions = 2e9};
+  EXPECT_EQ(memory_problem(need, {24e9, 1.0 / 200, 9}), "");
+  EXPECT_NE(memory_problem(need, {24e9, 1.0 / 200, 10}).find("meshes 25 GB on each machine"),
+            std::string::npos);
   EXPECT_EQ(bytes_text(999), "0.999 kB");
   EXPECT_EQ(bytes_text(3.1e12), "3.1 TB");
 }

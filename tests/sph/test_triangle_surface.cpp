@@ -14,6 +14,7 @@
 namespace {
 
 using sph::Point3, sph::NearPoint, sph::TriangleSurface;
+using Corners = std::vector<TriangleSurface::Triangle>;
 
 class Random {
  public:
@@ -36,7 +37,7 @@ TEST(TriangleSurface, NearestPointsAreTheNearest) {
   Random random;
   for (int n = 0; n < 2000; ++n) {
     const std::vector<Point3> v{random.point(1), random.point(1), random.point(random.number(0.1, 3))};
-    const TriangleSurface one(v, {{0, 1, 2}});
+    const TriangleSurface one(v, Corners{{0, 1, 2}});
     const Point3 x = random.point(2);
     const NearPoint near = one.nearest(0, x);
     EXPECT_NEAR(square(x, near.point), near.square, 1e-12);
@@ -62,8 +63,8 @@ TEST(TriangleSurface, BothSidesOfAnEdgeFindTheSamePoint) {
   Random random;
   int on_the_edge = 0;
   for (int n = 0; n < 5000; ++n) {
-    const TriangleSurface two({random.point(1), random.point(1), random.point(1), random.point(1)},
-                              {{0, 1, 2}, {1, 0, 3}});
+    const std::vector<Point3> v{random.point(1), random.point(1), random.point(1), random.point(1)};
+    const TriangleSurface two(v, Corners{{0, 1, 2}, {1, 0, 3}});
     const Point3 x = random.point(1.5);
     const NearPoint a = two.nearest(0, x), b = two.nearest(1, x);
     if (a.of != b.of || a.of.is_face()) continue;
@@ -79,7 +80,7 @@ TEST(TriangleSurface, FindsWhatIsNear) {
   Random random;
   for (const bool flat : {false, true}) {
     std::vector<Point3> vertices;
-    std::vector<TriangleSurface::Triangle> triangles;
+    Corners triangles;
     for (std::uint32_t n = 0; n < 300; ++n) {
       const double size = n == 0 ? 5 : random.number(0.01, 0.5);  // one beside which all others are small
       const Point3 centre = random.point(2);
@@ -91,7 +92,7 @@ TEST(TriangleSurface, FindsWhatIsNear) {
       }
       triangles.push_back({3 * n, 3 * n + 1, 3 * n + 2});
     }
-    const TriangleSurface surface(vertices, triangles);
+    const TriangleSurface surface(vertices, triangles), same(surface.block());
     std::vector<std::uint32_t> found;
     std::size_t all = 0;
     for (int n = 0; n < 2000; ++n) {
@@ -102,10 +103,32 @@ TEST(TriangleSurface, FindsWhatIsNear) {
         if (surface.nearest(t, x).square < reach * reach) wanted.push_back(t);
       surface.find(x, reach, found);
       EXPECT_EQ(found, wanted);
+      same.find(x, reach, found);
+      EXPECT_EQ(found, wanted);
       all += found.size();
     }
     EXPECT_GT(all, 500U);
   }
+}
+
+// Slender triangles that lie askew meet the more cells the more there are: cells become wider.
+TEST(TriangleSurface, TakesLittleMemory) {
+  Random random;
+  std::vector<Point3> vertices;
+  Corners triangles;
+  for (std::uint32_t n = 0; n < 2000; ++n) {
+    for (const Point3& shift : {Point3{0, 0, 0}, Point3{1, 1, 1}, Point3{1, 1, 1.001}}) {
+      Point3 p = shift;
+      for (double& c : p) c += random.number(-1e-4, 1e-4);
+      vertices.push_back(p);
+    }
+    triangles.push_back({3 * n, 3 * n + 1, 3 * n + 2});
+  }
+  const TriangleSurface surface(vertices, triangles);
+  EXPECT_LT(surface.bytes(), 2000 * (3 * 24 + 12 + 16 * 4 + 4) + 1000);
+  std::vector<std::uint32_t> found;
+  surface.find({0.5, 0.5, 0.5}, 0.01, found);
+  EXPECT_EQ(found.size(), 2000U);
 }
 
 /// What reading a file with this text says.

@@ -60,6 +60,22 @@ until = 1
                              says=" cells need ", **({"preexec_fn": limit} if ranks == 1 else {}))
         assert not (self.run.folder / "no").exists()
 
+    def test_meshes(self):
+        """What meshes take, on each machine and on each rank; a mesh region with a hole is told once, by check and run."""
+        out = self.run.run(2, "peperite", "check", self.source / "tests/scenes/grains_mesh.toml").out
+        assert re.search(r"^meshes: \S+ kB on each machine, whatever its ranks$", out, re.M), out
+        faces = [line for line in (self.source / "tests/scenes/ring.obj").read_text().splitlines(True)]
+        told = 'start.region.0.file: "{}" is not closed: 4 of its edges have one triangle; what is inside is what most rays'
+        for name, lines in (("whole.obj", faces), ("open.obj", faces[:-1])):
+            mesh = self.file(name, "".join(lines))
+            region = f'[[start.region]]\ngroup = "water"\nshape = "mesh"\nfile = "{mesh}"\nscale = 0.3\norigin = [0.5, 0.5, 0.5]\n'
+            scene = self.file("mesh.toml", self.FLUID.replace('[[start.region]]\ngroup = "wall"\n', region))
+            out = self.run.run(2, "peperite", "check", scene).out
+            assert re.search(r"^mesh regions: \S+ kB on each rank$", out, re.M), out
+            assert out.count(f"warning: {told.format(mesh)}") == (name == "open.obj") == out.count("not closed"), out
+            err = self.run.run(2, "peperite", "run", scene, "--steps", 1, "--out", f"{name}_run").err
+            assert err.count(f"peperite: warning: {told.format(mesh)}") == (name == "open.obj") == err.count("not closed"), err
+
     def test_steps(self):
         """What the message names is accepted with a warning, half of it without."""
         for dt in ("1e-3", "1.2e-3"):

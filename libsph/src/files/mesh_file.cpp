@@ -8,8 +8,8 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <fstream>
-#include <iterator>
-#include <map>
+#include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "files/content_hash.hpp"
@@ -65,9 +65,11 @@ class Welded {
     const Corner at{v.x + 0.0, v.y + 0.0, v.z + 0.0};  // + 0: no -0
     for (double c : at)
       if (!std::isfinite(c)) refuse("has a corner that is no number");
-    const auto [found, is_new] = numbers_.try_emplace(at, static_cast<std::uint32_t>(all_.vertices.size()));
-    if (is_new) all_.vertices.push_back(at);
-    return found->second;
+    // As one more vertex, until one at the same place is found.
+    all_.vertices.push_back(at);
+    const auto [found, is_new] = numbers_.insert(static_cast<std::uint32_t>(all_.vertices.size() - 1));
+    if (!is_new) all_.vertices.pop_back();
+    return *found;
   }
   [[noreturn]] void refuse(std::string_view why) const {
     throw InputError(fmt::format("{}: facet {} {}; repair the mesh", what_, facet_, why));
@@ -75,7 +77,18 @@ class Welded {
 
   std::string what_;
   Triangles all_;
-  std::map<Corner, std::uint32_t> numbers_;
+  struct Hash {
+    const std::vector<Corner>* vertices;
+    std::size_t operator()(std::uint32_t v) const {
+      return content_hash(std::as_bytes(std::span((*vertices)[v])));
+    }
+  };
+  struct SamePlace {
+    const std::vector<Corner>* vertices;
+    bool operator()(std::uint32_t a, std::uint32_t b) const { return (*vertices)[a] == (*vertices)[b]; }
+  };
+  std::unordered_set<std::uint32_t, Hash, SamePlace> numbers_{16, Hash{&all_.vertices},
+                                                              SamePlace{&all_.vertices}};
   std::uint64_t facet_ = 0;
 };
 
@@ -96,9 +109,9 @@ Triangles read_triangles(const std::string& path, const std::string& what) {
 
 std::string hash_of_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in) return {};
-  return to_hex(content_hash(std::as_bytes(std::span(bytes))));
+  const std::uint64_t hash = content_hash(in);
+  return in.bad() ? std::string() : to_hex(hash);
 }
 
 }  // namespace sph

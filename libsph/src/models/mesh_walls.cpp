@@ -25,7 +25,7 @@ MeshWalls::MeshWalls(const decomp::Comm& comm, const Scene& scene, const Positio
 
 std::size_t MeshWalls::bytes() const {
   std::size_t sum = 0;
-  for (const auto& surface : surfaces_) sum += surface->bytes();
+  for (const auto& surface : surfaces_) sum += surface.bytes();
   return sum;
 }
 
@@ -36,7 +36,7 @@ std::vector<MeshNow> MeshWalls::now(double time, std::span<const WallState> driv
     const PrescribedMotion& motion = mesh.motion;
     const MotionNow moved = motion_at(motion, time);
     MeshNow place{};
-    place.surface = surfaces_[m].get();
+    place.surface = &surfaces_[m];
     place.way = moved.way;
     place.velocity = moved.velocity;
     if (mesh.drive.any()) place.velocity = driven[m].velocity;
@@ -63,7 +63,7 @@ double MeshWalls::longest_way(double from, double to) const {
   double longest = 0;
   for (std::size_t m = 0; m < count(); ++m)
     longest =
-        std::max(longest, longest_path(scene_->grains.meshes[m].motion, from, to, surfaces_[m]->radius()));
+        std::max(longest, longest_path(scene_->grains.meshes[m].motion, from, to, surfaces_[m].radius()));
   return 1.0001 * longest;
 }
 

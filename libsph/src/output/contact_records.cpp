@@ -102,8 +102,7 @@ class Enumeration {
   template <class Visit>
   void for_facets(const ContactLists& lists, Visit&& visit) {
     const ContactGroups& list = lists.walls();
-    for (const FacetContact& c :
-         facets_.look(list, 0, list.groups(), GrainPlaces(s_.particles(grains_.set())))) {
+    for (const FacetContact& c : facets_.look(list, GrainPlaces(s_.particles(grains_.set())))) {
       const std::uint32_t i = list.i[c.entry];
       Found f = beside(i, c.away, c.velocity, rows_.radius[i] - c.distance);
       f.record.partner = lists.numbers().key(list.j[c.entry]);

@@ -26,6 +26,7 @@ std::vector<float> reaches(const Particles& p, const CellBins& bins, double skin
 class Writer {
  public:
   explicit Writer(ContactGroups& g) : g_(g) {}
+  [[nodiscard]] std::size_t entries() const { return n_; }
   [[nodiscard]] std::size_t groups() const { return n_ / lanes; }
   /// Where the next `room` partners may be written before add() says how many of them were.
   [[nodiscard]] std::uint32_t* partners(std::size_t room) {
@@ -115,14 +116,17 @@ class Candidates {
   decomp::LargeVector<std::array<std::uint32_t, 2>> all_;
 };
 
-/// Finds the walls that a grain may touch before lists are made anew.
+/// Lists the walls that grains may touch before lists are made anew.
 class WallFinder {
  public:
-  WallFinder(const WallsNow& walls, const WallNumbers& numbers, double quantum)
-      : walls_(walls), numbers_(numbers), quantum_(quantum) {}
+  WallFinder(const WallsNow& walls, const WallNumbers& numbers, double quantum, Writer& list,
+             FacetRuns& facets)
+      : walls_(walls), numbers_(numbers), quantum_(quantum), list_(list), facets_(facets) {
+    facets_.runs.clear();
+  }
 
-  /// Closer than `reach`, by their numbers, ascending.
-  std::span<const std::uint32_t> find(const std::int64_t* x, double reach) {
+  /// Those closer than `reach`, by their numbers, ascending.
+  void add(std::uint32_t row, const std::int64_t* x, double reach) {
     found_.clear();
     for (std::uint32_t w = 0; w < walls_.planes.size(); ++w)
       if (walls_.planes[w].present && distance_from(walls_.planes[w], x, quantum_) < reach)
@@ -130,17 +134,23 @@ class WallFinder {
     for (std::size_t m = 0; m < walls_.meshes.size(); ++m) {
       const MeshNow& mesh = walls_.meshes[m];
       if (!mesh.listed) continue;
-      mesh.surface->find(mesh.in_frame(x, quantum_), reach, facets_);
-      for (const std::uint32_t f : facets_) found_.push_back(numbers_.first(m) + f);
+      mesh.surface->find(mesh.in_frame(x, quantum_), reach, near_);
+      if (near_.empty()) continue;
+      const std::size_t first = list_.entries() + found_.size();
+      facets_.runs.push_back({first, first + near_.size(), static_cast<std::uint32_t>(m)});
+      for (const std::uint32_t f : near_) found_.push_back(numbers_.first(m) + f);
     }
-    return found_;
+    std::ranges::copy(found_, list_.partners(found_.size()));
+    list_.add(row, found_.size());
   }
 
  private:
   const WallsNow& walls_;
   const WallNumbers& numbers_;
   double quantum_;
-  std::vector<std::uint32_t> found_, facets_;
+  Writer& list_;
+  FacetRuns& facets_;
+  std::vector<std::uint32_t> found_, near_;
 };
 
 }  // namespace
@@ -158,7 +168,7 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   Writer pairs(pairs_), walls(walls_);
   Candidates apart(p, quantum);
   numbers_ = WallNumbers(now.planes.size(), now.meshes);
-  WallFinder finder(now, numbers_, quantum);
+  WallFinder finder(now, numbers_, quantum, walls, walls_.facets);
   listed_ = 0;
   std::uint32_t cell = ~std::uint32_t{0};
   CellBins::Runs all_runs;
@@ -171,7 +181,8 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
                          static_cast<std::uint32_t>(std::min(first + ContactBlock::rows, range.last)),
                          {pairs.groups(), 0},
                          {},
-                         {walls.groups(), 0}};
+                         {walls.groups(), 0},
+                         {walls_.facets.runs.size(), 0}};
       for (std::uint32_t row = block.first; row < block.last; ++row) {
         const bool is_fixed = fixed[group[row]];
         if (bins.bin(row) != cell) runs = bins.runs(cell = bins.bin(row), all_runs);
@@ -185,16 +196,14 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
               partner);
         listed_ += n;
         pairs.add(row, apart.take(row, {partner, n}));
-        if (is_fixed) continue;
-        const std::span<const std::uint32_t> near = finder.find(x + row * 3, radius[row] + skin);
-        std::ranges::copy(near, walls.partners(near.size()));
-        walls.add(row, near.size());
+        if (!is_fixed) finder.add(row, x + row * 3, radius[row] + skin);
       }
       pairs.pad(block.first, block.first);
       walls.pad(block.first, ContactGroups::no_wall);
       block.pairs.last = pairs.groups();
       block.candidates = apart.end_block(block.first);
       block.walls.last = walls.groups();
+      block.facets.last = walls_.facets.runs.size();
       blocks_.push_back(block);
     }
   }
@@ -205,10 +214,12 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   apart.append_to(pairs);
   pairs.finish(history_);
   walls.finish(history_);
+  walls_.facets.near.resize(walls_.facets.runs.empty() ? 0 : walls_.i.size());
 }
 
 std::size_t ContactLists::bytes() const {
-  std::size_t sum = blocks_.capacity() * sizeof(ContactBlock);
+  std::size_t sum = blocks_.capacity() * sizeof(ContactBlock) +
+                    walls_.facets.runs.capacity() * sizeof(FacetRun) + walls_.facets.near.capacity() * 4;
   for (const ContactGroups* g : {&pairs_, &walls_})
     sum += (g->i.capacity() + g->j.capacity()) * 4 + g->touching.capacity() + g->history.capacity() * 8 +
            g->asleep.capacity() * 8;

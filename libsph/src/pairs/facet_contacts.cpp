@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "pairs/lies_beyond.hpp"
+
 namespace sph {
 namespace {
 
@@ -13,52 +15,73 @@ bool touched(const ContactGroups& list, std::size_t entry) {
   return (list.touching[entry / lanes] >> entry % lanes & 1U) != 0;
 }
 
+/// Facets that come no nearer than this share of the radius beyond touch are left out until the grain has moved as far, less
+/// what rounding may hide: of places in the frame, and of nearest points.
+constexpr double margin = 0.02, rounding = 0.2;
+
 double dot(const Point3& a, const Point3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 }  // namespace
 
-std::span<const FacetContact> FacetContacts::look(const ContactGroups& list, std::size_t first,
-                                                  std::size_t last, const GrainPlaces& grains) {
-  begin_ = first * lanes;
-  of_entry_.assign((last - first) * lanes, -1);
+std::span<const FacetContact> FacetContacts::look(const ContactGroups& list, FacetRuns& facets,
+                                                  const ContactBlock& block, const GrainPlaces& grains) {
+  first_group_ = block.walls.first;
+  touching_.assign(block.walls.last - block.walls.first, 0);
+  of_entry_.resize(touching_.size() * lanes);
   found_.clear();
-  for (std::size_t k = begin_; k < last * lanes;) {
-    const std::uint32_t row = list.i[k];
-    const std::size_t start = k;
-    while (k < last * lanes && list.i[k] == row && numbers_.is_facet(list.j[k])) ++k;
-    if (k == start)
-      ++k;
-    else
-      look_at_row(list, start, k, grains.x(row).data(), grains.radius(row));
+  for (FacetRun& run :
+       std::span(facets.runs).subspan(block.facets.first, block.facets.last - block.facets.first)) {
+    const MeshNow& mesh = meshes_[run.mesh];
+    if (!mesh.present) continue;
+    const std::size_t row = list.i[run.first];
+    const Point3 at = mesh.in_frame(grains.x(row).data(), quantum_);
+    const double radius = grains.radius(row), far = (1 - rounding) * margin * radius;
+    std::uint32_t* const near = facets.near.data() + run.first;
+    const Point3 way{at[0] - run.at[0], at[1] - run.at[1], at[2] - run.at[2]};
+    if (!(dot(way, way) < far * far)) find_near(list, run, near, at, radius);  // at first it is no number
+    if (run.near > 0) look_at_run(list, {near, run.near}, run.mesh, at, radius);
   }
-  for (std::size_t n = 0; n < found_.size(); ++n)
-    of_entry_[found_[n].entry - begin_] = static_cast<std::int32_t>(n);
+  for (std::size_t n = 0; n < found_.size(); ++n) {
+    const std::size_t entry = found_[n].entry - first_group_ * lanes;
+    of_entry_[entry] = static_cast<std::uint32_t>(n);
+    touching_[entry / lanes] = static_cast<std::uint8_t>(touching_[entry / lanes] | 1U << entry % lanes);
+  }
   return found_;
 }
 
-const FacetContact* FacetContacts::at(std::size_t entry) const {
-  const std::int32_t n = of_entry_[entry - begin_];
-  return n < 0 ? nullptr : &found_[static_cast<std::size_t>(n)];
+std::span<const FacetContact> FacetContacts::look(const ContactGroups& list, const GrainPlaces& grains) {
+  FacetRuns facets = list.facets;
+  return look(list, facets, {0, 0, {}, {}, {0, list.groups()}, {0, facets.runs.size()}}, grains);
 }
 
-void FacetContacts::look_at_row(const ContactGroups& list, std::size_t first, std::size_t last,
-                                const std::int64_t* x, double radius) {
-  for (std::size_t k = first; k < last;) {
-    const std::size_t mesh = numbers_.facet(list.j[k]).mesh, start = k;
-    while (k < last && numbers_.facet(list.j[k]).mesh == mesh) ++k;
-    if (meshes_[mesh].present) look_at_mesh(list, mesh, start, k, x, radius);
+const FacetContact* FacetContacts::at(std::size_t entry) const {
+  const std::size_t n = entry - first_group_ * lanes;
+  return (touching_[n / lanes] >> n % lanes & 1U) == 0 ? nullptr : &found_[of_entry_[n]];
+}
+
+/// No distance changes by more than the grain moves in the frame.
+void FacetContacts::find_near(const ContactGroups& list, FacetRun& run, std::uint32_t* near, const Point3& at,
+                              double radius) const {
+  const double reach = (1 + margin) * radius;
+  run.near = 0;
+  run.at = at;
+  const TriangleSurface& surface = *meshes_[run.mesh].surface;
+  for (std::size_t k = run.first; k < run.last; ++k) {
+    const std::uint32_t facet = list.j[k] - numbers_.first(run.mesh);
+    if (lies_beyond(surface, facet, at, reach)) continue;
+    if (surface.nearest(facet, at).square < reach * reach) near[run.near++] = static_cast<std::uint32_t>(k);
   }
 }
 
-void FacetContacts::look_at_mesh(const ContactGroups& list, std::size_t mesh, std::size_t first,
-                                 std::size_t last, const std::int64_t* x, double radius) {
+void FacetContacts::look_at_run(const ContactGroups& list, std::span<const std::uint32_t> near,
+                                std::size_t mesh, const Point3& at, double radius) {
   const MeshNow& m = meshes_[mesh];
-  const Point3 at = m.in_frame(x, quantum_);
   candidates_.clear();
-  for (std::size_t k = first; k < last; ++k) {
+  for (const std::uint32_t k : near) {
     const std::uint32_t facet = list.j[k] - numbers_.first(mesh);
-    const NearPoint near = m.surface->nearest(facet, at);
-    if (near.square < radius * radius) candidates_.push_back({k, facet, near, true});
+    if (lies_beyond(*m.surface, facet, at, radius)) continue;
+    const NearPoint point = m.surface->nearest(facet, at);
+    if (point.square < radius * radius) candidates_.push_back({k, facet, point, true});
   }
   keep_nearest(m);
   const std::size_t found = found_.size();

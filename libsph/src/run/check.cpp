@@ -12,6 +12,7 @@
 #include "models/stability.hpp"
 #include "run/cost.hpp"
 #include "run/memory_need.hpp"
+#include "run/mesh_texts.hpp"
 #include "run/plan_text.hpp"
 #include "run/run_start.hpp"
 #include "run/speed_warnings.hpp"
@@ -134,6 +135,12 @@ std::string particles_text(const Scene& scene, const StartCount& count) {
   return out;
 }
 
+std::string warnings(const std::vector<std::string>& lines) {
+  std::string out;
+  for (const std::string& line : lines) out += "warning: " + line + "\n";
+  return out;
+}
+
 /// What this check has left to the run.
 std::string unlooked_text(const Scene& scene, Placed placed) {
   std::string out;
@@ -166,6 +173,9 @@ std::string memory_text(const Scene& scene, const Parts& parts, const MemoryNeed
         fmt::format("memory: about {} for all particles, {} of about {:.3g} {} and {:.3g} cells included\n",
                     bytes_text(need.bytes), parts.physics ? "lists" : "contacts", need.listed,
                     parts.physics ? "neighbours" : "a grain", need.cells);
+  if (need.meshes > 0)
+    out += fmt::format("meshes: {} on each machine, whatever its ranks\n", bytes_text(need.meshes));
+  if (need.regions > 0) out += fmt::format("mesh regions: {} on each rank\n", bytes_text(need.regions));
   if (const std::string problem = memory_problem(need, machine); !problem.empty())
     out += "warning: " + problem + ": it would not run here\n";
   return out;
@@ -232,26 +242,6 @@ std::string contact_step_text(const Scene& scene, double dt) {
       fmt::format("time step: {:.6g} s (default {:.6g}, advised at most {:.6g}, limit {:.6g})\n", dt,
                   steps.recommended, steps.advised, steps.limit);
   if (dt > steps.advised) out += "warning: time.dt is above what dense packings bear: reduce it\n";
-  return out;
-}
-
-/// How large each is tells whether its unit is right.
-std::string mesh_text(const Scene& scene, const Parts& parts) {
-  std::string out;
-  for (std::size_t m = 0; m < scene.grains.meshes.size(); ++m) {
-    const MeshWall& mesh = scene.grains.meshes[m];
-    const TriangleSurface& surface = parts.grains->walls().meshes().surface(m);
-    Double3 least = surface.vertices().front(), most = least;
-    for (const Point3& v : surface.vertices())
-      for (std::size_t a = 0; a < 3; ++a) {
-        least[a] = std::min(least[a], v[a]);
-        most[a] = std::max(most[a], v[a]);
-      }
-    out += fmt::format("mesh {}: {} facets;", mesh.name, surface.size());
-    for (std::size_t a = 0; a < 3; ++a)
-      out += fmt::format(" {} {:.6g} to {:.6g} m{}", "xyz"[a], least[a] + mesh.motion.centre[a],
-                         most[a] + mesh.motion.centre[a], a < 2 ? "," : " at the start\n");
-  }
   return out;
 }
 
@@ -357,10 +347,10 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
       dt = std::min(dt, parts.physics->steps().resting(start.sounds));
     }
     if (comm.rank() == 0)
-      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
-                 particles_text(scene, start.count), mesh_text(scene, parts), unlooked_text(scene, placed),
-                 memory_text(scene, parts, need, machine), gas_text(scene), tension_text(scene),
-                 options.plan ? plan_text(scene, parts) : "",
+      fmt::print("{}: {}\n{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}", scene.file, scene.name,
+                 particles_text(scene, start.count), mesh_text(scene, parts), warnings(open_regions(scene)),
+                 unlooked_text(scene, placed), memory_text(scene, parts, need, machine), gas_text(scene),
+                 tension_text(scene), options.plan ? plan_text(scene, parts) : "",
                  parts.grains && !parts.suspension ? contact_step_text(scene, dt) : "",
                  parts.physics ? courant_text(scene, parts.physics->steps(), start.sounds, dt) : "",
                  drag_text(scene, parts), suspension_text(scene, parts, start.count),

@@ -12,6 +12,7 @@
 
 #include "pairs/occupied.hpp"
 #include "run/cost.hpp"
+#include "scene/mesh_volume.hpp"
 #include "sph/laws/contact/law.hpp"
 #include "sph/laws/eos/law.hpp"
 #include "sph/plan/distribution.hpp"
@@ -83,7 +84,9 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
     }
     need.bytes += (of_grains ? grains : need.particles - grains) * of_particle;
   }
-  if (parts.grains) need.bytes += static_cast<double>(parts.grains->walls().meshes().bytes());
+  if (parts.grains) need.meshes = static_cast<double>(parts.grains->walls().meshes().bytes());
+  for (const Region& region : scene.start.lattice.regions)
+    if (region.mesh.volume != nullptr) need.regions += static_cast<double>(region.mesh.volume->bytes());
   need.listed = parts.physics ? neighbours : contacts_of_grain;
   need.bytes += dense ? need.cells * bytes_of_cell : 0;
   return need;
@@ -106,7 +109,8 @@ MachineMemory machine_memory(const decomp::Comm& comm) {
   comm.max(fullest);
   std::array<double, 1> bytes{own.rank_share / own.bytes == fullest[0] ? own.bytes : 0.0};
   comm.max(bytes);
-  return {bytes[0], fullest[0] * bytes[0]};
+  const double share = fullest[0] * bytes[0];
+  return {bytes[0], share, share * comm.size()};
 }
 
 std::string bytes_text(double bytes) {
@@ -117,12 +121,13 @@ std::string bytes_text(double bytes) {
 }
 
 std::string memory_problem(const MemoryNeed& need, const MachineMemory& machine, double times) {
-  const double here = need.bytes * machine.rank_share;
+  const double facets = need.meshes + need.regions * machine.ranks;
+  const double here = need.bytes * machine.rank_share + facets;
   if (here <= times * machine.bytes) return {};
-  return fmt::format("{:.4g} particles in {:.4g} cells need {}{}, and the machine has {}", need.particles,
-                     need.cells, bytes_text(need.bytes),
-                     machine.rank_share < 1 ? ", " + bytes_text(here) + " on each machine" : "",
-                     bytes_text(machine.bytes));
+  return fmt::format(
+      "{:.4g} particles in {:.4g} cells need {}{}{}, and the machine has {}", need.particles, need.cells,
+      bytes_text(need.bytes), facets > 0 ? ", meshes " + bytes_text(facets) + " on each machine" : "",
+      machine.rank_share < 1 ? ", " + bytes_text(here) + " on each machine" : "", bytes_text(machine.bytes));
 }
 
 void require_memory(const decomp::Comm& comm, const Scene& scene) {

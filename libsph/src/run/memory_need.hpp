@@ -13,7 +13,9 @@ namespace sph {
 struct MemoryNeed {
   double particles = 0, cells = 0;  ///< numbers
   double listed = 0;                ///< neighbours, of grains alone contacts, a particle
-  double bytes = 0;  ///< of all ranks together: fields and lists, what a rebuild and a file take besides
+  double bytes = 0;    ///< of all ranks together: fields and lists, what a rebuild and a file take besides
+  double meshes = 0;   ///< bytes on each machine besides,
+  double regions = 0;  ///< and of mesh regions on each rank
 };
 [[nodiscard]] MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::CellGrid& grid,
                                      const StartCount& count);
@@ -22,6 +24,7 @@ struct MemoryNeed {
 struct MachineMemory {
   double bytes = 0;       ///< of the machine, or what its control group allows
   double rank_share = 1;  ///< ranks on it, of all
+  double ranks = 1;       ///< their number
 };
 /// Collective.
 [[nodiscard]] MachineMemory machine_memory(const decomp::Comm& comm);

@@ -10,6 +10,7 @@
 #include "models/stability.hpp"
 #include "run/changes.hpp"
 #include "run/memory_need.hpp"
+#include "run/mesh_texts.hpp"
 #include "run/run_directory.hpp"
 #include "scene/record.hpp"
 #include "sph/checkpoint/checkpoint.hpp"
@@ -30,6 +31,8 @@ std::unique_ptr<Simulation> simulate(const Scene& scene, Make&& make) {
 
 std::unique_ptr<Simulation> begun(const decomp::Comm& comm, const Scene& scene) {
   require_memory(comm, scene);
+  if (comm.rank() == 0)
+    for (const std::string& line : open_regions(scene)) fmt::print(stderr, "peperite: warning: {}\n", line);
   return std::make_unique<Simulation>(comm, scene);
 }
 

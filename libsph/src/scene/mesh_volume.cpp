@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sph {
 namespace {
@@ -72,9 +73,30 @@ void MeshVolume::sort(std::size_t axis) {
   for (const Corners& t : corners_) for_squares(t, [&](std::size_t s) { ++across.first[s + 1]; });
   for (std::size_t s = 1; s < across.first.size(); ++s) across.first[s] += across.first[s - 1];
   across.triangles.resize(across.first.back());
-  std::vector<std::size_t> next = across.first;
+  std::vector<std::uint32_t> next = across.first;
   for (std::uint32_t t = 0; t < corners_.size(); ++t)
     for_squares(corners_[t], [&](std::size_t s) { across.triangles[next[s]++] = t; });
+}
+
+std::size_t MeshVolume::open_edges() const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(3 * corners_.size());
+  for (const Corners& t : corners_)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(std::minmax({t[k], t[(k + 1) % 3]}));
+  std::ranges::sort(edges);
+  std::size_t open = 0;
+  for (auto from = edges.begin(); from != edges.end();) {
+    const auto to = std::ranges::find_if(from, edges.end(), [&](const auto& e) { return e != *from; });
+    open += static_cast<std::size_t>((to - from) % 2);
+    from = to;
+  }
+  return open;
+}
+
+std::size_t MeshVolume::bytes() const {
+  std::size_t sum = vertices_.capacity() * sizeof(Double3) + corners_.capacity() * sizeof(Corners);
+  for (const Across& a : across_) sum += (a.first.capacity() + a.triangles.capacity()) * 4;
+  return sum;
 }
 
 bool MeshVolume::contains(const Double3& x) const {

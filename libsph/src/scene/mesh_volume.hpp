@@ -21,13 +21,17 @@ class MeshVolume {
   [[nodiscard]] bool contains(const Double3& x) const;
   [[nodiscard]] const Double3& lower() const { return lower_; }
   [[nodiscard]] const Double3& upper() const { return upper_; }
+  [[nodiscard]] std::size_t size() const { return corners_.size(); }  ///< triangles
+  /// Edges that have one triangle, or another odd number: 0 if the surface is closed.
+  [[nodiscard]] std::size_t open_edges() const;
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
   /// The triangles that a ray along an axis may meet, by the square of the plane across it that the ray passes.
   struct Across {
     std::array<std::size_t, 2> count{};
     std::array<double, 2> per_length{};
-    std::vector<std::size_t> first;
+    std::vector<std::uint32_t> first;
     std::vector<std::uint32_t> triangles;
   };
 

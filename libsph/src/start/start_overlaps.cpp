@@ -43,7 +43,7 @@ class Search {
       if (walls.j[k] < now.planes.size() && now.planes[walls.j[k]].present)
         keep(found, of_wall(walls.i[k], walls.j[k], now.planes[walls.j[k]]));
     FacetContacts facets(now, scale_.quantum);
-    for (const FacetContact& f : facets.look(walls, 0, walls.groups(), GrainPlaces(particles_)))
+    for (const FacetContact& f : facets.look(walls, GrainPlaces(particles_)))
       if (const std::size_t i = walls.i[f.entry]; i < owned_)
         keep(found, {id_[i], lists.numbers().key(walls.j[f.entry]), 1 - f.distance / radius_[i]});
     return found;

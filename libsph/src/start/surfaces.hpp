@@ -1,7 +1,6 @@
 // The surfaces of a scene's meshes, from their files.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "decomp/comm.hpp"
@@ -10,9 +9,8 @@
 
 namespace sph {
 
-/// Each about the centre of its motion [m]. Throws InputError where one is broken, or another than the run began with.
-/// Collective.
-[[nodiscard]] std::vector<std::shared_ptr<const TriangleSurface>> read_surfaces(const decomp::Comm& comm,
-                                                                                const Scene& scene);
+/// Each about the centre of its motion [m]. Rank 0 reads the files, each machine holds one copy. Throws InputError where one is broken,
+/// or another than the run began with. Collective.
+[[nodiscard]] std::vector<TriangleSurface> read_surfaces(const decomp::Comm& comm, const Scene& scene);
 
 }  // namespace sph

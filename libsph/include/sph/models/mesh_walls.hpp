@@ -1,7 +1,6 @@
 // Meshes beside grains (scene/mesh_scene.hpp).
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,8 +18,8 @@ class MeshWalls {
   MeshWalls(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale);
 
   [[nodiscard]] std::size_t count() const { return surfaces_.size(); }
-  [[nodiscard]] const TriangleSurface& surface(std::size_t mesh) const { return *surfaces_[mesh]; }
-  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] const TriangleSurface& surface(std::size_t mesh) const { return surfaces_[mesh]; }
+  [[nodiscard]] std::size_t bytes() const;  ///< on each machine
   /// `driven`: ways and velocities of those that a force moves.
   [[nodiscard]] std::vector<MeshNow> now(double time, std::span<const WallState> driven) const;
   [[nodiscard]] bool present(std::size_t mesh, double time) const;
@@ -30,7 +29,7 @@ class MeshWalls {
  private:
   const Scene* scene_;
   PositionScale scale_;
-  std::vector<std::shared_ptr<const TriangleSurface>> surfaces_;
+  std::vector<TriangleSurface> surfaces_;
 };
 
 }  // namespace sph

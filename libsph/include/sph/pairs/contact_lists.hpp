@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,20 @@
 
 namespace sph {
 
+/// Facets of one mesh beside one row: consecutive entries of the list of walls. Most cannot touch before the grain has moved on;
+/// sweeps look at those that can (FacetContacts).
+struct FacetRun {
+  std::size_t first, last;  ///< entries
+  std::uint32_t mesh;
+  std::uint32_t near = 0;  ///< so many of them may touch ...
+  Point3 at = {std::numeric_limits<double>::quiet_NaN(), 0,
+               0};  ///< ... a grain near this place in the mesh's frame
+};
+struct FacetRuns {
+  std::vector<FacetRun> runs;
+  std::vector<std::uint32_t> near;  ///< which entries, of each run from its first on
+};
+
 /// Groups of eight pairs (i, j); j is a row, or of a wall its number (WallNumbers). Unused lanes hold i = j (rows), or a
 /// wall that does not exist.
 struct ContactGroups {
@@ -39,6 +54,7 @@ struct ContactGroups {
   decomp::LargeVector<double> history;      ///< [groups][components][lanes]
   /// [groups] No pair of the group touches before grains have gone so far since the lists were made [m].
   std::vector<double> asleep;
+  FacetRuns facets;  ///< of walls
   [[nodiscard]] std::size_t groups() const { return touching.size(); }
 };
 
@@ -52,6 +68,7 @@ struct ContactBlock {
   Groups pairs;       ///< that touched when the lists were made
   Groups candidates;  ///< those that did not, by how far they were apart
   Groups walls;
+  Groups facets;  ///< their runs
 };
 
 /// What must not change while contacts move between ranks, summed over all: both entries of a pair count,

@@ -50,7 +50,7 @@ struct ContactPass {
       }
       add_candidates(c, rows, block.candidates, sweep);
       if (c.walls.facets->any()) {
-        c.walls.facets->look(c.lists->walls(), block.walls.first, block.walls.last, GrainPlaces(rows.motion));
+        c.walls.facets->look(c.lists->walls(), c.lists->walls().facets, block, GrainPlaces(rows.motion));
         c.walls.facets->hand_over(c.lists->walls(), history);
       }
       for (std::size_t g = block.walls.first; g < block.walls.last; ++g) add_walls(c, rows, g, sweep);
@@ -330,6 +330,10 @@ struct ContactPass {
     ContactGroups& list = c.lists->walls();
     const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* walls = list.j.data() + g * lanes;
+    // Of fine meshes most facets that are listed touch nothing.
+    if (list.touching[g] == 0 && c.walls.facets->any() && !c.walls.facets->any_in(g) &&
+        *std::min_element(walls, walls + lanes) >= c.walls.planes.size())
+      return;
     Contact<V> contact;
     V rel[3], surface[3];
     std::uint32_t pair[lanes];

@@ -56,10 +56,14 @@ class FacetContacts {
   [[nodiscard]] bool any() const { return !meshes_.empty(); }
   [[nodiscard]] std::span<const MeshNow> meshes() const { return meshes_; }
 
-  /// Contacts of the entries of groups [first, last) of a list.
-  std::span<const FacetContact> look(const ContactGroups& list, std::size_t first, std::size_t last,
+  /// Contacts of a block of a list. `facets`: its runs, which keep what there was to see; nothing depends on what they kept.
+  std::span<const FacetContact> look(const ContactGroups& list, FacetRuns& facets, const ContactBlock& block,
                                      const GrainPlaces& grains);
-  /// That of an entry of the groups looked at last; nullptr if it does not touch.
+  /// Of a whole list.
+  std::span<const FacetContact> look(const ContactGroups& list, const GrainPlaces& grains);
+  /// Of the block looked at last: a facet of this group touches.
+  [[nodiscard]] bool any_in(std::size_t group) const { return touching_[group - first_group_] != 0; }
+  /// That of an entry; nullptr if it does not touch.
   [[nodiscard]] const FacetContact* at(std::size_t entry) const;
   /// Moves what contacts remember to the entries that have it from now on.
   void hand_over(ContactGroups& list, std::size_t history) const;
@@ -71,10 +75,10 @@ class FacetContacts {
     NearPoint near;
     bool kept;
   };
-  void look_at_row(const ContactGroups& list, std::size_t first, std::size_t last, const std::int64_t* x,
-                   double radius);
-  void look_at_mesh(const ContactGroups& list, std::size_t mesh, std::size_t first, std::size_t last,
-                    const std::int64_t* x, double radius);
+  void look_at_run(const ContactGroups& list, std::span<const std::uint32_t> near, std::size_t mesh,
+                   const Point3& at, double radius);
+  void find_near(const ContactGroups& list, FacetRun& run, std::uint32_t* near, const Point3& at,
+                 double radius) const;
   void keep_nearest(const MeshNow& mesh);
   void add(const MeshNow& mesh, std::size_t number, const Candidate& candidate, const Point3& x);
   void find_histories(const ContactGroups& list, const MeshNow& mesh, std::size_t found);
@@ -82,8 +86,9 @@ class FacetContacts {
   std::span<const MeshNow> meshes_;
   WallNumbers numbers_;
   double quantum_ = 0;
-  std::size_t begin_ = 0;               ///< of the entries looked at
-  std::vector<std::int32_t> of_entry_;  ///< index into found_, -1: none
+  std::size_t first_group_ = 0;          ///< of those looked at
+  std::vector<std::uint8_t> touching_;   ///< [groups] bit l: lane l touches
+  std::vector<std::uint32_t> of_entry_;  ///< [groups * lanes] its place in found_
   std::vector<FacetContact> found_;
   std::vector<Candidate> candidates_;
 };
