@@ -4,7 +4,7 @@
 set -eu
 
 packages="g++ cmake ninja-build pkg-config git
-  libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libeigen3-dev libmetis-dev libtomlplusplus-dev libcli11-dev
+  libopenmpi-dev openmpi-bin libhdf5-openmpi-dev zlib1g-dev libeigen3-dev libmetis-dev libtomlplusplus-dev libcli11-dev
   libfmt-dev nlohmann-json3-dev libxxhash-dev libsleef-dev libassimp-dev
   python3 python3-h5py python3-jinja2 python3-matplotlib python3-numpy python3-pil libjs-dygraphs
   python3-dev python3-mpi4py pybind11-dev"

@@ -83,7 +83,7 @@ def add_output(d, case, kind):
     out = {}
     for key, values in {"snapshot_interval": [0, 3 * dt], "series_interval": [0, 2 * dt],
                         "checkpoint_interval": [0, 600], "status_interval": [0.1, 2], "average_time": [0, 4 * dt],
-                        "sort_limit": [0, 10, 100_000_000], "checkpoint_files": [0, 1, 3]}.items():
+                        "sort_limit": [0, 10, 100_000_000], "compression": [0, 1, 9], "checkpoint_files": [0, 1, 3]}.items():
         if d.chance(key, 0.2):
             out[key] = d.one(f"{key} value", values)
     mixture = "drag" in scene

@@ -15,6 +15,7 @@ import cases
 NOT_VARIED = {
     "decomposition.record": "fuzz_ranks writes the cuts of every replayed row to a file",
     "decomposition.replay": "fuzz_ranks names the file of every row with cuts = replay",
+    "include": "files are put together before anything else is read",
     "mesh.content": "the program notes it when it reads the scene",
     "start.region.content": "the same",
     "decomposition.chaos_seed": "fuzz_ranks draws it for every row with cuts = chaos",

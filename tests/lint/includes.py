@@ -12,6 +12,7 @@ OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "signal.h", "sys/stat.h", "sys/types.
 HIDDEN = {
     r"metis\.h": r"libdecomp/src/metis\.cpp",
     r"hdf5\.h": r"libsph/src/files/(hdf5_file|memory_file)\.cpp|benchmarks/scale_sim/check\.cpp",
+    r"zlib\.h": r"libsph/src/files/packed_rows\.cpp",
     r"assimp/.*": r"libsph/src/files/mesh_file\.cpp",
     r"toml\+\+/.*": r"libsph/src/keys/toml_tree\.cpp",
     r"nlohmann/.*": r"libsph/src/.*\.cpp|benchmarks/.*\.cpp",

@@ -9,6 +9,7 @@ import sys
 
 import includes
 import numbers_rules
+import recipe_rules
 import size_rules
 import text_rules
 
@@ -25,6 +26,7 @@ RULES = {
     "todo": text_rules.todo,
     "header": text_rules.header,
     "scene": text_rules.scene,
+    "recipe": recipe_rules.recipe,
 }
 
 

@@ -47,6 +47,18 @@ class Sweep(Case):
         refused = self.sweep(*words, "--steps", 6, code=2)
         self.assertIn("another scene", refused.err)
 
+    def test_included_files_are_of_the_scene(self):
+        whole = self.scene.read_text()
+        base, more = self.folder / "base.toml", self.folder / "more.toml"
+        base.write_text(whole)
+        more.write_text('include = "base.toml"\n[start]\nvelocity = [1, 2, 0]\n')
+        words = ["--vary", "time.cfl=0.5,0.7", "--steps", 3, "--out", "parts"]
+        self.run_of.run(1, "peperite", "sweep", more, *words)
+        self.sweep(*words[:-1], "one", "--set", "start.velocity=[1,2,0]")
+        self.assertEqual([row["fingerprint"] for row in self.table("parts")], [row["fingerprint"] for row in self.table("one")])
+        base.write_text(whole + "# another\n")
+        self.assertIn("another scene", self.run_of.run(1, "peperite", "sweep", more, *words, code=2).err)
+
     def test_what_was_stopped_goes_on(self):
         out = self.folder / "stopped"
         words = ["--vary", "time.cfl=0.5", "--out", "stopped", "--steps", 8]

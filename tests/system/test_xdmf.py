@@ -30,6 +30,8 @@ class Xdmf(Case):
         cls.run_of.run(2, "peperite", "run", cls.scenes / "box3d_solid.toml", "--steps", 5, "--out", "solid")
         cls.run_of.run(2, "peperite", "run", cls.scenes / "grains_pour.toml", "--steps", 100, "--set",
                        "output.contacts=true", "--out", "grains")
+        cls.run_of.run(2, "peperite", "run", cls.scenes / "grains_pour.toml", "--steps", 20, "--set",
+                       "output.compression=4", "--out", "packed")
         for scene in MESHES:
             cls.run_of.run(2, "peperite", "run", cls.scenes / f"{scene}.toml", "--steps", 2, "--out", scene)
         cls.run_of.run(2, "peperite", "run", cls.scenes / "melts2d.toml", "--steps", 1, "--set",
@@ -50,7 +52,7 @@ class Xdmf(Case):
         return values
 
     def test_every_item_is_there(self):
-        for run in ("flat", "solid", "grains"):
+        for run in ("flat", "solid", "grains", "packed"):
             grids = ElementTree.parse(self.folder / run / "particles.xdmf").getroot().findall("Domain/Grid/Grid")
             self.assertEqual(len(grids), len(list((self.folder / run).glob("snapshot_*.h5"))))
             for grid in grids:

@@ -15,6 +15,7 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -111,11 +112,31 @@ def arguments(words):
     return given
 
 
+def files_of(scene):
+    """The scene and what it includes, as far as they can be read: what is wrong with them the runs say."""
+    found = {}
+
+    def add(path):
+        if path.resolve() in found or not path.is_file():
+            return
+        found[path.resolve()] = path.read_bytes()
+        try:
+            include = tomllib.loads(found[path.resolve()].decode()).get("include")
+        except ValueError:
+            return
+        for name in include if isinstance(include, list) else [include]:
+            if isinstance(name, str):
+                add(path.parent / name)
+
+    add(scene)
+    return list(found.values())
+
+
 def claim(given):
     """The folder is of this scene with these settings; the varied values and the number of ranks may be others later."""
     if not given.scene.is_file():
         raise Error(f"{given.scene}: no such file")
-    of = {"scene": hashlib.sha256(given.scene.read_bytes()).hexdigest(), "set": given.set, "steps": given.steps, "until": given.until}
+    of = {"scene": hashlib.sha256(b"".join(files_of(given.scene))).hexdigest(), "set": given.set, "steps": given.steps, "until": given.until}
     given.out.mkdir(parents=True, exist_ok=True)
     record = given.out / "sweep.json"
     if not record.exists():

@@ -149,7 +149,7 @@ Part write_part(const decomp::Comm& everyone, const decomp::Comm& writers, const
     if (writers.rank() == 0)
       part.extents = lay_out(file, {{"format", std::string("peperite checkpoint part 1")}}, sets);
   });
-  fill_in(everyone, writers, file, sets, part.extents, what, [&](const RowFile& out) {
+  fill_in(everyone, writers, file, sets, part.extents, what, [&](RowSink& out) {
     std::size_t set = 0;
     for (const Column& column : rows.columns()) out.write(set++, column.first, column.rows, column.data);
   });

@@ -17,7 +17,9 @@ template <class Work>
 void fill_in(const decomp::Comm& everyone, const decomp::Comm& writers, const std::filesystem::path& path,
              const std::vector<DataSet>& sets, std::vector<Extent> extents, const std::string& what,
              Work&& work) {
-  extents.resize(sets.size());
+  std::size_t count = 0;
+  for (const DataSet& set : sets) count += set.extents();
+  extents.resize(count);
   writers.broadcast(std::as_writable_bytes(std::span(extents)), 0);
   all_or_none(everyone, what, [&] {
     RowFile file(path, sets, extents);

@@ -151,6 +151,28 @@ Handle create_described(hid_t file, const std::string& name, const DataSet& set,
   return Handle(data.release(), H5Dclose, name);
 }
 
+/// Each chunk gets its place by being written, though with zeros, of which the file in memory keeps none.
+void add_chunks(hid_t file, const DataSet& set, std::vector<Extent>& extents) {
+  const std::array<hsize_t, 2> size{set.chunks.rows, static_cast<hsize_t>(set.components)};
+  const Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "H5Pcreate");
+  check(H5Pset_chunk(create, set.components == 1 ? 1 : 2, size.data()), "H5Pset_chunk");
+  check(H5Pset_shuffle(create), "H5Pset_shuffle");
+  check(H5Pset_deflate(create, static_cast<unsigned>(set.chunks.level)), "H5Pset_deflate");
+  const Handle data = create_described(file, set.name, set, space_of(set.rows, set.components), create);
+  const std::vector<std::byte> zeros(std::ranges::max(set.chunks.bytes));
+  std::array<hsize_t, 2> first{};
+  for (const std::uint64_t bytes : set.chunks.bytes) {
+    haddr_t offset = 0;
+    if (bytes > 0) {  // HDF5 reads zeros where there is no chunk
+      check(H5Dwrite_chunk(data, H5P_DEFAULT, 0, first.data(), bytes, zeros.data()), "H5Dwrite_chunk");
+      check(H5Dget_chunk_info_by_coord(data, first.data(), nullptr, &offset, nullptr),
+            "H5Dget_chunk_info_by_coord");
+    }
+    extents.push_back({offset, bytes});
+    first[0] += set.chunks.rows;
+  }
+}
+
 Extent add_data_set(hid_t file, const DataSet& set) {
   const Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "H5Pcreate");
   check(H5Pset_layout(create, H5D_CONTIGUOUS), "H5Pset_layout");
@@ -212,7 +234,11 @@ std::vector<Extent> lay_out(const std::filesystem::path& path, const std::vector
     Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "H5Fcreate");
     for (const Attribute& attribute : attributes)
       std::visit([&](const auto& value) { add_attribute(file, attribute.name, value); }, attribute.value);
-    for (const DataSet& set : data_sets) extents.push_back(add_data_set(file, set));
+    for (const DataSet& set : data_sets)
+      if (set.chunks.rows > 0)
+        add_chunks(file, set, extents);
+      else
+        extents.push_back(add_data_set(file, set));
     for (const DataView& view : views) add_view(file, view, data_sets[view.of]);
     check(H5Fclose(file.release()), "H5Fclose");
   }
@@ -228,13 +254,18 @@ RowFile::RowFile(const std::filesystem::path& path, const std::vector<DataSet>& 
                  const std::vector<Extent>& extents)
     : file_(path, O_WRONLY), sets_(sets), extents_(extents) {}
 
-void RowFile::write(std::size_t set, std::uint64_t first, std::uint64_t rows, const void* values) const {
+void RowFile::write(std::size_t set, std::uint64_t first, std::uint64_t rows, const void* values) {
   const DataSet& s = sets_[set];
   if (rows == 0) return;
   if (first + rows > s.rows) throw std::logic_error("rows beyond the end of data set " + s.name);
   const std::uint64_t row_bytes = static_cast<std::uint64_t>(s.components) * bytes(s.element);
   file_.write_at(extents_[set].offset + first * row_bytes,
                  {static_cast<const std::byte*>(values), rows * row_bytes});
+}
+
+void RowFile::fill(std::size_t extent, std::span<const std::byte> bytes) {
+  if (bytes.size() != extents_[extent].bytes) throw std::logic_error("bytes do not fill their place");
+  file_.write_at(extents_[extent].offset, bytes);
 }
 
 void RowFile::finish() {

@@ -9,12 +9,20 @@
 #include <vector>
 
 namespace sph {
+namespace {
+
+bool all_zero(std::span<const std::byte> bytes) {
+  return std::ranges::all_of(bytes, [](std::byte b) { return b == std::byte{0}; });
+}
+
+}  // namespace
 
 void SparseBytes::write(std::uint64_t at, std::span<const std::byte> from) {
   while (!from.empty()) {
     const std::uint64_t within = at % page_bytes;
     const std::size_t n = std::min<std::size_t>(from.size(), page_bytes - within);
-    std::memcpy(pages_.try_emplace(at / page_bytes).first->second.data() + within, from.data(), n);
+    if (!all_zero(from.first(n)) || pages_.contains(at / page_bytes))
+      std::memcpy(pages_.try_emplace(at / page_bytes).first->second.data() + within, from.data(), n);
     at += n;
     from = from.subspan(n);
   }

@@ -12,12 +12,12 @@
 
 namespace sph {
 
-/// Bytes by address, zero where nothing was written.
+/// Bytes by address, zero where nothing was written; pages of zeros take no memory.
 class SparseBytes {
  public:
   void write(std::uint64_t at, std::span<const std::byte> from);
   void read(std::uint64_t at, std::span<std::byte> to) const;
-  /// Hands over runs of the pages that were written, in ascending order, cut off at `end`.
+  /// Hands over runs of the pages that hold anything, in ascending order, cut off at `end`.
   void for_each_run(std::uint64_t end,
                     const std::function<void(std::uint64_t, std::span<const std::byte>)>& take) const;
 

@@ -39,4 +39,22 @@ void sort_by_id(const decomp::Comm& comm, decomp::Table& table, int keys) {
   table.reorder(order);
 }
 
+void share_out(const decomp::Comm& comm, decomp::Table& table, std::int64_t unit) {
+  const auto owned = static_cast<std::int64_t>(table.owned());
+  const std::int64_t first = comm.exclusive_sum(owned);
+  const std::int64_t units = (comm.sum(owned) + unit - 1) / unit;
+  const std::int64_t share = (units + comm.size() - 1) / comm.size() * unit;
+  std::vector<decomp::Rank> owner(table.owned());
+  for (std::size_t row = 0; row < owner.size(); ++row)
+    owner[row] = static_cast<decomp::Rank>((first + static_cast<std::int64_t>(row)) / share);
+  const std::int64_t stay = std::ranges::count(owner, comm.rank());
+  const std::int64_t before = stay > 0 ? std::max<std::int64_t>(0, first - comm.rank() * share) : 0;
+  decomp::redistribute(comm, owner, table, nullptr);
+  // Rows that stay come first there; these come after those of lower ranks.
+  std::vector<std::uint32_t> order(table.owned());
+  std::iota(order.begin(), order.end(), 0U);
+  std::rotate(order.begin(), order.begin() + stay, order.begin() + stay + before);
+  table.reorder(order);
+}
+
 }  // namespace sph

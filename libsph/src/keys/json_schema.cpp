@@ -1,5 +1,5 @@
 // The JSON schema of scenes (draft 2020-12). It knows types, words and bounds of each key; which keys go together
-// only the program checks.
+// only the program checks, and which are missing, since a file may add to others (include).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ std::string description(const Key& key) {
 }
 
 Json object(const KeyTable& table) {
-  Json properties = Json::object(), required = Json::array();
+  Json properties = Json::object();
   for (const Key& key : keys_of(table)) {
     Json schema = std::visit([](const auto& kind) { return schema_of(kind); }, key.kind);
     if (!schema.contains("description")) schema["description"] = description(key);
@@ -71,15 +71,11 @@ Json object(const KeyTable& table) {
         !standard.empty() && key.otherwise.empty() && !key.required)
       if (!standard.starts_with('[')) schema["default"] = Json::parse(standard);
     properties[std::string(key.name)] = std::move(schema);
-    const bool everywhere = key.scenes.holds == nullptr && key.where[0].key.empty();
-    if (everywhere && default_of(key) == "required") required.push_back(key.name);
   }
-  Json out{{"type", "object"},
-           {"description", table.sentence},
-           {"additionalProperties", false},
-           {"properties", std::move(properties)}};
-  if (!required.empty()) out["required"] = std::move(required);
-  return out;
+  return {{"type", "object"},
+          {"description", table.sentence},
+          {"additionalProperties", false},
+          {"properties", std::move(properties)}};
 }
 
 }  // namespace

@@ -201,10 +201,7 @@ std::array<int, 2> KeyValue::two_groups() const {
 std::string KeyValue::file() const {
   const std::string words = text();
   if (words.empty()) fail("is empty", "give the path of a file");
-  std::filesystem::path path(words);
-  if (path.is_relative() && !node_->from_override)
-    path = std::filesystem::path(scene_->file).parent_path() / path;
-  return std::filesystem::absolute(path).lexically_normal().string();
+  return std::filesystem::absolute(std::filesystem::path(node_->folder) / words).lexically_normal().string();
 }
 
 void KeyValue::put(const keys::Value& member) const {

@@ -60,6 +60,9 @@ inline constexpr auto output_keys = std::to_array<Key>({
      "Snapshots hold the contacts with their forces, and the stress of the grains, xx yy zz xy yz xz.",
      at<&OutputControl::contacts>, of_grains},
     {"sort_limit", Whole{}, "Rows up to which snapshots are sorted by id.", at<&OutputControl::sort_limit>},
+    {"compression", at_most(9),
+     "Snapshots hold their rows compressed, without loss, at this level of gzip, 1 to 9; 0: as they are.",
+     at<&OutputControl::compression>},
     {"checkpoint_files", at_most(65536), "0: one per 512 ranks.", at<&OutputControl::checkpoint_files>},
 });
 inline constexpr Table<OutputControl> output{{"output", false, "When files are written.", output_keys}};

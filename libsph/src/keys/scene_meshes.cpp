@@ -1,8 +1,6 @@
 // [[mesh]]: walls of triangles.
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "files/mesh_file.hpp"
 #include "keys/mesh_keys.hpp"
 #include "keys/prescribed_motion.hpp"
@@ -68,8 +66,6 @@ void find_meshes(const TopReader& top, Scene& scene) {
   const auto tables = top.tables<keys::mesh>();
   for (std::size_t k = 0; k < tables.size(); ++k) {
     MeshWall& mesh = scene.grains.meshes[k];
-    const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
-    mesh.file = std::filesystem::absolute(folder / mesh.file).lexically_normal().string();
     check_file(tables[k], "file", mesh.file);
     if (mesh.content.empty()) mesh.content = hash_of_file(mesh.file);
   }

@@ -6,10 +6,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <system_error>
+#include <utility>
 
+#include "keys/include.hpp"
 #include "keys/scene_resolve.hpp"
 #include "scene/record.hpp"
 
@@ -21,7 +22,6 @@ constexpr double least_h_over_dx = 0.5;
 constexpr double most_h_over_dx = 4;
 constexpr int least_periodic_cells = 3;
 constexpr double most_spacings = 1e7;
-constexpr std::uintmax_t largest_scene_bytes = std::uintmax_t{1} << 22;
 constexpr double diameters_apart = 1.1;  ///< default spacing of grains: they start without touching
 
 /// All tables but the arrays, made first: a misspelt key is reported before anything that is missing.
@@ -231,11 +231,14 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   return scene;
 }
 
-Scene parse_and_resolve(const std::string& text, const std::string& name,
-                        const std::vector<std::string>& overrides, const End& end, bool check_files) {
-  toml_tree::Node root = toml_tree::parse(text, name);
-  for (const std::string& option : overrides) toml_tree::apply_override(root, option);
-  return resolve(root, name, end, check_files);
+Scene complete_and_resolve(toml_tree::Node document, const std::string& file,
+                           const std::vector<std::string>& overrides, const End& end, bool check_files) {
+  toml_tree::Node root = with_includes(std::move(document), file);
+  for (const std::string& option : overrides) apply_override(root, option);
+  if (const toml_tree::Node* late = root.find("include"))
+    toml_tree::fail(late->where, "include", "comes too late: files are included before --set acts",
+                    "write it in the scene, as a text or an array of texts");
+  return resolve(root, file, end, check_files);
 }
 
 }  // namespace
@@ -256,7 +259,7 @@ void check_file(const TableReader& table, std::string_view name, const std::stri
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                   const End& end) {
-  return parse_and_resolve(text, name, overrides, end, false);
+  return complete_and_resolve(toml_tree::parse(text, name), name, overrides, end, false);
 }
 
 Scene parse_record(const std::string& text, const std::string& name) {
@@ -264,20 +267,7 @@ Scene parse_record(const std::string& text, const std::string& name) {
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides, const End& end) {
-  const auto unreadable = [&](std::string_view what) {
-    toml_tree::fail(fmt::format("{}:1:1", path), "scene", what, "give the path of a TOML scene");
-  };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) unreadable("there is no such file");
-  if (std::filesystem::is_directory(status)) unreadable("is a directory");
-  if (!std::filesystem::is_regular_file(status)) unreadable("is a pipe or a device");
-  if (const std::uintmax_t bytes = std::filesystem::file_size(path, error); bytes > largest_scene_bytes)
-    unreadable(fmt::format("has {} bytes, and no scene has more than {}", bytes, largest_scene_bytes));
-  std::ifstream in(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in) unreadable("cannot be read");
-  return parse_and_resolve(text, path, overrides, end, true);
+  return complete_and_resolve(toml_tree::read(path), path, overrides, end, true);
 }
 
 }  // namespace sph

@@ -132,7 +132,7 @@ void TableReader::read(void* owner) const {
 TableReader::Part TableReader::part(const keys::KeyTable& inner) const {
   const Key& key = (*keys_)[inner.own_name()];
   if (const Node* value = find(key)) return {value, path_of(key), nullptr};
-  auto empty = std::make_shared<const Node>(Node{node_->where, false, toml_tree::Table{}});
+  auto empty = std::make_shared<const Node>(Node{node_->where, node_->folder, toml_tree::Table{}});
   return {empty.get(), path_of(key), empty};
 }
 
@@ -143,10 +143,9 @@ std::vector<TableReader::Part> TableReader::parts(const keys::KeyTable& inner) c
   if (!given) return out;
   const toml_tree::Array& array = given->array("write it as " + keys::header(inner));
   for (std::size_t k = 0; k < array.size(); ++k) {
-    const Node* name = array[k].find("name");
-    const auto* words = name == nullptr ? nullptr : std::get_if<std::string>(&name->value);
-    const std::string label = words == nullptr || words->empty() ? fmt::format("{}", k) : *words;
-    out.push_back({&array[k], join_path(path_of(key), shown(label)), nullptr});
+    const std::string name = name_of(array[k]);
+    out.push_back(
+        {&array[k], join_path(path_of(key), name.empty() ? fmt::format("{}", k) : shown(name)), nullptr});
   }
   return out;
 }

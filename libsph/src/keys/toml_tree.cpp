@@ -12,6 +12,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -26,6 +27,7 @@ namespace {
 struct Origin {
   std::string name;
   bool from_override = false;
+  std::string folder = from_override ? "" : std::filesystem::path(name).parent_path().string();
   [[nodiscard]] std::string where(const toml::source_region& region) const {
     if (from_override) return name;
     return fmt::format("{}:{}:{}", name, std::max(region.begin.line, 1U), std::max(region.begin.column, 1U));
@@ -35,7 +37,7 @@ struct Origin {
 Node convert(const toml::node& from, const Origin& origin) {
   Node to;
   to.where = origin.where(from.source());
-  to.from_override = origin.from_override;
+  to.folder = origin.folder;
   if (const toml::table* table = from.as_table()) {
     Table entries;
     for (const auto& [key, value] : *table)
@@ -71,7 +73,7 @@ Node override_value(const std::string& option, const std::string& key, const std
   if (std::string_view("[{\"'").find(value.front()) != std::string_view::npos ||
       value.find('\n') != std::string::npos)
     fail(option, key, "the value is not TOML", "write a number, true, \"a text\" or [an, array]");
-  return Node{option, true, value};
+  return Node{option, "", value};
 }
 
 std::vector<std::string> split_path(const std::string& option, const std::string& path) {
@@ -85,12 +87,6 @@ std::vector<std::string> split_path(const std::string& option, const std::string
     if (dot == std::string::npos) return parts;
     begin = dot + 1;
   }
-}
-
-std::string name_of(const Node& node) {
-  const Node* name = node.find("name");
-  const std::string* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->value);
-  return text == nullptr ? std::string() : *text;
 }
 
 Node& element(Array& array, const std::string& part, const std::string& option, const std::string& path) {
@@ -131,7 +127,7 @@ Node& child(Node& node, const std::string& part, const std::string& option, cons
          "name a key of a table");
   for (Entry& e : *table)
     if (e.key == part) return e.value;
-  table->push_back({part, option, Node{option, true, Table{}}});
+  table->push_back({part, option, Node{option, "", Table{}}});
   return table->back().value;
 }
 
@@ -144,6 +140,12 @@ const Node* Node::find(std::string_view key) const {
     for (const Entry& e : *entries)
       if (e.key == key) return &e.value;
   return nullptr;
+}
+
+std::string name_of(const Node& node) {
+  const Node* name = node.find("name");
+  const std::string* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->value);
+  return text == nullptr ? std::string() : *text;
 }
 
 std::string_view type_name(const Node& node) {

@@ -18,8 +18,8 @@ using Table = std::vector<Entry>;
 struct Date {};
 
 struct Node {
-  std::string where;           ///< "file:line:column" or "--set a.b=v"
-  bool from_override = false;  ///< written on the command line
+  std::string where;   ///< "file:line:column" or "--set a.b=v"
+  std::string folder;  ///< of the file, to which paths in it are relative; of the command line: empty
   std::variant<Date, bool, std::int64_t, double, std::string, Array, Table> value;
 
   [[nodiscard]] const Table* table() const;
@@ -32,6 +32,9 @@ struct Entry {
   std::string where;  ///< of the key; the value knows its own place
   Node value;
 };
+
+/// By which an element of an array of tables is addressed: its `name`, empty if it has none.
+[[nodiscard]] std::string name_of(const Node& node);
 
 /// "a whole number", "a table", ... for messages.
 [[nodiscard]] std::string_view type_name(const Node& node);

@@ -17,7 +17,8 @@ void write_snapshot(Simulation& s, const std::filesystem::path& path) {
   std::optional<ContactColumns> contacts;
   if (s.scene().output.contacts) contacts = contact_columns(s);
   write_snapshot(s.comm(), path, s.particles(), s.global(), s.scale(), s.wrap(), from, std::move(extra),
-                 s.scene().output.sort_limit, std::move(contacts), cell_mesh(s));
+                 s.scene().output.sort_limit, std::move(contacts), cell_mesh(s),
+                 s.scene().output.compression);
 }
 
 }  // namespace sph

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "files/fill_file.hpp"
+#include "files/packed_rows.hpp"
 #include "files/sorted_table.hpp"
 #include "files/tensor_order.hpp"
 #include "output/vertices.hpp"
@@ -99,15 +101,16 @@ struct Placed {
   std::int64_t all_rows = 0;
   std::uint64_t first = 0, rows = 0;
 
-  void place(const decomp::Comm& comm, std::int64_t sort_limit, int keys) {
+  void place(const decomp::Comm& comm, std::int64_t sort_limit, int keys, bool in_chunks) {
     all_rows = comm.sum(static_cast<std::int64_t>(table.owned()));
     if (all_rows <= sort_limit) sort_by_id(comm, table, keys);
+    if (in_chunks && all_rows > 0) share_out(comm, table, static_cast<std::int64_t>(chunk_rows));
     rows = static_cast<std::uint64_t>(table.owned());
     first = static_cast<std::uint64_t>(comm.exclusive_sum(static_cast<std::int64_t>(rows)));
   }
   /// The table's columns are the data sets from `set` on.
-  void write(const RowFile& file, std::size_t set) const {
-    for (int c = 0; c < table.columns(); ++c) file.write(set++, first, rows, table.column(c).data());
+  void write(RowSink& out, std::size_t set) const {
+    for (int c = 0; c < table.columns(); ++c) out.write(set++, first, rows, table.column(c).data());
   }
 };
 
@@ -183,7 +186,7 @@ std::vector<DataView> views_of(const CellMesh& mesh, const std::vector<DataSet>&
   return out;
 }
 
-void write_metres(const RowFile& file, std::size_t set, int dim, std::uint64_t first, std::uint64_t rows,
+void write_metres(RowSink& out, std::size_t set, int dim, std::uint64_t first, std::uint64_t rows,
                   const std::int64_t* quanta, const PositionScale& scale) {
   const auto d = static_cast<std::size_t>(dim);
   std::vector<double> metres;
@@ -191,18 +194,18 @@ void write_metres(const RowFile& file, std::size_t set, int dim, std::uint64_t f
     const std::uint64_t n = std::min<std::uint64_t>(conversion_rows, rows - done);
     metres.resize(n * d);
     for (std::size_t k = 0; k < metres.size(); ++k) metres[k] = scale.metres(quanta[done * d + k]);
-    file.write(set, first + done, n, metres.data());
+    out.write(set, first + done, n, metres.data());
     done += n;
   }
 }
 
 template <class T>
-void count_rows(const RowFile& file, std::size_t set, std::uint64_t first, std::uint64_t rows) {
+void count_rows(RowSink& out, std::size_t set, std::uint64_t first, std::uint64_t rows) {
   std::vector<T> numbers;
   for (std::uint64_t done = 0; done < rows; done += numbers.size()) {
     numbers.resize(std::min<std::uint64_t>(conversion_rows, rows - done));
     std::iota(numbers.begin(), numbers.end(), static_cast<T>(first + done));
-    file.write(set, first + done, numbers.size(), numbers.data());
+    out.write(set, first + done, numbers.size(), numbers.data());
   }
 }
 
@@ -211,7 +214,8 @@ void count_rows(const RowFile& file, std::size_t set, std::uint64_t first, std::
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
                     const Provenance& provenance, std::vector<ExtraColumn> extra, std::int64_t sort_limit,
-                    std::optional<ContactColumns> contacts, const std::optional<CellMesh>& mesh) {
+                    std::optional<ContactColumns> contacts, const std::optional<CellMesh>& mesh,
+                    int compression) {
   const std::string what = "cannot write " + path.string();
   const std::vector<Field> fields = fields_of(particles);
   Placed rows, touching;
@@ -219,7 +223,7 @@ void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path,
     rows.table = copy(particles, fields, wrap, extra);
     if (contacts) touching.table = table_of(std::move(*contacts));
   });
-  rows.place(comm, sort_limit, 1);
+  rows.place(comm, sort_limit, 1, compression > 0);
   std::vector<DataSet> sets =
       data_sets_of(particles.dim(), static_cast<std::uint64_t>(rows.all_rows), fields, extra);
   const std::size_t of_particles = sets.size();  // the last one is the position in metres
@@ -227,13 +231,28 @@ void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path,
                   "number of the row: XDMF's vertices"});
   const std::vector<DataView> views = mesh ? views_of(*mesh, sets, fields) : std::vector<DataView>{};
   if (contacts) {
-    touching.place(comm, sort_limit, 2);
+    touching.place(comm, sort_limit, 2, compression > 0);
     for (DataSet& set : contact_sets(static_cast<std::uint64_t>(touching.all_rows)))
       sets.push_back(std::move(set));
   }
 
-  std::filesystem::path temporary = path;
-  temporary += ".tmp";
+  const auto write_rows = [&](RowSink& out) {
+    rows.write(out, 0);
+    touching.write(out, of_particles + 1);
+    sets[of_particles].element == Element::u32
+        ? count_rows<std::uint32_t>(out, of_particles, rows.first, rows.rows)
+        : count_rows<std::int64_t>(out, of_particles, rows.first, rows.rows);
+    const auto position = std::find(fields.begin(), fields.end(), Field::position) - fields.begin();
+    if (particles.has(Field::position))
+      write_metres(out, of_particles - 1, particles.dim(), rows.first, rows.rows,
+                   rows.table.as<std::int64_t>(static_cast<int>(position)), scale);
+  };
+  std::optional<PackedRows> packed;
+  if (compression > 0) {
+    all_or_none(comm, what, [&] { write_rows(packed.emplace(sets, compression)); });
+    packed->agree_on_sizes(comm);
+  }
+  const std::filesystem::path temporary = path.string() + ".tmp";
   try {
     std::vector<Extent> extents;
     all_or_none(comm, what, [&] {
@@ -241,17 +260,8 @@ void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path,
         extents = lay_out(temporary, attributes_of(particles.dim(), rows.all_rows, global, scale, provenance),
                           sets, views);
     });
-    fill_in(comm, comm, temporary, sets, extents, what, [&](const RowFile& file) {
-      rows.write(file, 0);
-      touching.write(file, of_particles + 1);
-      sets[of_particles].element == Element::u32
-          ? count_rows<std::uint32_t>(file, of_particles, rows.first, rows.rows)
-          : count_rows<std::int64_t>(file, of_particles, rows.first, rows.rows);
-      const auto position = std::find(fields.begin(), fields.end(), Field::position) - fields.begin();
-      if (particles.has(Field::position))
-        write_metres(file, of_particles - 1, particles.dim(), rows.first, rows.rows,
-                     rows.table.as<std::int64_t>(static_cast<int>(position)), scale);
-    });
+    fill_in(comm, comm, temporary, sets, extents, what,
+            [&](RowFile& file) { packed ? packed->fill(file) : write_rows(file); });
     all_or_none(comm, what, [&] {
       if (comm.rank() == 0) rename_durably(temporary, path);
     });

@@ -14,7 +14,8 @@ namespace {
 
 constexpr auto of_files = std::to_array<std::string_view>(
     {"output.snapshot_interval", "output.series_interval", "output.checkpoint_interval",
-     "output.status_interval", "output.sort_limit", "output.checkpoint_files", "time.until", "time.steps"});
+     "output.status_interval", "output.sort_limit", "output.compression", "output.checkpoint_files",
+     "time.until", "time.steps"});
 
 constexpr std::string_view kept_by_bonds = "terms.bond_reach";  ///< particles have counted them
 /// Whole keys, or tables whose keys may all change. What would add fields is refused when these are read.

@@ -45,11 +45,13 @@ struct ContactColumns {
 /// Writes the state collectively to `path` (through a temporary name, renamed when complete) with rows
 /// sorted by id if there are at most sort_limit, else in owner order. Throws OutputError on every rank if
 /// any rank cannot write. Positions are written wrapped into the domain. Contacts, if any are given, are
-/// sorted by (id, partner) under the same limit. With a mesh rows must be sorted, cells first.
+/// sorted by (id, partner) under the same limit. With a mesh rows must be sorted, cells first. With a level of
+/// compression, 1 to 9, rows are stored in chunks, shuffled and deflated (files/packed_rows.hpp).
 void write_snapshot(const decomp::Comm& comm, const std::filesystem::path& path, const Particles& particles,
                     const GlobalState& global, const PositionScale& scale, const Wrap& wrap,
                     const Provenance& provenance, std::vector<ExtraColumn> extra, std::int64_t sort_limit,
-                    std::optional<ContactColumns> contacts = {}, const std::optional<CellMesh>& mesh = {});
+                    std::optional<ContactColumns> contacts = {}, const std::optional<CellMesh>& mesh = {},
+                    int compression = 0);
 /// The same, with all that the scene asks for in its snapshots. May refresh halo copies and move rows.
 void write_snapshot(Simulation& simulation, const std::filesystem::path& path);
 

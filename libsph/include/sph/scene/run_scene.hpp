@@ -81,6 +81,7 @@ struct OutputControl {
   bool average_space = false;             ///< kernel averages over same-group neighbours in snapshots
   bool contacts = false;                  ///< grains: snapshots hold the contacts with their forces
   std::int64_t sort_limit = 100'000'000;  ///< rows up to which snapshots are sorted by id
+  int compression = 0;                    ///< of snapshots, by deflate: 1 to 9; 0: none
   int checkpoint_files = 0;               ///< 0: one per 512 ranks
   std::vector<Monitor> monitors;
   friend bool operator==(const OutputControl&, const OutputControl&) = default;
