@@ -51,6 +51,7 @@ struct ContactContext {
   ContactQuanta quantum;
   double dt;
   double gravity[3];
+  const double* given;     ///< [row][3] accelerations of a caller; null: none [m/s^2]
   double largest_overlap;  ///< in radii of the smaller grain
   bool drifts;             ///< grains drift once they are kicked, while they are in the cache
   Gliding gliding{};

@@ -43,7 +43,7 @@ struct GrainMotion {
   using Rows = ContactRows<typename Sums::Sum>;
   using Sum = typename Sums::Sum;
 
-  // v += (F/m + g) dt, omega += T/I dt with I = 2/5 m r^2, then x += v dt in whole quanta.
+  // v += (F/m + g) dt, g with what a caller gives, omega += T/I dt with I = 2/5 m r^2, then x += v dt in whole quanta.
   template <bool drifts>
   static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
                    ContactSweep& sweep) {
@@ -56,7 +56,9 @@ struct GrainMotion {
       double v2 = 0, a2 = 0;
       for (std::size_t a = 0; a < 3; ++a) {
         const double force = Sums::value(sums[a]) * c.quantum.force;
-        const double acceleration = force * inverse_mass + c.gravity[a];
+        double pull = c.gravity[a];
+        if (c.given != nullptr) pull += c.given[r * 3 + a];
+        const double acceleration = force * inverse_mass + pull;
         const double v = rows.v[r * 3 + a] + acceleration * dt;
         rows.v[r * 3 + a] = v;
         if constexpr (drifts) rows.x[r * 3 + a] = moved_by(rows.x[r * 3 + a], round_to_quanta(v * quanta));
