@@ -6,6 +6,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "sph/core/error.hpp"
 #include "sph/output/monitors.hpp"
 #include "sph/output/snapshot.hpp"
@@ -27,8 +30,35 @@ class Running {
   void step(std::int64_t steps) {
     look();
     whole_ = false;  // until all of it is done: a step that throws leaves half of one behind
-    for (std::int64_t k = 0; k < steps; ++k) simulation_.step();
+    for (std::int64_t k = 0; k < steps; ++k) simulation_.step(0, accelerate_);
     whole_ = true;
+  }
+  /// `ask(time)` returns an array [particle][component], or raises on all ranks.
+  void accelerate(const std::optional<py::function>& ask) {
+    look();
+    accelerate_ = {};
+    if (!ask) return;
+    sph::refuse_stillness(simulation_.scene());
+    accelerate_ = [ask = *ask](double time, std::span<double> accelerations) {
+      const py::gil_scoped_acquire held;
+      const auto given = py::cast<py::array_t<double, py::array::c_style | py::array::forcecast>>(ask(time));
+      std::copy_n(given.data(), accelerations.size(), accelerations.begin());
+    };
+  }
+  /// Arrays of one length.
+  void exchange(const std::vector<std::uint64_t>& gone, const std::string& group,
+                const std::vector<double>& radius, const std::vector<sph::Double3>& position,
+                const std::vector<sph::Double3>& velocity) {
+    look();
+    std::vector<sph::GivenGrain> come;
+    for (std::size_t k = 0; k < radius.size(); ++k)
+      come.push_back({group_of(group), radius[k], position[k], velocity[k]});
+    try {
+      simulation_.exchange_grains(gone, come);
+    } catch (const sph::GuardError&) {  // bad input leaves all as it was
+      whole_ = false;
+      throw;
+    }
   }
   [[nodiscard]] const sph::GlobalState& global() const { return simulation_.global(); }
   [[nodiscard]] std::string scene() const { return to_toml(simulation_.scene()); }
@@ -45,6 +75,10 @@ class Running {
     return monitors_.values(simulation_);
   }
   [[nodiscard]] const std::vector<std::string>& monitor_names() const { return monitors_.names(); }
+  [[nodiscard]] const std::vector<std::string>& monitor_units() const { return monitors_.units(); }
+  [[nodiscard]] std::pair<std::size_t, int> shape() const {  ///< of a field of vectors
+    return {simulation_.particles().owned(), simulation_.particles().dim()};
+  }
 
   [[nodiscard]] std::vector<std::string_view> fields() const {
     std::vector<std::string_view> names;
@@ -100,11 +134,19 @@ class Running {
     return out;
   }
 
+  [[nodiscard]] std::uint32_t group_of(const std::string& name) const {
+    const std::vector<sph::Group>& groups = simulation_.scene().groups;
+    const auto found = std::ranges::find(groups, name, &sph::Group::name);
+    if (found == groups.end()) throw sph::InputError("add: no group \"" + name + "\" in this scene");
+    return static_cast<std::uint32_t>(found - groups.begin());
+  }
+
   void look() const {
     if (!whole_) throw sph::GuardError("this simulation ended in the middle of a step; begin another");
   }
 
   bool whole_ = true;
+  sph::Accelerate accelerate_;
   decomp::Comm comm_;
   sph::Simulation simulation_;
   sph::Monitors monitors_;
@@ -143,10 +185,14 @@ PYBIND11_MODULE(peperite_simulation, m) {
   py::class_<Running>(m, "Simulation")
       .def(py::init<const sph::Scene&, std::uintptr_t>(), Released())
       .def("step", &Running::step, Released())
+      .def("accelerate", &Running::accelerate)
+      .def("exchange", &Running::exchange, Released())
       .def("save", &Running::save, Released())
       .def("fingerprint", &Running::fingerprint, Released())
       .def("monitors", &Running::monitors, Released())
       .def("monitor_names", &Running::monitor_names)
+      .def("monitor_units", &Running::monitor_units)
+      .def_property_readonly("shape", [](const Running& r) { return r.shape(); })
       .def("fields", &Running::fields)
       .def("field", &Running::field)
       .def_property_readonly("scene", &Running::scene)

@@ -4,13 +4,12 @@
     test_simulation.py --programs build/bin --module build/python --source .
 """
 import json
-import os
-import sys
 import textwrap
 
 import numpy as np
 
-from runner import Case, given, main
+from python_case import PythonCase
+from runner import given, main
 
 SCENES = ("tests/scenes/open2d.toml", "tests/scenes/grains_in_melt.toml", "tests/scenes/bodies3d.toml", "tests/scenes/chamber.toml")
 STEPS = 30
@@ -29,27 +28,18 @@ for scene in sys.argv[2:]:
     s.save(f"{sys.argv[1]}/{name}_{s.comm.size}.h5")
     particles = {name: s.gather(name) for name in ("id", "position", "velocity", *(["stress"] if "stress" in s.fields else []))}
     last = {"name": name, "fingerprint": s.fingerprint(), "step": s.steps, "time": s.time, "monitors": s.monitors()}
+    last["units"] = {name: s.unit(name) for name in last["monitors"]}
     if s.rank == 0:
         np.savez(f"{sys.argv[1]}/{name}_{s.comm.size}", **particles)
         print(json.dumps(last), flush=True)
 """ % (STEPS, STEPS)
 
 
-class Simulation(Case):
+class Simulation(PythonCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        paths = [str(cls.source / "apps/python"), str(given.module)]
-        sys.path[:0] = paths
-        cls.run_of.environment["PYTHONPATH"] = os.pathsep.join(paths)
-        os.environ["PYTHONPATH"] = cls.run_of.environment["PYTHONPATH"]
         (cls.folder / "script.py").write_text(SCRIPT)
-
-    def python(self, ranks, *words, code=0):
-        launch = [given.mpirun, "-n", ranks, "/usr/bin/python3", "-B", "-m", "mpi4py"] if ranks > 1 else ["/usr/bin/python3", "-B"]
-        done = self.run_of.finish(self.run_of.start_command([*launch, *words]))
-        self.assertEqual(done.code, code, done.err[-3000:])
-        return done
 
     def test_the_bits_are_those_of_the_command_line(self):
         import peperite
@@ -68,6 +58,7 @@ class Simulation(Case):
                 self.assertEqual(run.fingerprint.split()[1], last["fingerprint"], f"{scene.stem} on {ranks} ranks")
                 self.assertEqual((last["step"], last["time"]), (STEPS, recorded[-1].time))
                 self.assertEqual({name: recorded.series[name][-1] for name in last["monitors"]}, last["monitors"])
+                self.assertEqual({name: recorded.series.unit(name) for name in last["monitors"]}, last["units"])
                 saved = self.folder / f"{scene.stem}_{ranks}.h5"
                 self.run_of.run(1, "peperite", "diff", saved, recorded.files[-1])
                 there = recorded[-1]

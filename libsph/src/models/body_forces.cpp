@@ -11,7 +11,7 @@ BodyForces::BodyForces(const SphConstants& constants)
       expands_(std::ranges::any_of(constants.scene->groups,
                                    [](const Group& g) { return g.heat.material.expansion > 0; })) {}
 
-Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
+Double3 BodyForces::operator()(const Particles& p, std::size_t i, const Step& step) const {
   const auto d = static_cast<std::size_t>(p.dim());
   const Scene& scene = *constants_->scene;
   const std::int64_t* x = p.get<Field::position>();
@@ -29,6 +29,7 @@ Double3 BodyForces::operator()(const Particles& p, std::size_t i) const {
     for (double& g : acceleration) g *= weight;
   }
   for (std::size_t a = 0; a < d; ++a) {
+    if (step.given != nullptr) acceleration[a] += step.given[i * d + a];
     if (grains != nullptr) acceleration[a] += grains[i * d + a];
     if (pull != 0)
       acceleration[a] -= pull * (constants_->scale.metres(x[i * d + a]) - scene.domain.pull_centre[a]);

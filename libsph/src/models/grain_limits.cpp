@@ -80,7 +80,7 @@ void check_wall_speeds(const Scene& scene) {
                                    grain_move_text(scene, most * dt)));
   }
   for (const Insertion& in : scene.domain.openings.insertions) {
-    const double speed = speed_of(in);
+    const double speed = speed_of(in.velocity);
     if (speed * dt > limit)
       throw InputError(fmt::format("{}: insertion.velocity: is {:.6g} m/s: {}, or this speed", scene.file,
                                    speed, grain_move_text(scene, speed * dt)));

@@ -99,17 +99,62 @@ void GrainOpenings::find_leavers(const Particles& p) {
   }
 }
 
+void GrainOpenings::find_leavers(const decomp::Comm& comm, const Particles& p,
+                                 std::span<const std::uint64_t> ids) {
+  leavers_.clear();
+  std::vector<std::int64_t> found(ids.size(), 0);
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const auto at = std::ranges::lower_bound(ids, p.data<Field::id>()[i]);
+    if (at == ids.end() || *at != p.data<Field::id>()[i]) continue;
+    const bool fixed = scene_->groups[p.data<Field::group>()[i]].grain.fixed;
+    found[static_cast<std::size_t>(at - ids.begin())] = fixed ? 2 : 1;
+    leavers_.push_back({i, faces()});
+  }
+  comm.sum(std::span<std::int64_t>(found));
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    if (found[k] != 1)
+      throw InputError(
+          fmt::format("remove: grain {} {}", ids[k], found[k] == 0 ? "is not there" : "is fixed"));
+}
+
 std::optional<double> GrainOpenings::turn_over(const Distribution& distribution, const Reduction& reduction,
                                                ParticleSet& set, GlobalState& global) {
   if (reduction[in_.events][0] == 0) return std::nullopt;
-  Particles& p = set.particles;
+  const std::vector<bool> stays = staying(set.particles);
+  const std::vector<std::uint64_t> gone = count_leavers(distribution.comm(), set, global);
+  replace_rows(set.particles, stays, gone, put_in(distribution, stays, set, global));
+  return 0.0;
+}
+
+// What a caller puts in has a passage after those of the insertions, once there is any.
+void GrainOpenings::exchange(const Distribution& distribution, std::span<const std::uint64_t> gone,
+                             std::span<const GivenGrain> come, ParticleSet& set, GlobalState& global) {
+  const std::size_t given = faces() + 1 + insertions_.count();
+  std::vector<Passage>& passages = global.throughput.passages;
+  if (!come.empty() && global.throughput.id_stride > largest_first_id)
+    throw InputError(fmt::format("add: the largest id of the start is {}; it must be below 2^48",
+                                 global.throughput.id_stride - 1));
+  find_leavers(distribution.comm(), set.particles, gone);
+  const std::vector<bool> stays = staying(set.particles);
+  const std::vector<InsertedGrain> grains = insertions_.take(distribution.comm(), come, set.particles, stays,
+                                                             walls_->now(global), next_id(global), global.dt);
+  if (passages.size() == given && !grains.empty()) passages.emplace_back();
+  (void)count_leavers(distribution.comm(), set, global);
+  replace_rows(set.particles, stays, gone, let_in(grains, given, distribution, set, global));
+}
+
+std::vector<bool> GrainOpenings::staying(const Particles& p) const {
   std::vector<bool> stays(p.owned(), true);
   for (const Leaver& leaver : leavers_) stays[leaver.row] = false;
+  return stays;
+}
+
+void GrainOpenings::replace_rows(Particles& p, const std::vector<bool>& stays,
+                                 std::span<const std::uint64_t> gone,
+                                 std::span<const NewParticle> come) const {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < stays.size(); ++i)
     if (stays[i]) order.push_back(i);
-  const std::vector<std::uint64_t> gone = count_leavers(distribution.comm(), set, global);
-  const std::vector<NewParticle> come = put_in(distribution, stays, set, global);
   pairs_->turn_over(p, gone, order, come.size());
   p.table().reorder(order);
   for (const NewParticle& grain : come) {
@@ -117,7 +162,6 @@ std::optional<double> GrainOpenings::turn_over(const Distribution& distribution,
     for (std::size_t a = 0; a < 3; ++a) at[a] = scale_.quanta(grain.position[a]);
     append(*scene_, grain, at, p);
   }
-  return 0.0;
 }
 
 std::vector<std::uint64_t> GrainOpenings::count_leavers(const decomp::Comm& comm, ParticleSet& set,
@@ -164,32 +208,46 @@ std::vector<NewParticle> GrainOpenings::put_in(const Distribution& distribution,
   std::vector<InsertedGrain> earlier;
   for (std::size_t k = 0; k < due_.size(); ++k) {
     if (!(due_[k] > 0)) continue;
-    const Insertion& in = scene_->domain.openings.insertions[k];
     Passage& passage = passages[faces() + 1 + k];
-    std::uint64_t id = global.throughput.id_stride;
-    for (const Passage& of : std::span(passages).subspan(faces() + 1))
-      id += static_cast<std::uint64_t>(of.count);
     double due = passage.beside + due_[k];
-    const std::vector<InsertedGrain> come = insertions_.choose(distribution.comm(), k, set.particles, stays,
-                                                               earlier, walls, id, global.step, due);
+    const std::vector<InsertedGrain> come = insertions_.choose(
+        distribution.comm(), k, set.particles, stays, earlier, walls, next_id(global), global.step, due);
     passage.beside = due;
-    const double speed = speed_of(in);
-    for (const InsertedGrain& grain : come) {
-      NewParticle p{grain.id, {}, in.velocity, static_cast<std::uint32_t>(in.group), 0, grain.mass};
-      p.radius = grain.radius;
-      for (std::size_t a = 0; a < 3; ++a) {
-        p.position[a] = scale_.metres(grain.position[a]);
-        passage.momentum[a] += grain.mass * in.velocity[a];
-      }
-      passage.amounts[0] += grain.mass;
-      passage.kinetic_energy += 0.5 * grain.mass * (speed * speed);
-      set.census.xor_of_ids ^= grain.id;
-      if (distribution.owns(grain.position)) mine.push_back(p);
-      global.max_speed = std::max(global.max_speed, speed);
-    }
-    passage.count += static_cast<std::int64_t>(come.size());
-    set.census.count += static_cast<std::int64_t>(come.size());
+    const std::vector<NewParticle> own = let_in(come, faces() + 1 + k, distribution, set, global);
+    mine.insert(mine.end(), own.begin(), own.end());
     earlier.insert(earlier.end(), come.begin(), come.end());
+  }
+  return mine;
+}
+
+// Of the start's, and of those that have come.
+std::uint64_t GrainOpenings::next_id(const GlobalState& global) const {
+  std::uint64_t id = global.throughput.id_stride;
+  for (const Passage& of : std::span(global.throughput.passages).subspan(faces() + 1))
+    id += static_cast<std::uint64_t>(of.count);
+  return id;
+}
+
+std::vector<NewParticle> GrainOpenings::let_in(std::span<const InsertedGrain> grains, std::size_t number,
+                                               const Distribution& distribution, ParticleSet& set,
+                                               GlobalState& global) const {
+  std::vector<NewParticle> mine;
+  for (const InsertedGrain& grain : grains) {
+    Passage& passage = global.throughput.passages[number];
+    const double speed = speed_of(grain.velocity);
+    NewParticle p{grain.id, {}, grain.velocity, grain.group, 0, grain.mass};
+    p.radius = grain.radius;
+    for (std::size_t a = 0; a < 3; ++a) {
+      p.position[a] = scale_.metres(grain.position[a]);
+      passage.momentum[a] += grain.mass * grain.velocity[a];
+    }
+    passage.amounts[0] += grain.mass;
+    passage.kinetic_energy += 0.5 * grain.mass * (speed * speed);
+    ++passage.count;
+    ++set.census.count;
+    set.census.xor_of_ids ^= grain.id;
+    if (distribution.owns(grain.position)) mine.push_back(p);
+    global.max_speed = std::max(global.max_speed, speed);
   }
   return mine;
 }

@@ -77,9 +77,8 @@ Plan Grains::plan() {
                      : scene_->has_melt() ? "contacts, drift"
                                           : "contacts, kick, drift",
                      decomp::Region::contacts, pairs_.swept(), writes, [this](StepState& s, Side side) {
-                       sweep(s.particles,
-                             side == Side::interior ? pairs_.lists().interior() : pairs_.lists().boundary(),
-                             s.ranges, s.global.dt);
+                       sweep(s,
+                             side == Side::interior ? pairs_.lists().interior() : pairs_.lists().boundary());
                        s.maxima.speed = larger(std::sqrt(now_.sweep.speed2), s.maxima.speed);
                        // Of others, accelerations limit the time step; of contacts their stiffness does.
                        const double most = std::sqrt(now_.sweep.acceleration2);
@@ -118,7 +117,7 @@ void Grains::begin_step(const Particles& particles, const GlobalState& global) {
   now_.force.assign(6 * walls_.count(), 0);
 }
 
-ContactContext Grains::context(Particles& particles, double dt) {
+ContactContext Grains::context(Particles& particles, double dt, const double* given) {
   return {&particles,
           &pairs_.lists(),
           {table_.data(), table_.groups(),
@@ -129,6 +128,7 @@ ContactContext Grains::context(Particles& particles, double dt) {
           dt,
           {scene_->domain.gravity[0], scene_->domain.gravity[1], scene_->domain.gravity[2]},
           alone_ ? pairs_.path() : std::numeric_limits<double>::infinity(),
+          given,
           scene_->grains.contact.largest_overlap,
           alone_,
           {particles.data<Field::free_velocity>(), particles.data<Field::free_spin>(),
@@ -136,10 +136,9 @@ ContactContext Grains::context(Particles& particles, double dt) {
            particles.data<Field::way>()}};
 }
 
-void Grains::sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges,
-                   double dt) {
+void Grains::sweep(const StepState& s, std::span<const ContactBlock> blocks) {
   ContactSweep now;
-  fusion_.sweep(context(particles, dt), blocks, ranges, now);
+  fusion_.sweep(context(s.particles, s.global.dt, s.given), blocks, s.ranges, now);
   now_.sweep.speed2 = now.speed2 <= now_.sweep.speed2 ? now_.sweep.speed2 : now.speed2;
   now_.sweep.acceleration2 =
       now.acceleration2 <= now_.sweep.acceleration2 ? now_.sweep.acceleration2 : now.acceleration2;

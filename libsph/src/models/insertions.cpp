@@ -1,5 +1,7 @@
 #include "sph/models/insertions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -7,6 +9,9 @@
 #include <unordered_map>
 
 #include "core/random.hpp"
+#include "sph/core/error.hpp"
+#include "sph/core/findings.hpp"
+#include "sph/models/grain_limits.hpp"
 #include "sph/scene/grain_mass.hpp"
 #include "start/initial_fields.hpp"
 
@@ -44,7 +49,8 @@ class Packing {
           if (near) cells_[key(cell(image.centre))].push_back(image);
         }
   }
-  [[nodiscard]] bool touches(const Ball& ball) const {
+  /// Deeper than that much of the smaller radius.
+  [[nodiscard]] bool touches(const Ball& ball, double deeper = 0) const {
     const std::array<std::int64_t, 3> c = cell(ball.centre);
     for (std::int64_t i = c[0] - 1; i <= c[0] + 1; ++i)
       for (std::int64_t j = c[1] - 1; j <= c[1] + 1; ++j)
@@ -55,7 +61,8 @@ class Packing {
             double square = 0;
             for (std::size_t a = 0; a < 3; ++a)
               square += (other.centre[a] - ball.centre[a]) * (other.centre[a] - ball.centre[a]);
-            if (square < (other.radius + ball.radius) * (other.radius + ball.radius)) return true;
+            const double reach = other.radius + ball.radius - deeper * std::min(other.radius, ball.radius);
+            if (square < reach * reach) return true;
           }
         }
     return false;
@@ -117,6 +124,41 @@ struct Place {
   }
 };
 
+/// What is wrong with it, in itself; empty if nothing is.
+std::string fault_of(const Scene& scene, const GivenGrain& given, double dt) {
+  const Group& group = scene.groups[given.group];
+  const double least = group.grain.least_radius, largest = group.grain.largest_radius;
+  if (!(given.radius >= least && given.radius <= largest && largest > 0) || group.grain.fixed)
+    return largest > 0 && !group.grain.fixed
+               ? fmt::format("its radius is {:.6g} m; grains of \"{}\" have {:.6g} to {:.6g} m", given.radius,
+                             group.name, least, largest)
+               : fmt::format("\"{}\" is no group of grains that move", group.name);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!(given.position[a] >= scene.domain.lower[a] && given.position[a] < scene.domain.upper[a]))
+      return fmt::format("it is outside the domain, {}", place_text(given.position));
+  const double speed = speed_of(given.velocity);
+  if (!(speed * dt <= longest_grain_move(scene)))
+    return fmt::format("of {:.6g} m/s {}", speed, grain_move_text(scene, speed * dt));
+  return {};
+}
+
+/// The smallest box with these places, which are within the periods.
+Place place_around(std::span<const InsertedGrain> grains, const Scene& scene, const PositionScale& scale,
+                   const Wrap& wrap) {
+  Place place{grains.front().position, {}, {}, scene.largest_diameter()};
+  std::array<std::int64_t, 3> last = place.corner;
+  for (const InsertedGrain& grain : grains)
+    for (std::size_t a = 0; a < 3; ++a) {
+      place.corner[a] = std::min(place.corner[a], grain.position[a]);
+      last[a] = std::max(last[a], grain.position[a]);
+    }
+  for (std::size_t a = 0; a < 3; ++a) {
+    place.extent[a] = scale.metres(last[a] - place.corner[a]);
+    place.period[a] = scale.metres(wrap.period[a]);
+  }
+  return place;
+}
+
 /// The grains of all ranks that may touch what is in the box.
 std::vector<Ball> balls_near(const decomp::Comm& comm, const Place& place, const PositionScale& scale,
                              const Wrap& wrap, const Particles& p, const std::vector<bool>& stays) {
@@ -138,9 +180,9 @@ std::vector<Ball> balls_near(const decomp::Comm& comm, const Place& place, const
 
 }  // namespace
 
-double speed_of(const Insertion& in) {
+double speed_of(const Double3& velocity) {
   double square = 0;
-  for (const double v : in.velocity) square += v * v;
+  for (const double v : velocity) square += v * v;
   return std::sqrt(square);
 }
 
@@ -175,7 +217,7 @@ std::vector<InsertedGrain> Insertions::choose(const decomp::Comm& comm, std::siz
   const std::uint64_t seed = decomp::splitmix_mix(scene.start.seed + 1) + static_cast<std::uint64_t>(step);
   for (;;) {
     NewParticle drawn{first_id + chosen.size(), {}, {}, static_cast<std::uint32_t>(in.group), 0, 0};
-    InsertedGrain grain{drawn.id, {}, random_radius(scene, drawn), 0};
+    InsertedGrain grain{drawn.id, drawn.group, {}, in.velocity, random_radius(scene, drawn), 0};
     grain.mass = grain_mass(group.density, grain.radius);
     if (!(due >= 0.5 * grain.mass)) return chosen;
     bool placed = false;
@@ -198,6 +240,39 @@ std::vector<InsertedGrain> Insertions::choose(const decomp::Comm& comm, std::siz
     chosen.push_back(grain);
     due -= grain.mass;
   }
+}
+
+std::vector<InsertedGrain> Insertions::take(const decomp::Comm& comm, std::span<const GivenGrain> given,
+                                            const Particles& p, const std::vector<bool>& stays,
+                                            const WallsNow& walls, std::uint64_t first_id, double dt) const {
+  const auto refuse = [&](std::size_t k, const std::string& why) {
+    if (!why.empty()) throw InputError(fmt::format("add: grain {} of {}: {}", k + 1, given.size(), why));
+  };
+  std::vector<InsertedGrain> out;
+  for (const GivenGrain& g : given) {
+    const std::size_t k = out.size();
+    refuse(k, fault_of(*scene_, g, dt));
+    InsertedGrain grain{first_id + k, g.group, {}, g.velocity, g.radius, 0};
+    grain.mass = grain_mass(scene_->groups[g.group].density, g.radius);
+    for (std::size_t a = 0; a < 3; ++a)
+      grain.position[a] = wrap_(static_cast<int>(a), scale_.quanta(g.position[a]));
+    out.push_back(grain);
+  }
+  if (out.empty()) return out;
+  const Place place = place_around(out, *scene_, scale_, wrap_);
+  Packing packing(place.extent, place.period, place.widest);
+  for (const Ball& there : balls_near(comm, place, scale_, wrap_, p, stays)) packing.add(there);
+  const double most = scene_->grains.contact.largest_overlap;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Ball ball = place.ball(scale_, out[k].position, out[k].radius);
+    if (packing.touches(ball, most) ||
+        touches(walls, out[k].position, (1 - most) * out[k].radius, scale_.quantum))
+      refuse(k, fmt::format("{} it lies deeper in another grain or in a wall than contact.largest_overlap "
+                            "allows, {} radii",
+                            place_text(given[k].position), most));
+    packing.add(ball);
+  }
+  return out;
 }
 
 }  // namespace sph

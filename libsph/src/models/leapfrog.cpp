@@ -55,7 +55,7 @@ struct Kick {
       if (rigid && is_rigid(constants->scene->groups[group[i]])) return;
       if (buffer != nullptr && buffer[i] != 0) return;  // led by openings
       const double inverse_mass = 1 / mass[i];
-      const Double3 body = (*body_forces)(p, i);
+      const Double3 body = (*body_forces)(p, i, step);
       double v2 = 0, a2 = 0;
       for (std::size_t a = 0; a < d; ++a) {
         const double acceleration = force[i * d + a] * inverse_mass + body[a];

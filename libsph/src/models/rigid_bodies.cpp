@@ -172,7 +172,7 @@ bool RigidBodies::report(const StepState& s, Reduction& r) {
   for (std::size_t i = 0; i < s.particles.owned(); ++i) {
     if (body_of_[group[i]] < 0) continue;
     const auto b = static_cast<std::size_t>(body_of_[group[i]]);
-    const Double3 pull = (*body_forces_)(of_forces, i);
+    const Double3 pull = (*body_forces_)(of_forces, i, s);
     const Vector3 f = vector_at(force, i, d) + mass[i] * Vector3(pull[0], pull[1], d == 3 ? pull[2] : 0.0);
     const Vector3 way = turns[b] * vector_at(arm, i, d);
     Vector3 torque = way.cross(f);

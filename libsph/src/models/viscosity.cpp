@@ -109,7 +109,7 @@ void ViscositySolver::set_out(const View<reads, writes>& p, const Step& step) {
       changes_.diagonal(i) = 1;
       return;
     }
-    const Double3 body = (*body_forces_)(p, i);
+    const Double3 body = (*body_forces_)(p, i, step);
     double driving = 0, dragging = 0;
     const double diagonal = mass[i] + dt * viscous[i * (d + 1) + d];
     for (std::size_t a = 0; a < d; ++a) {
@@ -135,7 +135,7 @@ void ViscositySolver::finish(const View<reads, writes>& p, const Step& step) {
   const double* mass = p.get<Field::mass>();
   const bool finite = std::isfinite(changes_.square());
   for_movers(step.ranges, [&](std::size_t i) {
-    const Double3 body = (*body_forces_)(p, i);
+    const Double3 body = (*body_forces_)(p, i, step);
     for (std::size_t a = 0; a < d; ++a) {
       const std::size_t k = i * d + a;
       force[k] = finite ? mass[i] * (changes_.change(k) / dt - body[a]) : changes_.residual(k);

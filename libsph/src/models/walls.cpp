@@ -45,7 +45,7 @@ struct Hold {
     for_movers(step.ranges, [&](std::size_t i) {
       const double* s = share + i * (d + 1);
       if (!(s[d] > 0) || scene.groups[group[i]].kind != GroupKind::fluid) return;
-      const Double3 body = (*body_forces)(p, i);
+      const Double3 body = (*body_forces)(p, i, step);
       double square = 0, way = 0;
       for (std::size_t a = 0; a < d; ++a) {
         square += s[a] * s[a];
@@ -100,6 +100,7 @@ struct WallSlopes {
 
 }  // namespace
 
+// What a caller gives the wall is taken for what it gives the fluid there: its weight is that of the reference density.
 void WallPressures::operator()(const View<reads, writes>& p, const Step& step) const {
   const std::size_t d = static_cast<std::size_t>(p.dim());
   const double* sums = p.get<Field::wall_sums>();
@@ -116,6 +117,11 @@ void WallPressures::operator()(const View<reads, writes>& p, const Step& step) c
       const Group& g = scene->groups[group[i]];
       const bool wet = s[0] > 0;
       pressure[i] = wet ? s[1] / s[0] : 0.0;
+      if (wet && step.given != nullptr) {
+        double along = 0;
+        for (std::size_t a = 0; a < d; ++a) along += step.given[i * d + a] * s[2 + d + a];
+        pressure[i] -= density * scene->kernel.smoothing_length * along / s[0];
+      }
       if (pressures != nullptr)
         for (std::size_t k = 0; k < 2; ++k) {
           const double* of = by_density + 4 * i + 2 * k;
@@ -140,7 +146,13 @@ void WallPressures::operator()(const View<reads, writes>& p, const Step& step) c
 
 WallPressures wall_pressures(Builder& b) {
   const Scene& s = b.scene();
-  WallPressures update{&s, nullptr};
+  WallPressures update{&s, nullptr, 0};
+  const auto is_fluid = [](const Group& g) { return g.kind == GroupKind::fluid; };
+  if (const auto first = std::ranges::find_if(s.groups, is_fluid);
+      std::ranges::all_of(s.groups,
+                          [&](const Group& g) { return !is_fluid(g) || g.density == first->density; }) &&
+      first != s.groups.end())
+    update.density = first->density;
   if (std::ranges::any_of(s.groups,
                           [](const Group& g) { return g.kind == GroupKind::wall && !g.wall.slip; })) {
     update.of_wall = std::make_shared<const WallMirror>(s, s.kernel.smoothing_length);

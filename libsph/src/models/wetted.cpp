@@ -95,7 +95,7 @@ struct BondForces {
       if (!is_body(g)) return;
       for (std::size_t a = 0; bonds != nullptr && a < d; ++a) force[i * d + a] += bonds[i * d + a];
       if (is_rigid(g)) return;  // accelerated by the sum of all its forces (models/rigid_bodies.cpp)
-      const Double3 body = (*body_forces)(p, i);
+      const Double3 body = (*body_forces)(p, i, step);
       for (std::size_t a = 0; a < d; ++a) {
         const double f = force[i * d + a];
         mean[i * d + a] += share * (f / mass[i] + body[a] - mean[i * d + a]);

@@ -7,11 +7,24 @@ namespace sph {
 StepState PlanRunner::state_of(std::size_t set, GlobalState& global, std::optional<std::size_t> other) {
   ParticleSet& of = sets_[set];
   const bool sums = parts_.sph_pairs && parts_.sph_pairs->set() == set;
-  return {{of.ranges, global, maxima_, findings_},
+  std::size_t before = 0;
+  for (std::size_t k = 0; k < set; ++k) before += sets_[k].particles.owned();
+  const auto dim = static_cast<std::size_t>(of.particles.dim());
+  return {{of.ranges, global, maxima_, findings_, given_.empty() ? nullptr : given_.data() + dim * before},
           of.particles,
           other ? &sets_[*other].particles : nullptr,
           sums ? &parts_.sph_pairs->lists() : nullptr,
           rows_};
+}
+
+void PlanRunner::ask(const Accelerate& accelerate, double time) {
+  given_.clear();
+  if (!accelerate) return;
+  std::size_t numbers = 0;
+  for (const ParticleSet& set : sets_)
+    numbers += static_cast<std::size_t>(set.particles.dim()) * set.particles.owned();
+  given_.resize(numbers);
+  accelerate(time, given_);
 }
 
 void PlanRunner::run(const std::vector<Entry>& entries, GlobalState& global) {

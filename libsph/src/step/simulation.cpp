@@ -28,19 +28,23 @@ void take_maxima(const Reduction& reduction, GlobalState& global) {
 
 }  // namespace
 
-std::int64_t Simulation::step(std::int64_t request) {
-  if (global_.step == 0 && parts_.plan.half_kick) kick_half_a_step();
+std::int64_t Simulation::step(std::int64_t request, const Accelerate& accelerate) {
+  if (accelerate) refuse_stillness(scene_);
+  if (global_.step == 0 && parts_.plan.half_kick) kick_half_a_step(accelerate);
   united_.reset();
   runner_.forget_maxima();
   runner_.run(parts_.plan.drift, global_);
   if (stale_) rebuild();
+  runner_.ask(accelerate, global_.time + (may_drift(parts_.plan) ? global_.dt : 0));
+  united_.reset();
   runner_.run(parts_.plan.sums, global_);
   runner_.run(parts_.plan.kick, global_);
   return finish_step(request);
 }
 
 // Velocities of a step are those of half a step later.
-void Simulation::kick_half_a_step() {
+void Simulation::kick_half_a_step(const Accelerate& accelerate) {
+  runner_.ask(accelerate, global_.time);
   runner_.run(parts_.plan.sums, global_);
   GlobalState part = global_;
   const auto kick = [&](double share) {

@@ -59,22 +59,22 @@ void refuse_faults(const decomp::Comm& comm, const Scene& scene, const Findings&
     throw InputError(scene.file + ": start: " + text);
 }
 
-}  // namespace
-
-// For tests of the balance: a rank's cores are slower by scene.decomposition.slowness. All ranks have the stage, or they
-// would count what guards find in different stages.
-void Simulation::add_dawdling() {
-  if (scene_.decomposition.slowness <= 1) return;
-  const double slowness =
-      scene_.decomposition.slow_rank == comm_.rank() ? scene_.decomposition.slowness : 0.0;
-  append(parts_.plan.kick,
-         {"dawdle", decomp::Region::update, {}, {}, [this, slowness, before = 0.0](StepState&, Side) mutable {
-            const double until = before + slowness * (timers_.cost() - before);
-            while (timers_.cost() < until) {
-            }
-            before = timers_.cost();
-          }});
+// For tests of the balance: a rank's cores are slower by `of.slowness`. All ranks have the stage, or they would count what
+// guards find in different stages.
+void add_dawdling(Plan& plan, const Decomposition& of, int rank, decomp::Timers& timers) {
+  if (of.slowness <= 1) return;
+  const double slowness = of.slow_rank == rank ? of.slowness : 0.0;
+  append(
+      plan.kick,
+      {"dawdle", decomp::Region::update, {}, {}, [&timers, slowness, before = 0.0](StepState&, Side) mutable {
+         const double until = before + slowness * (timers.cost() - before);
+         while (timers.cost() < until) {
+         }
+         before = timers.cost();
+       }});
 }
+
+}  // namespace
 
 Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
     : State(comm, scene, position_scale(scene)) {
@@ -109,7 +109,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
 }
 
 void Simulation::begin(bool again) {
-  add_dawdling();
+  add_dawdling(parts_.plan, scene_.decomposition, comm_.rank(), timers_);
   for (ParticleSet& set : sets_) set.census = set.count(comm_);
   if (particle_count() == 0 && global_.step == 0 &&  // later all may have left
       scene_.domain.openings.insertions.empty())

@@ -1,10 +1,12 @@
 // What accelerates a particle besides its pairs: gravity, on matter that is lighter where it is warm (Boussinesq:
 // g (1 - alpha (T - T_0))), less what a background bears (laws/background.hpp), a central pull, grains in the fluid as
-// far as known from the step before (models/drag.hpp), and, beside a free surface where particles are shifted, the control of tension.
+// far as known from the step before (models/drag.hpp), what a caller gives (step/plan_runner.hpp), and, beside a free surface where particles
+// are shifted, the control of tension.
 #pragma once
 
 #include "sph/models/sph_constants.hpp"
 #include "sph/models/surface_gradient.hpp"
+#include "sph/plan/stage.hpp"
 
 namespace sph {
 
@@ -16,7 +18,8 @@ class BodyForces {
 
   explicit BodyForces(const SphConstants& constants);
 
-  [[nodiscard]] Double3 operator()(const Particles& particles, std::size_t row) const;  ///< [m/s^2]
+  /// [m/s^2]
+  [[nodiscard]] Double3 operator()(const Particles& particles, std::size_t row, const Step& step) const;
   /// How much of a particle's gradient of concentration is not that of a free surface near it.
   [[nodiscard]] double disordered_share(const Particles& particles, std::size_t row) const;
 

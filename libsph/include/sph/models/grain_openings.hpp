@@ -27,6 +27,10 @@ class GrainOpenings final : public Model {
   [[nodiscard]] bool report(const StepState& state, Reduction& reduction) override;
   [[nodiscard]] std::optional<double> turn_over(const Distribution& distribution, const Reduction& reduction,
                                                 ParticleSet& set, GlobalState& global) override;
+  /// What a caller wants between steps: the grains `gone` by their ids, ascending, leave as through a face, those given come. The same on
+  /// all ranks. Lists must be made anew. Throws InputError, on all ranks, before anything is changed. Collective.
+  void exchange(const Distribution& distribution, std::span<const std::uint64_t> gone,
+                std::span<const GivenGrain> come, ParticleSet& set, GlobalState& global);
 
  private:
   /// A row, and the outlet through which it leaves; past the last: a face.
@@ -41,13 +45,21 @@ class GrainOpenings final : public Model {
 
   [[nodiscard]] std::size_t faces() const { return outlets_.size(); }  ///< their passage
   void find_leavers(const Particles& particles);
+  void find_leavers(const decomp::Comm& comm, const Particles& particles, std::span<const std::uint64_t> ids);
+  [[nodiscard]] std::vector<bool> staying(const Particles& particles) const;  ///< by row
+  [[nodiscard]] std::uint64_t next_id(const GlobalState& global) const;
   /// Returns their ids, of all ranks, ascending.
   [[nodiscard]] std::vector<std::uint64_t> count_leavers(const decomp::Comm& comm, ParticleSet& set,
                                                          GlobalState& global) const;
-  /// Returns those that are this rank's.
+  /// Return those that are this rank's: of insertions, and of grains that come through this passage.
   [[nodiscard]] std::vector<NewParticle> put_in(const Distribution& distribution,
                                                 const std::vector<bool>& stays, ParticleSet& set,
                                                 GlobalState& global) const;
+  [[nodiscard]] std::vector<NewParticle> let_in(std::span<const InsertedGrain> grains, std::size_t passage,
+                                                const Distribution& distribution, ParticleSet& set,
+                                                GlobalState& global) const;
+  void replace_rows(Particles& particles, const std::vector<bool>& stays, std::span<const std::uint64_t> gone,
+                    std::span<const NewParticle> come) const;
 
   const Scene* scene_;
   PositionScale scale_;

@@ -41,7 +41,7 @@ class Grains final : public Model {
   /// Its stages; it must stay where it is.
   [[nodiscard]] Plan plan();
   /// Of a sweep.
-  [[nodiscard]] ContactContext context(Particles& particles, double dt);
+  [[nodiscard]] ContactContext context(Particles& particles, double dt, const double* given = nullptr);
 
   [[nodiscard]] const ContactTable& table() const { return table_; }
   [[nodiscard]] const GrainWalls& walls() const { return walls_; }
@@ -51,7 +51,7 @@ class Grains final : public Model {
  private:
   /// Contacts of the blocks, then kick and drift of their grains. begin_step() clears what a step sums.
   void begin_step(const Particles& particles, const GlobalState& global);
-  void sweep(Particles& particles, std::span<const ContactBlock> blocks, const RowRanges& ranges, double dt);
+  void sweep(const StepState& state, std::span<const ContactBlock> blocks);
 
   const Scene* scene_;
   PositionScale scale_;

@@ -15,13 +15,22 @@
 
 namespace sph {
 
+/// One that a caller puts in.
+struct GivenGrain {
+  std::uint32_t group;
+  double radius;               ///< [m]
+  Double3 position, velocity;  ///< [m], [m/s]
+};
+
 struct InsertedGrain {
   std::uint64_t id;
+  std::uint32_t group;
   std::array<std::int64_t, 3> position;  ///< [quanta], as double too
+  Double3 velocity;                      ///< [m/s]
   double radius, mass;                   ///< [m], [kg]
 };
 
-[[nodiscard]] double speed_of(const Insertion& insertion);  ///< of what it puts in [m/s]
+[[nodiscard]] double speed_of(const Double3& velocity);
 
 class Insertions {
  public:
@@ -39,6 +48,12 @@ class Insertions {
                                                   std::span<const InsertedGrain> earlier,
                                                   const WallsNow& walls, std::uint64_t first_id,
                                                   std::int64_t step, double& due) const;
+  /// Those that a caller gives, the same on all ranks, ids from `first_id`. Throws InputError, on all ranks, where one is not such a grain
+  /// as the scene has, outside the domain, too fast for a step of `dt`, or deeper in others or walls than contacts may be. Collective.
+  [[nodiscard]] std::vector<InsertedGrain> take(const decomp::Comm& comm, std::span<const GivenGrain> given,
+                                                const Particles& particles, const std::vector<bool>& stays,
+                                                const WallsNow& walls, std::uint64_t first_id,
+                                                double dt) const;
 
  private:
   const Scene* scene_;

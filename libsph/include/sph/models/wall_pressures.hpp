@@ -15,6 +15,7 @@ struct WallPressures {
                                    Field::wall_mirror};
   const Scene* scene;
   std::shared_ptr<const WallMirror> of_wall;  ///< where walls do not slip
+  double density = 0;                         ///< of all fluids, 0 where they differ [kg/m^3]
 
   void operator()(const View<reads, writes>& particles, const Step& step) const;
 };

@@ -52,6 +52,7 @@ struct ContactContext {
   double dt;
   double gravity[3];
   double path;             ///< no grain has gone further since the lists were made [m]; infinity: not known
+  const double* given;     ///< [row][3] accelerations of a caller; null: none [m/s^2]
   double largest_overlap;  ///< in radii of the smaller grain
   bool drifts;             ///< grains drift once they are kicked, while they are in the cache
   Gliding gliding{};

@@ -55,7 +55,7 @@ struct GrainMotion {
   using Rows = ContactRows<typename Sums::Sum>;
   using Sum = typename Sums::Sum;
 
-  // v += (F/m + g) dt, omega += T/I dt with I = 2/5 m r^2, then x += v dt in whole quanta.
+  // v += (F/m + g) dt, g with what a caller gives, omega += T/I dt with I = 2/5 m r^2, then x += v dt in whole quanta.
   template <bool drifts>
   static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
                    ContactSweep& sweep) {
@@ -67,7 +67,10 @@ struct GrainMotion {
       Sum* sums = rows.sums + r * stride;
       const double* inverse = rows.inverse + r * GrainLines::inverse_width;
       const FourDoubles force = Sums::values(sums) * c.quantum.force;
-      const FourDoubles acceleration = force * inverse[0] + gravity;
+      FourDoubles pull = gravity;
+      if (c.given != nullptr)
+        for (int a = 0; a < 3; ++a) pull[a] += c.given[r * 3 + static_cast<std::size_t>(a)];
+      const FourDoubles acceleration = force * inverse[0] + pull;
       const FourDoubles v = load(rows.v(r)) + acceleration * dt;
       store(v, rows.v(r));
       if constexpr (drifts) drift(rows.x(r), v * quanta);

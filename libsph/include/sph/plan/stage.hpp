@@ -43,6 +43,8 @@ struct Step {
   GlobalState& global;
   StepMaxima& maxima;  ///< of this step, set by what moves particles last
   Findings& findings;  ///< what no particle may be: the run stops at the end of the step
+  /// Accelerations of the owned rows that a caller gives, [row][component]; null: none [m/s^2].
+  const double* given = nullptr;
 };
 
 /// What the stages of a step work on: one rank's part of a scene.

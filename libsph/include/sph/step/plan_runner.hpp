@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "decomp/timer.hpp"
@@ -12,6 +14,11 @@
 #include "sph/step/list_age.hpp"
 
 namespace sph {
+
+/// Accelerations that a caller adds to those of the scene: it sets those of the owned rows of all sets, [row][component] [m/s^2], 0 before.
+/// `time` is that of positions; velocities are of half a step before. If each row's is a function of its own state and time, bits
+/// depend on no ranks. It throws on all ranks or on none.
+using Accelerate = std::function<void(double time, std::span<double> accelerations)>;
 
 class PlanRunner {
  public:
@@ -25,6 +32,9 @@ class PlanRunner {
       : comm_(comm), parts_(parts), sets_(sets), age_(age), timers_(timers) {}
 
   void run(const std::vector<Entry>& entries, GlobalState& global);
+
+  /// What a caller gives in the step at hand, if there is one. Rows stay where they are from there to the kick.
+  void ask(const Accelerate& accelerate, double time);
 
   /// What stages get of a set, and of another one beside it.
   [[nodiscard]] StepState state_of(std::size_t set, GlobalState& global,
@@ -46,6 +56,7 @@ class PlanRunner {
   ListAge& age_;
   decomp::Timers& timers_;
   decomp::LargeVector<std::byte> rows_;
+  std::vector<double> given_;  ///< accelerations of the sets' owned rows, or none
   Findings findings_;
   StepMaxima maxima_;
   Counters counters_;

@@ -2,6 +2,7 @@
 // together. The step is the one screen to read first (simulation.cpp).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "decomp/comm.hpp"
@@ -13,6 +14,9 @@
 
 namespace sph {
 
+/// Throws InputError where nothing has inertia, which an Accelerate needs.
+void refuse_stillness(const Scene& scene);
+
 class Simulation : public State {
  public:
   /// From the scene's start. Collective, like every member that is not a plain accessor.
@@ -21,8 +25,11 @@ class Simulation : public State {
   Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint);
 
   /// One time step. `request` (any integer, the caller's) travels with the step's reduction: the largest over
-  /// all ranks is returned, one step late by construction.
-  std::int64_t step(std::int64_t request = 0);
+  /// all ranks is returned, one step late by construction. `accelerate` is no state: checkpoints do not hold it.
+  std::int64_t step(std::int64_t request = 0, const Accelerate& accelerate = {});
+  /// Between steps: the grains `gone` leave, by their ids ascending, then others come in this order. The same on all ranks; budgets count them.
+  /// Throws InputError, the state being as it was, where they do not fit or the scene is not open.
+  void exchange_grains(std::span<const std::uint64_t> gone, std::span<const GivenGrain> come);
 
   /// Brings the halo copies of these fields up to date, for output that looks at neighbours.
   void refresh_halo(FieldSet fields, std::size_t set = 0) { sets_[set].refresh(fields, timers_); }
@@ -40,11 +47,10 @@ class Simulation : public State {
 
  private:
   void begin(bool again);  ///< common end of both constructors
-  void add_dawdling();
   void scatter();
   void settle();
   void approach(Settling& settling, std::size_t set);
-  void kick_half_a_step();
+  void kick_half_a_step(const Accelerate& accelerate);
   void rebuild();
   [[nodiscard]] ListSetting list_setting(const SetPair& pair);
   void reduce(std::int64_t request, bool left);
