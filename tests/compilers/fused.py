@@ -2,20 +2,21 @@
 """No fused multiply-add is in what was compiled: their rounding is other than that of machines without, and g++ makes some in
 spite of -ffp-contract=off.
 
-    fused.py LIBRARY [LIBRARY ...]
+    fused.py OBJDUMP LIBRARY [LIBRARY ...]
 """
 import re
 import subprocess
 import sys
 
-FUSED = re.compile(r"^\s+[0-9a-f]+:\s+(?:vfn?m(?:add|sub)|fn?m(?:add|sub|la|ls)\b)", re.M)
+FUSED = re.compile(r"^\s+[0-9a-f]+:\s+(?:vfn?m(?:add|sub)|f(?:n?m(?:add|sub|la|ls|ad|sb)|cmla)\b)", re.M)
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.+)>:$", re.M)
 
 
 def main():
     found = []
-    for library in sys.argv[1:]:
-        text = subprocess.run(["objdump", "-d", "-C", "--no-show-raw-insn", library], check=True, capture_output=True, text=True).stdout
+    objdump, *libraries = sys.argv[1:]
+    for library in libraries:
+        text = subprocess.run([objdump, "-d", "-C", "--no-show-raw-insn", library], check=True, capture_output=True, text=True).stdout
         assert FUNCTION.search(text), f"{library}: nothing that objdump knows"
         for part in re.split(r"\n(?=[0-9a-f]+ <)", text):
             if FUSED.search(part):

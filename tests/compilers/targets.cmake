@@ -11,8 +11,11 @@ set_tests_properties(compilers PROPERTIES
 add_executable(contraction compilers/test_contraction.cpp ${PROJECT_SOURCE_DIR}/libsph/src/run/self_check.cpp)
 target_include_directories(contraction PRIVATE ${PROJECT_SOURCE_DIR}/libsph/src)
 target_link_libraries(contraction PRIVATE sph peperite_build)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")  # others always have fused multiply-adds
+  set(with_fma -mfma)
+endif()
 set_source_files_properties(${PROJECT_SOURCE_DIR}/libsph/src/run/self_check.cpp PROPERTIES
-  COMPILE_OPTIONS "-O2;-mfma;-ffp-contract=fast")  # of this folder's target only; comes after the target's own
+  COMPILE_OPTIONS "-O2;${with_fma};-ffp-contract=fast")  # of this folder's target only; comes after the target's own
 add_test(NAME self_check.contraction COMMAND contraction)
-add_test(NAME fused COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/compilers/fused.py
+add_test(NAME fused COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/compilers/fused.py ${CMAKE_OBJDUMP}
   $<TARGET_FILE:sph> $<TARGET_FILE:decomp> $<TARGET_FILE:stokes>)

@@ -12,10 +12,12 @@ int main(int argc, char** argv) {
                help ? stdout : stderr);
     return help ? 0 : 2;
   }
+#if defined(__x86_64__)  // others always have it
   if (!__builtin_cpu_supports("fma")) {
     std::puts("skipped: this CPU has no FMA");
     return 0;
   }
+#endif
   try {
     sph::self_check();
   } catch (const std::exception& e) {

@@ -1,7 +1,6 @@
 // The start-up check passes here, and notices what a program around the library may have set. A contracted
 // build is the test self_check.contraction; other compilers and CPUs, the test compilers.
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
 #include <cfenv>
 
@@ -19,10 +18,17 @@ TEST(SelfCheck, NoticesAnotherRoundingMode) {
 }
 
 TEST(SelfCheck, NoticesFlushedSubnormals) {
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | 0x8040);  // flush to zero, denormals are zero: what linking with -ffast-math does
+  std::fenv_t before;
+  std::fegetenv(&before);
+  std::fenv_t flushing = before;  // to zero, what linking with -ffast-math does
+#if defined(__aarch64__)
+  flushing.__fpcr |= 1u << 24;
+#else
+  flushing.__mxcsr |= 0x8040;
+#endif
+  std::fesetenv(&flushing);
   EXPECT_THROW(sph::self_check(), sph::InputError);
-  _mm_setcsr(before);
+  std::fesetenv(&before);
 }
 
 }  // namespace

@@ -187,8 +187,10 @@ std::string read_factor(Cursor& in, int sign, Product& product) {
   if (in.take('1'))
     name = "1";
   else
-    name = in.take_while(
-        [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '%' || c < 0; });
+    name = in.take_while([](char c) {
+      const auto code = static_cast<unsigned char>(c);
+      return std::isalpha(code) != 0 || c == '%' || code >= 0x80;
+    });
   if (name.empty()) return fmt::format("has '{}' where a unit should be", in.done() ? ' ' : in.peek());
   const Unit* found = nullptr;
   for (const Unit& u : units)
