@@ -87,7 +87,11 @@ class Candidates {
     of_block_.clear();
     return {first, all_.size() / lanes};
   }
-  void append_to(Writer& pairs) const {
+  void append_to(Writer& pairs, std::vector<ContactBlock>& blocks) const {
+    for (ContactBlock& block : blocks) {
+      block.candidates.first += pairs.groups();
+      block.candidates.last += pairs.groups();
+    }
     for (const auto& [i, j] : all_) {
       *pairs.partners(1) = j;
       pairs.add(i, 1);
@@ -207,11 +211,7 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
       blocks_.push_back(block);
     }
   }
-  for (ContactBlock& block : blocks_) {
-    block.candidates.first += pairs.groups();
-    block.candidates.last += pairs.groups();
-  }
-  apart.append_to(pairs);
+  apart.append_to(pairs, blocks_);
   pairs.finish(history_);
   walls.finish(history_);
   walls_.facets.near.resize(walls_.facets.runs.empty() ? 0 : walls_.i.size());

@@ -148,7 +148,7 @@ template <int Stride, class T>
 /// The first four values of rows index[0 .. lanes) of a table of Stride values a row, transposed.
 template <int Stride>
 [[gnu::always_inline]] inline void load_vectors(const double* base, const std::uint32_t* index,
-                                              Simd<double> (&out)[4]) {
+                                                Simd<double> (&out)[4]) {
   simd_detail::load4(base, Stride, index, out);
 }
 

@@ -29,6 +29,12 @@ struct ContactWalls {
   std::int64_t* force;  ///< [2][count][3] quanta of force, low halves and high halves, added to
 };
 
+/// What accelerates grains besides contacts [m/s^2].
+struct ContactPull {
+  double gravity[3];
+  const double* given;  ///< [row][3] by a caller; null: nothing
+};
+
 struct ContactQuanta {
   double length, force, torque;
 };
@@ -50,9 +56,8 @@ struct ContactContext {
   std::uint64_t* sums;
   ContactQuanta quantum;
   double dt;
-  double gravity[3];
+  ContactPull pull;
   double path;             ///< no grain has gone further since the lists were made [m]; infinity: not known
-  const double* given;     ///< [row][3] accelerations of a caller; null: none [m/s^2]
   double largest_overlap;  ///< in radii of the smaller grain
   bool drifts;             ///< grains drift once they are kicked, while they are in the cache
   Gliding gliding{};

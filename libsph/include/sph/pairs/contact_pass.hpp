@@ -19,6 +19,7 @@
 #include "sph/pairs/friction.hpp"
 #include "sph/pairs/grain_motion.hpp"
 #include "sph/pairs/rolling.hpp"
+#include "sph/pairs/wall_side.hpp"
 
 namespace sph {
 
@@ -291,41 +292,6 @@ struct ContactPass {
     }
   }
 
-  /// Of a plane or facet beside a grain.
-  struct WallSide {
-    double distance;  ///< of the grain's centre [m]
-    const double *away, *velocity;
-    std::uint32_t group;
-    std::size_t number;  ///< of the plane, or after them all of the mesh
-    bool touchable;
-  };
-
-  [[gnu::always_inline]] static WallSide side_of(const ContactContext& c, std::uint32_t wall,
-                                                 std::size_t entry, const double* line) {
-    if (wall < c.walls.planes.size()) {
-      const PlaneNow& plane = c.walls.planes[wall];
-      const std::array<std::int64_t, 3> x = position_in(line);
-      double away = 0;
-      for (std::size_t a = 0; a < 3; ++a)
-        away += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
-      return {away * c.quantum.length,
-              plane.normal.data(),
-              plane.velocity.data(),
-              plane.group,
-              wall,
-              plane.present};
-    }
-    static constexpr double none[3] = {};
-    const FacetContact* f = c.walls.facets->any() ? c.walls.facets->at(entry) : nullptr;
-    if (f == nullptr) return {0, none, none, 0, 0, false};
-    return {f->distance,
-            f->away.data(),
-            f->velocity.data(),
-            c.walls.facets->meshes()[f->mesh].group,
-            c.walls.planes.size() + f->mesh,
-            true};
-  }
-
   static void add_walls(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
     ContactGroups& list = c.lists->walls();
     const std::uint32_t* i = list.i.data() + g * lanes;
@@ -341,7 +307,7 @@ struct ContactPass {
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::size_t r = i[l];
       const int k = static_cast<int>(l);
-      const WallSide side = side_of(c, walls[l], g * lanes + l, rows.x(r));
+      const WallSide side = wall_side(c, walls[l], g * lanes + l, rows.x(r));
       for (std::size_t a = 0; a < 3; ++a) {
         contact.normal[a].v[k] = -side.away[a];
         rel[a].v[k] = side.velocity[a] - rows.v(r)[a];

@@ -60,7 +60,7 @@ struct GrainMotion {
   static void move(const ContactContext& c, const Rows& rows, std::size_t first, std::size_t last,
                    ContactSweep& sweep) {
     const double dt = c.dt;
-    const FourDoubles gravity{c.gravity[0], c.gravity[1], c.gravity[2], 0};
+    const FourDoubles gravity{c.pull.gravity[0], c.pull.gravity[1], c.pull.gravity[2], 0};
     const FourDoubles quanta = in_vector(dt / c.quantum.length);
     double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
     for (std::size_t r = first; r < last; ++r) {
@@ -68,8 +68,8 @@ struct GrainMotion {
       const double* inverse = rows.inverse + r * GrainLines::inverse_width;
       const FourDoubles force = Sums::values(sums) * c.quantum.force;
       FourDoubles pull = gravity;
-      if (c.given != nullptr)
-        for (int a = 0; a < 3; ++a) pull[a] += c.given[r * 3 + static_cast<std::size_t>(a)];
+      if (c.pull.given != nullptr)
+        for (int a = 0; a < 3; ++a) pull[a] += c.pull.given[r * 3 + static_cast<std::size_t>(a)];
       const FourDoubles acceleration = force * inverse[0] + pull;
       const FourDoubles v = load(rows.v(r)) + acceleration * dt;
       store(v, rows.v(r));
