@@ -1,6 +1,7 @@
 #include "start/surfaces.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 #include <optional>
@@ -42,6 +43,9 @@ std::vector<TriangleSurface> read_surfaces(const decomp::Comm& comm, const Scene
     surfaces.emplace_back(copy.bytes);
     if (problem.empty()) problem = agree(comm, copy.problem);
   }
+#if defined(__GLIBC__)
+  malloc_trim(0);  // what a reader has freed in small pieces, several times what is kept
+#endif
   static bool told = false;  // a run reads them twice: to know what it needs, and for itself
   if (!problem.empty() && comm.rank() == 0 && !std::exchange(told, true))
     fmt::print(
