@@ -155,10 +155,16 @@ class Caller(PythonCase):
 
     def test_time_steps_heed_a_force(self):
         import peperite
-        quiet, strong = peperite.Simulation(FLUID), peperite.Simulation(FLUID, force=lambda m: np.full((len(m), 2), 1e5))
+        seen = []
+
+        def strongly(m):
+            seen.append(m.time)
+            return np.full((len(m), 2), 1e5)
+        quiet, strong = peperite.Simulation(FLUID), peperite.Simulation(FLUID, force=strongly)
         for s in (quiet, strong):
             s.step()
         self.assertLess(strong.dt, 0.8 * quiet.dt)
+        self.assertEqual(seen, [strong.time])  # fluids drift first
 
     def test_saving_changes_no_bit(self):
         import peperite
