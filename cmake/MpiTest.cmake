@@ -11,12 +11,16 @@ function(add_mpi_test name target)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
+  if(CMAKE_CROSSCOMPILING_EMULATOR)
+    math(EXPR arg_TIMEOUT "60 * ${arg_TIMEOUT}")
+  endif()
   if(NOT arg_COST)
     set(arg_COST 0)
   endif()
   foreach(np IN LISTS arg_RANKS)
     add_test(NAME ${name}.np${np}
-      COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${np} $<TARGET_FILE:${target}> ${arg_ARGS})
+      COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${np} ${CMAKE_CROSSCOMPILING_EMULATOR}
+              $<TARGET_FILE:${target}> ${arg_ARGS})
     set_tests_properties(${name}.np${np} PROPERTIES
       ENVIRONMENT "${PEPERITE_MPI_ENVIRONMENT}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST} PROCESSORS ${np}
       LABELS "${arg_LABELS}")

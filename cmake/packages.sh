@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that are missing: `packages.sh` for building and running, `packages.sh tests`
-# for the tests too, `packages.sh docs` for the site of the documents alone. On a system without apt-get it names them and goes on.
+# for the tests too, `packages.sh docs` for the site of the documents alone, `packages.sh arm64` for cmake/arm64.sh. On a system
+# without apt-get it names them and goes on.
 set -eu
 
 packages="g++ cmake ninja-build pkg-config git
@@ -13,6 +14,8 @@ if [ "${1-}" = tests ]; then
   packages="$packages $documents clang clang-format libgtest-dev librapidcheck-dev libbenchmark-dev python3-scipy python3-vtk9 chromium"
 elif [ "${1-}" = docs ]; then
   packages="python3 python3-h5py python3-jinja2 python3-matplotlib $documents"
+elif [ "${1-}" = arm64 ]; then
+  packages="g++-aarch64-linux-gnu qemu-user-static cmake ninja-build pkg-config git openmpi-bin python3"
 fi
 
 missing=
