@@ -54,6 +54,7 @@ double seen(double value, Parity parity, bool by_i) { return by_i && parity == P
 
 decomp::Payload ContactLists::pack(const Particles& p) const {
   decomp::Payload payload;
+  (void)p.table();  // brings back what is in lines: memory is at its peak while contacts travel
   const std::size_t owned = p.owned();
   payload.offset.assign(owned + 1, 0);
   if (history_ == 0) return payload;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <tuple>
 
 #include "pairs/candidates.hpp"
@@ -92,6 +93,7 @@ class Candidates {
       block.candidates.first += pairs.groups();
       block.candidates.last += pairs.groups();
     }
+    (void)pairs.partners(all_.size());  // grows once
     for (const auto& [i, j] : all_) {
       *pairs.partners(1) = j;
       pairs.add(i, 1);
@@ -117,7 +119,7 @@ class Candidates {
   const double* radius_;
   double quantum_;
   std::vector<Pair> of_block_;
-  decomp::LargeVector<std::array<std::uint32_t, 2>> all_;
+  std::deque<std::array<std::uint32_t, 2>> all_;  // a vector that grows takes all twice
 };
 
 /// Lists the walls that grains may touch before lists are made anew.
