@@ -132,7 +132,7 @@ TEST(GrainSkins, PairsThatSleepWakeInTime) {
   };
   const decomp::Comm self(MPI_COMM_SELF);
   Simulation awake(self, with("0.5", "1")), asleep(world(), with("0.5", "0"));
-  for (int k = 0; k < 400; ++k) awake.step(), asleep.step();
+  for (int k = 0; k < 250; ++k) awake.step(), asleep.step();
   EXPECT_EQ(asleep.fingerprint(), awake.fingerprint());
   EXPECT_GT(awake.grains()->pairs().counters().created, 1000);
   EXPECT_LT(asleep.rebuilds(), 40);
