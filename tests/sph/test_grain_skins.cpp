@@ -122,6 +122,19 @@ TEST(GrainSkins, NobodyNeedsToLookInBetween) {
   }
 }
 
+// What one rank reads of its own is no other's business, nor what the next messages look like.
+TEST(GrainSkins, RanksMayLookAlone) {
+  Simulation s(world(), scene_with("0.3"));
+  const std::size_t set = s.grains()->set();
+  for (int k = 0; k < steps; ++k) {
+    s.step();
+    const bool looks = world().rank() == k % world().size();
+    EXPECT_TRUE(!looks || s.particles(set).data<Field::position>() != nullptr);
+    if (k % 3 == 0) s.refresh_contacts();
+  }
+  EXPECT_EQ(s.fingerprint(), expected().prints.back());
+}
+
 // Pairs that do not touch are not looked at until they may. With new lists in every step all of them are.
 TEST(GrainSkins, PairsThatSleepWakeInTime) {
   const std::vector<std::string> slow{"start.velocity=[0.4,0.2,-0.5]", "stage=", "time.dt=15e-6"};

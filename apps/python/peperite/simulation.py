@@ -146,6 +146,7 @@ class Simulation:
             if given.shape != self._running.shape or given.dtype.kind not in "fiu":
                 raise InputError(f"force: returned {given.dtype}{list(given.shape)}, not numbers{list(self._running.shape)}, "
                                  "[particle][component]")
+            given = given.astype(float)
             bad = ~np.isfinite(given).all(axis=1)
             if bad.any():
                 ids = moment.id[bad]
@@ -183,7 +184,7 @@ class Simulation:
 
         def ids():
             chosen = np.asarray(where)
-            if chosen.dtype == bool and len(chosen) == self._running.shape[0]:
+            if chosen.dtype == bool and chosen.shape == self._running.shape[:1]:
                 return self.field("id")[chosen]
             if chosen.size and (chosen.dtype.kind not in "iu" or chosen.ndim != 1 or (chosen < 0).any()):
                 raise ValueError(f"{chosen.dtype}{list(chosen.shape)} is neither a mask of this rank's particles nor ids")
@@ -195,7 +196,7 @@ class Simulation:
         """Collective: what `work` returns on each rank, or what is wrong on the first where something is."""
         try:
             said = work(), None
-        except (TypeError, ValueError) as error:
+        except Exception as error:  # whatever it is, the other ranks wait to hear of it
             said = None, f"{name}: {error}"
         said = self.comm.allgather(said)
         for _, wrong in said:

@@ -117,12 +117,13 @@ def files_of(scene):
     found = {}
 
     def add(path):
-        if path.resolve() in found or not path.is_file():
-            return
-        found[path.resolve()] = path.read_bytes()
         try:
-            include = tomllib.loads(found[path.resolve()].decode()).get("include")
-        except ValueError:
+            itself = path.resolve()
+            if itself in found or not path.is_file():
+                return
+            found[itself] = path.read_bytes()
+            include = tomllib.loads(found[itself].decode()).get("include")
+        except (OSError, RuntimeError, ValueError):
             return
         for name in include if isinstance(include, list) else [include]:
             if isinstance(name, str):

@@ -19,7 +19,9 @@ inline constexpr auto top_keys = std::to_array<Key>({
              R"({"type": ["string", "array"], "items": {"type": "string"}})"},
      "Files that this one adds to, relative to it. What comes last counts, the file itself after what it "
      "includes: tables are merged key by key, and so are elements of arrays of tables that have the same "
-     "`name`; other elements are appended, and any other value is replaced. --set acts last."},
+     "`name`; other elements are appended, and any other value is replaced. A file that is included twice "
+     "counts at its "
+     "first place. --set acts last."},
     {"title", Text{}, "Name of the run.", at<&Scene::name>, Default{"the file's name"}},
     {"dimension", Whole{2, 3}, "Grains are spheres, in 3.", at<&Scene::dim>, Default{"2; of grains 3"}},
     {"formulation", Words{formulation_words},

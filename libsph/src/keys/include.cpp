@@ -111,7 +111,8 @@ class Includes {
   Node expand(Node document, const std::string& file) {
     std::optional<Node> include = take_include(document);
     if (!include) return document;
-    around_.push_back(fs::weakly_canonical(file));
+    std::error_code error;  // what cannot be read is told elsewhere
+    around_.push_back(fs::weakly_canonical(file, error));
     seen_.push_back(around_.back());
     Node whole{document.where, document.folder, Table{}};
     for (const Node& path : paths_of(std::move(*include)))
@@ -125,12 +126,14 @@ class Includes {
   /// What is included from two places counts at the first; nothing at the second.
   std::optional<Node> read_once(const Node& path) {
     const auto& words = std::get<std::string>(path.value);
-    const std::string file = (fs::path(path.folder) / words).lexically_normal().string();
+    const std::string file = (fs::path(path.folder) / words).string();  // ".." is the system's, beyond links
     const auto refuse = [&](std::string_view what) {
       fail(path.where, "include", fmt::format("\"{}\": {}", words, what),
            "give the path of a scene, relative to this file");
     };
-    const fs::path itself = fs::weakly_canonical(file);
+    std::error_code error;
+    const fs::path itself = fs::weakly_canonical(file, error);
+    if (error) refuse(error.message());
     if (std::ranges::find(around_, itself) != around_.end()) refuse("it includes this file, or is it");
     if (std::ranges::find(seen_, itself) != seen_.end()) return std::nullopt;
     seen_.push_back(itself);

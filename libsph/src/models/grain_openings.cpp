@@ -70,7 +70,8 @@ double GrainOpenings::start(const decomp::Comm& comm, Particles& particles, Glob
 }
 
 bool GrainOpenings::report(const StepState& s, Reduction& r) {
-  find_leavers(s.particles);
+  find_leavers(s.particles, s.particles.has_lines() ? GrainPlaces(s.particles.lines().motion.data())
+                                                    : GrainPlaces(s.particles));
   auto events = static_cast<std::int64_t>(leavers_.size());
   for (std::size_t k = 0; k < due_.size(); ++k) {
     due_[k] = insertions_.due(k, s.global);
@@ -80,13 +81,12 @@ bool GrainOpenings::report(const StepState& s, Reduction& r) {
   return true;
 }
 
-void GrainOpenings::find_leavers(const Particles& p) {
+void GrainOpenings::find_leavers(const Particles& p, const GrainPlaces& places) {
   leavers_.clear();
-  const std::int64_t* position = p.data<Field::position>();
   const std::uint32_t* group = p.data<Field::group>();
   for (std::size_t i = 0; i < p.owned(); ++i) {
-    std::array<std::int64_t, 3> x;
-    for (std::size_t a = 0; a < 3; ++a) x[a] = wrap_(static_cast<int>(a), position[i * 3 + a]);
+    std::array<std::int64_t, 3> x = places.x(i);
+    for (std::size_t a = 0; a < 3; ++a) x[a] = wrap_(static_cast<int>(a), x[a]);
     const bool inside = domain_.contains(x);
     if (inside && outlets_.empty()) continue;
     const Group& g = scene_->groups[group[i]];

@@ -124,11 +124,18 @@ struct Place {
   }
 };
 
+/// A diameter's half may be rounded away from the group's, from single precision even.
+double radius_in(const Group& group, double radius) {
+  const double nearest = std::clamp(radius, group.grain.least_radius, group.grain.largest_radius);
+  return std::fabs(nearest - radius) <= 1e-6 * nearest ? nearest : radius;
+}
+
 /// What is wrong with it, in itself; empty if nothing is.
 std::string fault_of(const Scene& scene, const GivenGrain& given, double dt) {
   const Group& group = scene.groups[given.group];
   const double least = group.grain.least_radius, largest = group.grain.largest_radius;
-  if (!(given.radius >= least && given.radius <= largest && largest > 0) || group.grain.fixed)
+  const double radius = radius_in(group, given.radius);
+  if (!(radius >= least && radius <= largest && largest > 0) || group.grain.fixed)
     return largest > 0 && !group.grain.fixed
                ? fmt::format("its radius is {:.6g} m; grains of \"{}\" have {:.6g} to {:.6g} m", given.radius,
                              group.name, least, largest)
@@ -252,8 +259,9 @@ std::vector<InsertedGrain> Insertions::take(const decomp::Comm& comm, std::span<
   for (const GivenGrain& g : given) {
     const std::size_t k = out.size();
     refuse(k, fault_of(*scene_, g, dt));
-    InsertedGrain grain{first_id + k, g.group, {}, g.velocity, g.radius, 0};
-    grain.mass = grain_mass(scene_->groups[g.group].density, g.radius);
+    const Group& group = scene_->groups[g.group];
+    InsertedGrain grain{first_id + k, g.group, {}, g.velocity, radius_in(group, g.radius), 0};
+    grain.mass = grain_mass(group.density, grain.radius);
     for (std::size_t a = 0; a < 3; ++a)
       grain.position[a] = wrap_(static_cast<int>(a), scale_.quanta(g.position[a]));
     out.push_back(grain);

@@ -27,12 +27,12 @@ std::vector<int> columns_of(const Particles& particles, FieldSet fields) {
 }  // namespace
 
 void HaloExchange::begin(decomp::HaloPlan& halo, Particles& particles, FieldSet wanted,
-                         decomp::Timers& timers) {
+                         decomp::Timers& timers, bool in_lines) {
   const auto timing = timers.time(decomp::Region::pack);
   const FieldSet send = fresh_.missing(wanted & particles.fields());
   under_way_ = !send.empty();
   if (!under_way_) return;
-  if (particles.has_lines() && send.without(Particles::in_lines).empty())
+  if (in_lines && send.without(Particles::in_lines).empty())
     halo.begin(lines_of(particles));
   else
     halo.begin(particles.table(), columns_of(particles, send));

@@ -48,11 +48,10 @@ std::vector<TriangleSurface> read_surfaces(const decomp::Comm& comm, const Scene
 #endif
   static bool told = false;  // a run reads them twice: to know what it needs, and for itself
   if (!problem.empty() && comm.rank() == 0 && !std::exchange(told, true))
-    fmt::print(
-        stderr,
-        "peperite: warning: each rank holds its own copy of the meshes: /dev/shm: {}; give it more room to "
-        "share one\n",
-        problem);
+    fmt::print(stderr,
+               "peperite: warning: each rank holds its own copy of the meshes: /dev/shm: {}; where it is "
+               "full, more room makes ranks share one\n",
+               problem);
   return surfaces;
 }
 

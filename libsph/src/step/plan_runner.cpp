@@ -57,7 +57,7 @@ void PlanRunner::run(const Stage& stage, StepState& state) {
   if (stage.refresh.empty() && other == nullptr) {
     work(Side::all);
   } else {
-    set.exchange.begin(set.halo, set.particles, stage.refresh, timers_);
+    set.exchange.begin(set.halo, set.particles, stage.refresh, timers_, stage.in_lines);
     if (other != nullptr) other->exchange.begin(other->halo, other->particles, stage.other->refresh, timers_);
     work(Side::interior);
     set.exchange.end(set.halo, timers_);

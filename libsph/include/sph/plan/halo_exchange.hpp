@@ -15,7 +15,10 @@ class HaloExchange {
   /// Without `overlap`, begin() waits for its messages.
   explicit HaloExchange(bool overlap) : overlap_(overlap) {}
 
-  void begin(decomp::HaloPlan& halo, Particles& particles, FieldSet wanted, decomp::Timers& timers);
+  /// `in_lines`: what is in lines travels in whole lines. All ranks must say the same: whether a rank's grains are in lines now depends on
+  /// who has looked at them there.
+  void begin(decomp::HaloPlan& halo, Particles& particles, FieldSet wanted, decomp::Timers& timers,
+             bool in_lines = false);
   void end(decomp::HaloPlan& halo, decomp::Timers& timers);
   /// Halo copies of these fields are out of date.
   void changed(Particles& particles, FieldSet fields);
