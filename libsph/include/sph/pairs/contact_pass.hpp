@@ -191,7 +191,8 @@ struct ContactPass {
     // Unused lanes hold a row twice: distance 0 does not touch.
     contact.overlap = where_less(V::zero(), distance2, two.ri + two.rj - distance);
     if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) {
-      list.asleep[g] = c.path + way_to_touch(contact.overlap, distance2, two);
+      if (c.path < std::numeric_limits<double>::infinity())
+        list.asleep[g] = c.path + way_to_touch(contact.overlap, distance2, two);
       return;
     }
     for (int a = 0; a < 3; ++a) contact.normal[a] = d[a] * inverse;
