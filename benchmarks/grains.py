@@ -30,7 +30,7 @@ here = Path(__file__).resolve().parent
 sys.path.append(str(here.parent / "apps/python"))
 import peperite  # noqa: E402
 BEDS = {"12k": (1, 1, 2000), "100k": (4, 2, 500), "1m": (10, 8, 100)}  # tiles in x and y, timed steps
-SKINS = (0.01, 0.02, 0.05, 0.1)  # of the largest diameter
+SKINS = (0.02, 0.05, 0.1, 0.15)  # of the largest diameter
 WARM = 50  # steps before the timed ones
 DT = 4e-6  # [s]
 PUSH = 0.05  # speed of the top of the pushed bed [m/s]
