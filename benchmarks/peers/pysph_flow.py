@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """PySPH's own examples (Debian's python3-pysph) at a resolution, for solution.py.
 
-    pysph_flow.py CASE SCHEME N OUT.npz     CASE: taylor_green, poiseuille
+    pysph_flow.py CASE SCHEME N OUT.npz     CASE: taylor_green, poiseuille, dam_break
 
-OUT gets the particles at the start and at the times of the case, in the units of our scenes, and the CPU seconds of the loop over steps:
-PySPH compiles what it runs on first use, and importing it takes longer than coarse runs.
+OUT gets the particles at the start and at the times of the case, in the units of our scenes, and the CPU seconds of the
+loop over steps: PySPH compiles what it runs on first use, and importing it takes longer than coarse runs.
 """
 
 import argparse
@@ -13,12 +13,12 @@ import tempfile
 import time
 
 import numpy as np
-from pysph.examples import poiseuille, taylor_green
+from pysph.examples import dam_break_2d, poiseuille, taylor_green
 from pysph.solver.solver import Solver
 
-TIMES = {"taylor_green": (1,), "poiseuille": (2.25, 4.5, 11.25, 22.5, 100)}
+TIMES = {"taylor_green": (1,), "poiseuille": (2.25, 4.5, 11.25, 22.5, 100), "dam_break": (0.6,)}
 # Units of the example in those of the scene: length, time.
-UNITS = {"taylor_green": (1, 1), "poiseuille": (1e-3, 1e-2)}
+UNITS = {"taylor_green": (1, 1), "poiseuille": (1e-3, 1e-2), "dam_break": (1, 1)}
 kept = []
 
 
@@ -37,7 +37,23 @@ def keeps(example, case):
     return Kept
 
 
+class DamBreak(dam_break_2d.DamBreak2D):
+    """With the corner of the column, half a spacing from its particles and from those of walls, in the origin."""
+    def create_particles(self):
+        fluid, boundary = super().create_particles()
+        for column in (fluid.x, fluid.y):
+            column -= self.dx
+        for walls in (boundary.x, boundary.y):
+            walls -= self.dx / 2
+        return [fluid, boundary]
+
+
 def application(case, n, directory):
+    if case == "dam_break":  # constants again, for another spacing and for particles on both ends of the column
+        dam_break_2d.h, dam_break_2d.m = 1.3 / n, 1000 / n**2
+        across = 1 / n - 1e-9
+        dam_break_2d.fluid_column_width, dam_break_2d.fluid_column_height = 1 - across, 2 - across
+        return keeps(DamBreak, case)(output_dir=directory)
     if case == "poiseuille":  # the spacing is a constant of the example
         poiseuille.dx = poiseuille.h0 = 1 / n
         poiseuille.ghost_extent = 5 / n
@@ -45,10 +61,12 @@ def application(case, n, directory):
     return keeps(taylor_green.TaylorGreen, case)(output_dir=directory)
 
 
-def words(case, scheme, n, until):
-    out = ["--tf", str(until), "--disable-output", "-q"]
+def words(case, scheme, n):
+    out = ["--tf", str(TIMES[case][-1]), "--disable-output", "-q"]
     if case == "taylor_green":  # displaced as ours are: by up to 5 % of their distance
         out += ["--scheme", scheme, "--nx", str(n), "--perturb", "0.1"]
+    if case == "dam_break":
+        out += ["--scheme", scheme, "--dx", str(1 / n)]
     return out
 
 
@@ -58,7 +76,6 @@ def main():
     arguments.add_argument("scheme")
     arguments.add_argument("n", type=int)
     arguments.add_argument("out")
-    arguments.add_argument("--until", type=float, help="to compile")
     given = arguments.parse_args()
     solve, spent = Solver.solve, []
 
@@ -70,8 +87,7 @@ def main():
 
     Solver.solve = timed
     with tempfile.TemporaryDirectory() as directory:
-        application(given.case, given.n, directory).run(
-            words(given.case, given.scheme, given.n, given.until or TIMES[given.case][-1]))
+        application(given.case, given.n, directory).run(words(given.case, given.scheme, given.n))
     length, unit = UNITS[given.case]
     rows = [values * np.array([length, length, length / unit, length / unit]) for _, values in kept]
     np.savez(given.out, cpu=spent[0], times=[round(t * unit, 9) for t, _ in kept],
