@@ -26,13 +26,18 @@ def settings(n):
             "start.region.1.upper=[12, 4]", "group.water.sound_speed=62.6", "output.snapshot_interval=0.01")
 
 
+def front(snapshot, dx, rows=1):
+    """Of the tongue on the floor."""
+    x, y = snapshot.position.T[:2]
+    return np.sort(x[y < 0.3])[-3 * rows:].mean() + 0.5 * dx
+
+
 def measure(run, rows=1):
     """In 3D there are so many `rows` of particles across."""
     snapshots = run.snapshots()
     time = np.array([s.time for s in snapshots]) * np.sqrt(2 * 9.81)
     dx = np.sqrt(2 * rows / len(snapshots[0].position))
-    front = np.array([np.sort(s.position[s.position[:, 1] < 0.3, 0])[-3 * rows:].mean() for s in snapshots]) + 0.5 * dx
-    ours = np.interp(T, time, front)
+    ours = np.interp(T, time, [front(s, dx, rows) for s in snapshots])
     lead = np.mean(ours - Z)
     series = run.series()
     energy = sum(series[k] for k in series if k.startswith("energy"))
