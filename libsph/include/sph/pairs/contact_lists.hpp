@@ -94,6 +94,8 @@ class ContactLists {
 
   /// Histories of the contacts of owned rows, as entries { partner key, history as it acts on the row }.
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
+  /// What pack() has packed; build() must follow.
+  void forget_histories();
   /// Puts the entries back after build(); those of owned row r are in row order[r] of `payload`. Those whose
   /// pair has parted stay beside the lists. Returns what has found its place in either.
   ContactCensus unpack(const Particles& particles, const decomp::Payload& payload,
