@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -107,12 +106,6 @@ FieldSet GrainPairs::swept() const {
   FieldSet fields{Field::position, Field::velocity};
   if (spins_) fields |= FieldSet{Field::spin};
   return fields;
-}
-
-std::int64_t GrainPairs::touching() const {
-  std::int64_t n = 0;
-  for (std::uint8_t bits : lists_.pairs().touching) n += std::popcount(bits);
-  return n;
 }
 
 double GrainPairs::longest_way(const Particles& particles, const GlobalState& global) const {

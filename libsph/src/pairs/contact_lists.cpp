@@ -234,13 +234,4 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   walls_.facets.near.resize(walls_.facets.runs.empty() ? 0 : walls_.i.size());
 }
 
-std::size_t ContactLists::bytes() const {
-  std::size_t sum = blocks_.capacity() * sizeof(ContactBlock) +
-                    walls_.facets.runs.capacity() * sizeof(FacetRun) + walls_.facets.near.capacity() * 4;
-  for (const ContactGroups* g : {&pairs_, &walls_})
-    sum += (g->i.capacity() + g->j.capacity()) * 4 + g->touching.capacity() + g->history.capacity() * 8 +
-           g->asleep.capacity() * 8;
-  return sum;
-}
-
 }  // namespace sph

@@ -35,7 +35,6 @@ class GrainPairs final : public SetPair {
 
   [[nodiscard]] ContactLists& lists() { return lists_; }
   [[nodiscard]] const ContactLists& lists() const { return lists_; }
-  [[nodiscard]] std::int64_t touching() const;  ///< listed on this rank, walls not counted
   /// Fields of the halo that a sweep over them reads and that change with every step.
   [[nodiscard]] FieldSet swept() const;
   /// Of forces and torques on each of the rows.
