@@ -3,7 +3,6 @@
 
 large.py BUILD               grains (a settled bed, linear law) and the 3D dam break; 24 GiB of memory, a quarter of an hour
 large.py BUILD --largest N   only scenes of at most so many particles
-... --page                   writes the table of README.md
 
 Memory is the growth of the largest rank's peak from the smallest scene of a kind on, which leaves out what any run takes.
 A run makes its lists anew at least twice, once in a step, and ends with a snapshot and a checkpoint.
@@ -15,11 +14,10 @@ import time
 from pathlib import Path
 
 import grains
-import tables
 from speed import here, loop_seconds, run
 
 BEDS = {12_800: ((1, 1), 2000), 102_400: ((4, 2), 500), 1_024_000: ((10, 8), 100), 19_968_000: ((40, 39), 20)}
-POOLS = {16_000: (29, 500), 98_532: (14.5, 200), 1_000_000: (6.8, 40), 10_000_000: (3.16, 10)}  # spacing [mm], steps
+POOLS = {32_037: (29, 500), 172_836: (14.5, 200), 825_280: (8, 40), 11_156_305: (3.16, 10)}  # spacing [mm], steps
 
 
 def bed(work, tiles, steps):
@@ -63,23 +61,19 @@ def main():
     arguments.add_argument("build", type=Path)
     arguments.add_argument("--work", type=Path, default=here.parent / "build/beds")
     arguments.add_argument("--largest", type=int, default=10**9)
-    arguments.add_argument("--page", action="store_true")
     options = arguments.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     build = options.build.resolve()
     scenes = [("grains", n, *bed(options.work.resolve(), tiles, steps), steps) for n, (tiles, steps) in BEDS.items()]
     scenes += [("3D fluid, mixed", n, *pool(spacing), steps) for n, (spacing, steps) in POOLS.items()]
     header = ("", "particles", "start [s]", "ns a step and particle", "rebuilds a step", "bytes a particle", "output [MB/s]")
-    smallest, rows = {}, []
+    smallest = {}
     for kind, particles, scene, settings, steps in scenes:
         if particles > options.largest:
             continue
         began = time.monotonic()
         perf, left = measured(build, scene, settings, steps)
-        rows.append(row(kind, perf, left, smallest.setdefault(kind, perf)))
-        print(dict(zip(header, rows[-1])), f"{time.monotonic() - began:.0f} s", flush=True)
-    if options.page:
-        tables.write(here / "README.md", "large", tables.origin(tables.commit_of(build)), tables.markdown(header, rows))
+        print(dict(zip(header, row(kind, perf, left, smallest.setdefault(kind, perf)))), f"{time.monotonic() - began:.0f} s", flush=True)
 
 
 if __name__ == "__main__":
