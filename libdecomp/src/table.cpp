@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <stdexcept>
 
 #include "decomp/memory.hpp"
@@ -19,7 +20,7 @@ void Column::Free::operator()(std::byte* p) const noexcept { release_large(p); }
 
 void Column::reserve(std::size_t rows) {
   if (data_ && rows <= capacity_) return;
-  const std::size_t capacity = std::max(rows, capacity_ + capacity_ / 2);
+  const std::size_t capacity = std::max(rows, capacity_ + capacity_ / 8);
   const std::size_t bytes = capacity * width_ + padding;
   std::unique_ptr<std::byte[], Free> grown(static_cast<std::byte*>(allocate_large(bytes)));
   const std::size_t kept = capacity_ * width_;
@@ -41,8 +42,6 @@ int Table::add_column(std::string name, std::size_t width) {
   if (width == 0) throw std::logic_error("column '" + name + "' has no width");
   columns_.emplace_back(std::move(name), width);
   columns_.back().reserve(0);
-  const auto same_width = [&](const Column& c) { return c.width() == width; };
-  if (std::none_of(spare_.begin(), spare_.end(), same_width)) spare_.emplace_back("spare", width);
   return columns() - 1;
 }
 
@@ -61,18 +60,13 @@ void Table::resize(std::size_t owned, std::size_t halo) {
 }
 
 void Table::reorder(std::span<const std::uint32_t> order) {
+  std::map<std::size_t, Column> spare;  // one of each width
   for (Column& c : columns_) {
     const std::size_t width = c.width();
-    Column& spare =
-        *std::find_if(spare_.begin(), spare_.end(), [&](const Column& s) { return s.width() == width; });
-    // As large as the column it replaces, or the next resize would allocate again.
-    const std::size_t capacity = std::max(c.capacity(), order.size());
-    if (spare.capacity() < capacity) {
-      spare = Column("spare", width);
-      spare.reserve(capacity);
-    }
-    gather_rows(spare.data(), c.data(), order, width);
-    c.swap_data(spare);
+    Column& to = spare.try_emplace(width, "spare", width).first->second;
+    to.reserve(order.size() + halo_);  // or the next resize would take the column twice for a while
+    gather_rows(to.data(), c.data(), order, width);
+    c.swap_data(to);
   }
   owned_ = order.size();
   halo_ = 0;

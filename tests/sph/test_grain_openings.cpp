@@ -167,7 +167,7 @@ TEST(GrainOpenings, FacesAndOutletsDelete) {
   EXPECT_EQ(s.particle_count(), start - passages[0].count - passages[1].count);
   EXPECT_NEAR(column(s, "mass") + column(s, "mass_out"), mass, 1e-12 * mass);
   // No contact remembers one that is gone, or the census of contacts had ended the run; those that are left go on.
-  EXPECT_GT(s.grains()->pairs().touching(), 20);
+  EXPECT_GT(s.grains()->pairs().lists().pairs().contacts(), 20);
   EXPECT_GT(s.grains()->pairs().counters().carried, 0);
 }
 

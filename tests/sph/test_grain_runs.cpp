@@ -138,7 +138,7 @@ TEST(GrainRuns, SmoothGrainsNeitherSpinNorRemember) {
        {&simulation.grains()->pairs().lists().pairs(), &simulation.grains()->pairs().lists().walls()})
     EXPECT_EQ(groups->history.size(), 0U);
   EXPECT_EQ(bytes_of(grain_fields(rough), 3) - bytes_of(grain_fields(smooth), 3), 3 * sizeof(double));
-  EXPECT_GT(world().sum(simulation.grains()->pairs().touching()), 0);
+  EXPECT_GT(world().sum(simulation.grains()->pairs().lists().pairs().contacts()), 0);
   EXPECT_EQ(world().sum(simulation.grains()->pairs().counters().created), 0);  // nothing to count by
 }
 

@@ -274,7 +274,7 @@ Liveliness liveliness(const sph::Simulation& simulation) {
   for (std::size_t k = 0; k < passages.size(); ++k)
     (openings.comes_in(k) ? out.come : out.gone) += passages[k].count;
   if (const sph::Grains* grains = simulation.grains()) {
-    out.contacts = grains->pairs().touching();
+    out.contacts = grains->pairs().lists().pairs().contacts();
     out.contacts_begun = grains->pairs().counters().created;
     out.contacts_ended = grains->pairs().counters().ended;
     out.histories_kept = grains->pairs().counters().carried;

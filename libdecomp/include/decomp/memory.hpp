@@ -34,4 +34,10 @@ struct LargeAllocator {
 template <class T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
+/// Empties a vector and gives its memory back, which `v = {}` keeps.
+template <class Vector>
+void release(Vector& v) {
+  Vector().swap(v);
+}
+
 }  // namespace decomp

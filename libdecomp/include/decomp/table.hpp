@@ -63,7 +63,6 @@ class Table {
 
  private:
   std::vector<Column> columns_;
-  std::vector<Column> spare_;  ///< one scratch column per width, for reorder
   std::size_t owned_ = 0;
   std::size_t halo_ = 0;
 };

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
+#include "decomp/memory.hpp"
 #include "models/grain_texts.hpp"
 #include "sph/laws/contact/law.hpp"
 #include "sph/models/grain_limits.hpp"
@@ -24,19 +24,30 @@ GrainPairs::GrainPairs(std::size_t set, const Scene& scene, const PositionScale&
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
 }
 
+ContactSums& GrainPairs::sums(std::size_t rows) {
+  if (sums_.empty()) sums_.assign(rows * (spins_ ? 8 : 4), 0);
+  return sums_;
+}
+
+decomp::Payload GrainPairs::pack(const Particles& particles) const {
+  decomp::release(sums_);
+  return lists_.pack(particles);
+}
+
 decomp::Payload GrainPairs::send(const Particles& particles, decomp::Payload arrived) {
-  sums_ = {};  // while contacts travel, memory is at its peak
   if (held_)
     arrived = *std::exchange(held_, std::nullopt);
   else if (arrived.rows() == 0)
-    arrived = lists_.pack(particles);
+    arrived = pack(particles);
   sent_ = ContactLists::census(particles, arrived, lists_.history());
+  lists_.forget_histories();
+  listed_ = Places();
   return arrived;
 }
 
 void GrainPairs::turn_over(const Particles& particles, std::span<const std::uint64_t> gone,
                            std::span<const std::uint32_t> order, std::size_t come) {
-  decomp::Payload contacts = lists_.pack(particles);
+  decomp::Payload contacts = pack(particles);
   counters_.ended += forget_contacts(contacts, particles.data<Field::id>(), gone, lists_.history());
   contacts.reorder(order);
   contacts.offset.insert(contacts.offset.end(), come, contacts.offset.back());
@@ -44,7 +55,7 @@ void GrainPairs::turn_over(const Particles& particles, std::span<const std::uint
 }
 
 // Count and keys of the entries found are those that set out.
-void GrainPairs::rebuild(const Particles& particles, const ListSetting& s, const decomp::Payload& carried,
+void GrainPairs::rebuild(const Particles& particles, const ListSetting& s, decomp::Payload& carried,
                          std::span<const std::uint32_t> order) {
   ContactCensus found;
   Findings lost;
@@ -65,13 +76,14 @@ void GrainPairs::rebuild(const Particles& particles, const ListSetting& s, const
 }
 
 ContactCensus GrainPairs::find_pairs(const Particles& particles, const ListSetting& s,
-                                     const decomp::Payload& carried, std::span<const std::uint32_t> order) {
+                                     decomp::Payload& carried, std::span<const std::uint32_t> order) {
   // A wall that a later stage brings near must be listed in time: walls are looked for where they are now.
   const WallsNow walls = walls_->now(s.global);
   lists_.build(particles, s.grid, s.own_cells, s.radius, s.skin, scale_.quantum, s.ranges, fixed_, walls);
   const ContactCensus found = lists_.unpack(particles, carried, order, scale_.quantum, walls);
   counters_.carried += lists_.carried();
-  sums_.assign(particles.rows() * (spins_ ? 8 : 4), 0);
+  carried = decomp::Payload();
+  decomp::release(sums_);  // of the rows that were
   const std::int64_t* x = particles.data<Field::position>();
   listed_.grains.assign(x, x + particles.owned() * 3);
   listed_.walls.clear();
@@ -94,12 +106,6 @@ FieldSet GrainPairs::swept() const {
   FieldSet fields{Field::position, Field::velocity};
   if (spins_) fields |= FieldSet{Field::spin};
   return fields;
-}
-
-std::int64_t GrainPairs::touching() const {
-  std::int64_t n = 0;
-  for (std::uint8_t bits : lists_.pairs().touching) n += std::popcount(bits);
-  return n;
 }
 
 double GrainPairs::longest_way(const Particles& particles, const GlobalState& global) const {

@@ -31,7 +31,7 @@ double SphPairs::least_skin(const GlobalState& global) const {
                        rigid ? rigid->longest_look_back(global) : 0.0});
 }
 
-void SphPairs::rebuild(const Particles& p, const ListSetting& s, const decomp::Payload&,
+void SphPairs::rebuild(const Particles& p, const ListSetting& s, decomp::Payload&,
                        std::span<const std::uint32_t>) {
   GasReach* own = physics_->reach();
   if (own == nullptr) {

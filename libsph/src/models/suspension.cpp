@@ -92,7 +92,7 @@ Plan Suspension::plan() {
 
 // A grain may have left where lists were made by half a skin and a step, and on its way since the last flow it was at
 // most a cell away.
-void Suspension::rebuild(const Particles&, const ListSetting& s, const decomp::Payload&,
+void Suspension::rebuild(const Particles&, const ListSetting& s, decomp::Payload&,
                          std::span<const std::uint32_t>) {
   grid_.follow(s.partition, 0.5 * s.skin + longest_grain_move(*scene_) +
                                 most_cells * *std::ranges::max_element(cells_.edge));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "decomp/memory.hpp"
 #include "files/fill_file.hpp"
 #include "files/packed_rows.hpp"
 #include "files/sorted_table.hpp"
@@ -52,7 +53,7 @@ decomp::Table copy(const Particles& particles, const std::vector<Field>& fields,
     if (from.size() != particles.owned() * column.width())
       throw std::logic_error("column " + e.name + " of the snapshot does not have one value per owned row");
     if (!from.empty()) std::memcpy(column.data(), from.data(), from.size());
-    e.values = {};
+    decomp::release(e.values);
   }
   return table;
 }
@@ -76,7 +77,7 @@ decomp::Table table_of(ContactColumns contacts) {
   const auto fill = [&](auto& values) {
     decomp::Column& column = table.column(to++);
     if (!values.empty()) std::memcpy(column.data(), values.data(), rows * column.width());
-    values = {};
+    decomp::release(values);
   };
   fill(contacts.id);
   fill(contacts.partner);

@@ -98,6 +98,14 @@ decomp::Payload ContactLists::pack(const Particles& p) const {
   return payload;
 }
 
+void ContactLists::forget_histories() {
+  for (ContactGroups* g : {&pairs_, &walls_}) {
+    decomp::release(g->touching);
+    decomp::release(g->history);
+    decomp::release(g->asleep);
+  }
+}
+
 ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& payload,
                                    std::span<const std::uint32_t> order, double quantum,
                                    const WallsNow& walls) {

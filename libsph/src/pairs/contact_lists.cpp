@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <optional>
 #include <tuple>
 
 #include "pairs/candidates.hpp"
@@ -12,17 +13,6 @@ namespace sph {
 namespace {
 
 constexpr std::size_t lanes = ContactGroups::lanes;
-/// Radii in the order of the bins and in their units, each with half of what lists reach beyond: the skin, and
-/// the rounding of positions to float (the bins' limit is 1 and that).
-std::vector<float> reaches(const Particles& p, const CellBins& bins, double skin, double unit) {
-  std::vector<float> out(p.rows() + CellBins::padding, 0.0f);
-  const double* radius = p.data<Field::radius>();
-  const float slack = 0.5f * (bins.limit() - 1.0f);
-  for (std::size_t k = 0; k < p.rows(); ++k)
-    out[k] = static_cast<float>((radius[bins.rows()[k]] + 0.5 * skin) / unit) + slack;
-  return out;
-}
-
 /// Appends to groups of contacts whose old entries are overwritten, not cleared.
 class Writer {
  public:
@@ -59,6 +49,39 @@ class Writer {
  private:
   ContactGroups& g_;
   std::size_t n_ = 0;
+};
+
+/// Finds the partners of rows, one row after the other.
+class PartnerFinder {
+ public:
+  PartnerFinder(const Particles& p, const decomp::CellGrid& grid, const decomp::Box& own_cells,
+                std::int64_t reach, double skin, double quantum)
+      : bins_(p, grid, own_cells, reach), reaches_(p.rows() + CellBins::padding, 0.0f) {
+    // In the order of the bins and in their units, each with half of what lists reach beyond: the skin, and the
+    // rounding of positions to float (the bins' limit is 1 and that).
+    const double* radius = p.data<Field::radius>();
+    const double unit = static_cast<double>(reach) * quantum;
+    const float slack = 0.5f * (bins_.limit() - 1.0f);
+    for (std::size_t k = 0; k < p.rows(); ++k)
+      reaches_[k] = static_cast<float>((radius[bins_.rows()[k]] + 0.5 * skin) / unit) + slack;
+  }
+
+  /// Those above `row`, after what `pairs` has.
+  [[nodiscard]] std::span<std::uint32_t> find(std::uint32_t row, Writer& pairs) {
+    if (bins_.bin(row) != cell_) runs_ = bins_.runs(cell_ = bins_.bin(row), all_runs_);
+    const std::size_t place = bins_.place(row);
+    const float at[3] = {bins_.x(0)[place], bins_.x(1)[place], bins_.x(2)[place]};
+    std::uint32_t* const partner = pairs.partners(CandidateTable::room(runs_));
+    const CandidateTable candidates{bins_, bins_.rows().data(), reaches_.data()};
+    return {partner, candidates.find<3, Keep::above>(runs_, at, reaches_[place], row, partner)};
+  }
+
+ private:
+  CellBins bins_;
+  std::vector<float> reaches_;
+  std::uint32_t cell_ = ~std::uint32_t{0};
+  CellBins::Runs all_runs_;
+  std::span<const CellBins::Run> runs_;
 };
 
 /// Pairs of a block that do not touch, until those of all blocks that do are written.
@@ -164,9 +187,7 @@ class WallFinder {
 void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const decomp::Box& own_cells,
                          std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
                          const std::vector<bool>& fixed, const WallsNow& now) {
-  const CellBins bins(p, grid, own_cells, reach);
-  const std::vector<float> reach_of = reaches(p, bins, skin, static_cast<double>(reach) * quantum);
-  const CandidateTable candidates{bins, bins.rows().data(), reach_of.data()};
+  std::optional<PartnerFinder> partners(std::in_place, p, grid, own_cells, reach, skin, quantum);
   const auto* group = p.data<Field::group>();
   const auto* x = p.data<Field::position>();
   const double* radius = p.data<Field::radius>();
@@ -176,9 +197,6 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   numbers_ = WallNumbers(now.planes.size(), now.meshes);
   WallFinder finder(now, numbers_, quantum, walls, walls_.facets);
   listed_ = 0;
-  std::uint32_t cell = ~std::uint32_t{0};
-  CellBins::Runs all_runs;
-  std::span<const CellBins::Run> runs;
   for (const RowRange& range : ranges) {
     if (&range == &ranges[static_cast<std::size_t>(RowClass::boundary_movers)])
       interior_blocks_ = blocks_.size();
@@ -191,17 +209,13 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
                          {walls_.facets.runs.size(), 0}};
       for (std::uint32_t row = block.first; row < block.last; ++row) {
         const bool is_fixed = fixed[group[row]];
-        if (bins.bin(row) != cell) runs = bins.runs(cell = bins.bin(row), all_runs);
-        const std::size_t place = bins.place(row);
-        const float at[3] = {bins.x(0)[place], bins.x(1)[place], bins.x(2)[place]};
-        std::uint32_t* const partner = pairs.partners(CandidateTable::room(runs));
-        std::size_t n = candidates.find<3, Keep::above>(runs, at, reach_of[place], row, partner);
-        if (is_fixed)
-          n = static_cast<std::size_t>(
-              std::remove_if(partner, partner + n, [&](std::uint32_t j) { return fixed[group[j]]; }) -
-              partner);
-        listed_ += n;
-        pairs.add(row, apart.take(row, {partner, n}));
+        std::span<std::uint32_t> found = partners->find(row, pairs);
+        if (is_fixed) {
+          const auto rest = std::ranges::remove_if(found, [&](std::uint32_t j) { return fixed[group[j]]; });
+          found = {found.begin(), rest.begin()};
+        }
+        listed_ += found.size();
+        pairs.add(row, apart.take(row, found));
         if (!is_fixed) finder.add(row, x + row * 3, radius[row] + skin);
       }
       pairs.pad(block.first, block.first);
@@ -213,19 +227,11 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
       blocks_.push_back(block);
     }
   }
+  partners.reset();  // before histories come, as memory is at its peak here
   apart.append_to(pairs, blocks_);
   pairs.finish(history_);
   walls.finish(history_);
   walls_.facets.near.resize(walls_.facets.runs.empty() ? 0 : walls_.i.size());
-}
-
-std::size_t ContactLists::bytes() const {
-  std::size_t sum = blocks_.capacity() * sizeof(ContactBlock) +
-                    walls_.facets.runs.capacity() * sizeof(FacetRun) + walls_.facets.near.capacity() * 4;
-  for (const ContactGroups* g : {&pairs_, &walls_})
-    sum += (g->i.capacity() + g->j.capacity()) * 4 + g->touching.capacity() + g->history.capacity() * 8 +
-           g->asleep.capacity() * 8;
-  return sum;
 }
 
 }  // namespace sph

@@ -32,6 +32,15 @@ void transpose_lists(const std::uint32_t* lists, std::size_t stride, std::size_t
 #endif
 }
 
+/// For `more` entries, of a row after `done` of `rows`. Lists that grew by doubling would be there three times for a while.
+void make_room(decomp::LargeVector<std::uint32_t>& entries, std::size_t more, std::size_t done,
+               std::size_t rows) {
+  constexpr std::size_t some = 4096;  // rows that tell how long lists are
+  const std::size_t size = entries.size() + more;
+  if (size <= entries.capacity() || done < some) return;
+  entries.reserve(size + size / done * (rows - done) + size / 8);
+}
+
 }  // namespace
 
 // Entries are tags (ranks by id, or rows) until finish() turns them into rows; short lists end in no_partner.
@@ -76,6 +85,7 @@ void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>
                   lists.begin() + static_cast<std::ptrdiff_t>(l * stride + (longest + 7) / 8 * 8),
                   no_partner);
       const std::size_t start = entries_.size();
+      make_room(entries_, longest * lanes, first, ranges.back().last);
       entries_.resize(start + longest * lanes);
       transpose_lists(lists.data(), stride, lanes, longest, entries_.data() + start);
       begin_.push_back(entries_.size());

@@ -139,7 +139,7 @@ NeighbourCounts neighbours_of(const Simulation& s, const std::vector<SetRows>& r
   std::array<std::int64_t, 2> pairs{};  // listed, near
   if (s.grains() != nullptr) {
     pairs[0] += static_cast<std::int64_t>(s.grains()->pairs().lists().listed());
-    pairs[1] += s.grains()->pairs().touching();
+    pairs[1] += s.grains()->pairs().lists().pairs().contacts();
   }
   if (s.physics() != nullptr) {
     pairs[0] += static_cast<std::int64_t>(s.lists().pairs());

@@ -20,14 +20,15 @@
 namespace sph {
 namespace {
 
-// Largest resident memory of runs, less the 28 MB of a program without particles, over their particles: 450
-// bytes in 2D (fields 100, 27 neighbours), 1060 in 3D (196, 86), 550 of grains (100, 3.4 contacts). Besides
-// fields and lists that is: rows of the passes, lists while they grow, tables for files.
-constexpr double field_factor = 1.7;
-constexpr double bytes_of_neighbour = 8;
-constexpr double sum_factor = 2;
+// Largest resident memory of runs, less the 28 MB of a program without particles, over their particles: 410
+// bytes in 2D (fields 100, 27 neighbours), 800 in 3D (228, 86), 540 of grains (100, 3.4 contacts). Besides
+// fields and lists that is: rows of the passes, tables for files, contacts that travel.
+constexpr double field_factor = 1.1;
+constexpr double bytes_of_neighbour = 4;
+constexpr double bytes_of_uneven_neighbour = 8;  ///< lists of a gas are there twice while they are made
+constexpr double sum_factor = 1;
 constexpr double contact_factor = 1.5;
-constexpr double bytes_of_row = 50;  ///< bins, order
+constexpr double bytes_of_row = 200;  ///< of passes, bins, order, files
 /// A settled bed lists about so many pairs a grain, once each.
 constexpr double contacts_of_grain = 3.4;
 /// Place along the curve, and two bits in each of five tables of what is occupied.
@@ -59,7 +60,8 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
   for (std::size_t g = 0; scene.has_grains_in_flow() && g < scene.groups.size(); ++g)
     if (scene.groups[g].kind == GroupKind::grain) grains += static_cast<double>(count.by_group[g]);
   // Kernels of a gas are mostly as wide as at the start, and lists go by each.
-  const double range = has_eos(scene, EosKind::ideal_gas) ? scene.kernel_radius() : scene.list_range();
+  const bool uneven = has_eos(scene, EosKind::ideal_gas);
+  const double range = uneven ? scene.kernel_radius() : scene.list_range();
   const double neighbours =
       parts.physics ? neighbours_within(scene, range + scene.support() * scene.decomposition.skin) : 0;
   const bool dense = 4 * need.cells < 1e18 && Occupied::dense(static_cast<std::size_t>(4 * need.cells),
@@ -76,7 +78,7 @@ MemoryNeed memory_need(const Scene& scene, const Parts& parts, const decomp::Cel
                      contact_factor * contacts_of_grain * (8 + 8 * fusion.history);
       if (parts.drag) of_particle += bytes_of_neighbour * neighbours;
     } else {
-      of_particle += bytes_of_neighbour * neighbours;
+      of_particle += (uneven ? bytes_of_uneven_neighbour : bytes_of_neighbour) * neighbours;
       if (has_bonds(scene))
         of_particle += bytes_of_neighbour *
                        neighbours_within(

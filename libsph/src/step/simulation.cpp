@@ -94,7 +94,7 @@ void Simulation::rebuild() {
   for (ParticleSet& set : sets) set.exchange.forget();
   for (const SetPair* pair : parts_.pairs) refresh_halo(pair->constants(), pair->set());
   for (SetPair* pair : parts_.pairs) {
-    const Distribution::Carried& with = carried[pair->set()];
+    Distribution::Carried& with = carried[pair->set()];
     pair->rebuild(particles(pair->set()), list_setting(*pair), with.payload, with.order);
   }
   age_.renew();

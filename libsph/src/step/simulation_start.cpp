@@ -183,6 +183,7 @@ void Simulation::settle() {
 void Simulation::approach(Settling& settling, std::size_t set) {
   constexpr int most = 100;
   constexpr double rounding = 1e-13;
+  decomp::Payload nothing;
   for (int k = 0; k < most; ++k) {
     settling.prepare(sets_[set].particles);
     sets_[set].changed(settling.prepares);
@@ -191,7 +192,7 @@ void Simulation::approach(Settling& settling, std::size_t set) {
     comm_.max(change);
     refresh_halo(settling.settles, set);
     for (SetPair* pair : parts_.pairs)
-      if (pair->set() == set) pair->rebuild(particles(set), list_setting(*pair), {}, {});
+      if (pair->set() == set) pair->rebuild(particles(set), list_setting(*pair), nothing, {});
     if (change[0] < rounding) break;
   }
 }

@@ -37,7 +37,7 @@ std::int64_t State::particle_count() const {
 decomp::Payload State::contacts() const {
   if (grains() == nullptr) return {};
   const std::size_t set = parts_.grains->set();
-  return unite(grains()->pairs().lists().pack(particles(set)), sets_, set);
+  return unite(grains()->pairs().pack(particles(set)), sets_, set);
 }
 
 std::string State::fingerprint() const {

@@ -59,7 +59,7 @@ class Drag final : public Model, public SetPair {
   // As a pair of sets: of each grain, those of the halo included, the fluid around it.
   [[nodiscard]] std::size_t set() const { return Model::set(); }
   [[nodiscard]] FieldSet constants() const override { return {Field::id, Field::position, Field::radius}; }
-  void rebuild(const Particles& grains, const ListSetting& setting, const decomp::Payload&,
+  void rebuild(const Particles& grains, const ListSetting& setting, decomp::Payload&,
                std::span<const std::uint32_t>) override {
     near_.rebuild(grains, setting);
   }

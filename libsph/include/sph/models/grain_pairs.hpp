@@ -24,7 +24,7 @@ class GrainPairs final : public SetPair {
   }
   [[nodiscard]] bool carries() const override { return true; }
   [[nodiscard]] decomp::Payload send(const Particles& particles, decomp::Payload arrived) override;
-  void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
+  void rebuild(const Particles& particles, const ListSetting& setting, decomp::Payload& carried,
                std::span<const std::uint32_t> order) override;
   void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
 
@@ -35,11 +35,12 @@ class GrainPairs final : public SetPair {
 
   [[nodiscard]] ContactLists& lists() { return lists_; }
   [[nodiscard]] const ContactLists& lists() const { return lists_; }
-  [[nodiscard]] std::int64_t touching() const;  ///< listed on this rank, walls not counted
   /// Fields of the halo that a sweep over them reads and that change with every step.
   [[nodiscard]] FieldSet swept() const;
-  /// Of forces and torques on each row.
-  [[nodiscard]] ContactSums& sums() { return sums_; }
+  /// Of forces and torques on each of the rows.
+  [[nodiscard]] ContactSums& sums(std::size_t rows);
+  /// As ContactLists has it; between steps.
+  [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
   /// The longest way of this rank's grains, or of a wall, since the lists were made [m].
   [[nodiscard]] double longest_way(const Particles& particles, const GlobalState& global) const;
 
@@ -58,8 +59,7 @@ class GrainPairs final : public SetPair {
   /// Contacts that the lists do not hold though their pairs cannot have parted so far.
   void find_lost(const Particles& particles, const GlobalState& global, double skin, Findings& lost) const;
   [[nodiscard]] ContactCensus find_pairs(const Particles& particles, const ListSetting& setting,
-                                         const decomp::Payload& carried,
-                                         std::span<const std::uint32_t> order);
+                                         decomp::Payload& carried, std::span<const std::uint32_t> order);
 
   const Scene* scene_;
   PositionScale scale_;
@@ -67,7 +67,8 @@ class GrainPairs final : public SetPair {
   ContactLists lists_;
   std::vector<bool> fixed_;
   bool spins_;  ///< grains do
-  ContactSums sums_;
+  mutable ContactSums
+      sums_;  ///< zeros between steps; not there while contacts are packed, when memory is at its peak
   std::optional<decomp::Payload> held_;  ///< contacts of rows that are not those of the lists
   ContactCensus sent_;                   ///< of what travels
   struct Places {

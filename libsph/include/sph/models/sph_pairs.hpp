@@ -19,7 +19,7 @@ class SphPairs final : public SetPair {
     return {Field::id, Field::position, Field::displacement, Field::smoothing_length, Field::group};
   }
   [[nodiscard]] double least_skin(const GlobalState& global) const override;
-  void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
+  void rebuild(const Particles& particles, const ListSetting& setting, decomp::Payload& carried,
                std::span<const std::uint32_t> order) override;
   void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
 

@@ -40,7 +40,7 @@ class Suspension final : public Model, public SetPair {
   // As a pair of sets.
   [[nodiscard]] std::size_t set() const { return Model::set(); }
   [[nodiscard]] FieldSet constants() const override { return {}; }
-  void rebuild(const Particles& grains, const ListSetting& setting, const decomp::Payload&,
+  void rebuild(const Particles& grains, const ListSetting& setting, decomp::Payload&,
                std::span<const std::uint32_t>) override;
   void count(const RowRanges&, std::span<std::uint32_t>) const override {}
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -56,6 +57,12 @@ struct ContactGroups {
   std::vector<double> asleep;
   FacetRuns facets;  ///< of walls
   [[nodiscard]] std::size_t groups() const { return touching.size(); }
+  /// Lanes that touched.
+  [[nodiscard]] std::int64_t contacts() const {
+    std::int64_t n = 0;
+    for (const std::uint8_t bits : touching) n += std::popcount(bits);
+    return n;
+  }
 };
 
 /// Consecutive rows of one class and the groups of pairs that belong to them.
@@ -94,6 +101,8 @@ class ContactLists {
 
   /// Histories of the contacts of owned rows, as entries { partner key, history as it acts on the row }.
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
+  /// What pack() has packed; build() must follow.
+  void forget_histories();
   /// Puts the entries back after build(); those of owned row r are in row order[r] of `payload`. Those whose
   /// pair has parted stay beside the lists. Returns what has found its place in either.
   ContactCensus unpack(const Particles& particles, const decomp::Payload& payload,
@@ -128,7 +137,6 @@ class ContactLists {
   [[nodiscard]] const ContactGroups& walls() const { return walls_; }
   [[nodiscard]] const WallNumbers& numbers() const { return numbers_; }  ///< of walls
   [[nodiscard]] std::size_t listed() const { return listed_; }  ///< pairs of grains, padding not counted
-  [[nodiscard]] std::size_t bytes() const;
 
  private:
   std::vector<Parity> parities_;

@@ -64,7 +64,6 @@ class NeighbourLists {
     return {entries_.data() + begin_[b], entries_.data() + begin_[b + 1]};
   }
   [[nodiscard]] std::size_t pairs() const { return pairs_; }  ///< directed pairs listed, padding not counted
-  [[nodiscard]] std::size_t bytes() const { return entries_.capacity() * 4 + begin_.capacity() * 8; }
 
  private:
   template <int D>

@@ -48,9 +48,9 @@ class SetPair {
   [[nodiscard]] virtual bool carries() const { return false; }
   /// What is to travel, before rows move; `arrived` where it has come from a checkpoint.
   [[nodiscard]] virtual decomp::Payload send(const Particles&, decomp::Payload arrived) { return arrived; }
-  /// New lists after rows have moved. What travelled with row r is that of row order[r] in `carried`. Collective;
-  /// throws GuardError if anything was lost on its way.
-  virtual void rebuild(const Particles& particles, const ListSetting& setting, const decomp::Payload& carried,
+  /// New lists after rows have moved. What travelled with row r is that of row order[r] in `carried`, which the pair that it
+  /// is of empties. Collective; throws GuardError if anything was lost on its way.
+  virtual void rebuild(const Particles& particles, const ListSetting& setting, decomp::Payload& carried,
                        std::span<const std::uint32_t> order) = 0;
   /// How many entries are looked at for each owned row, as far as blocks tell: what it costs.
   virtual void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const = 0;
