@@ -54,7 +54,9 @@ def main():
         held = series["budget_mass"] + series["budget_mass_out"] - series["budget_mass_in"]
         print(f"mass, less what came, with what left: off by at most {abs(held - held[0]).max() / series['budget_mass_in'][-1]:.1e} of that")
         there = series["budget_n_in"] - series["budget_n_out"]
-        fills = sum(a < b > c for a, b, c in zip(there[::100], there[50::100], there[100::100]))
+        cycle = round(CYCLE / STEP / ROWS)
+        cycles = there[:len(there) // cycle * cycle].reshape(-1, cycle)
+        fills = sum((cycles.max(1) > 0.8 * there.max()) & (cycles.min(1) < 0.5 * there.max()))
         print(f"filled and emptied {fills} times, {there.min():.0f} to {there.max():.0f} more than at the start")
         same = one.perf["fingerprint"] == many.perf["fingerprint"]
         print(f"one rank, and 1 to 3 ranks over {LEGS - 1} restarts: {'the same bits' if same else 'OTHER BITS'}, {one.perf['fingerprint']}")
