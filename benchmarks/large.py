@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """What a particle costs in scenes of ten thousand to tens of millions, on one rank: time of a step, memory, output.
 
-large.py BUILD               grains (a settled bed, linear law) and the 3D dam break; 24 GiB of memory, a quarter of an hour
+large.py BUILD               grains (a settled bed, linear law) and the 3D dam break; the largest take 9 GB
 large.py BUILD --largest N   only scenes of at most so many particles
 
-Memory is the growth of the largest rank's peak from the smallest scene of a kind on, which leaves out what any run takes.
+Memory is the growth of the peak from the scene before, which leaves out what any run takes.
 A run makes its lists anew at least twice, once in a step, and ends with a snapshot and a checkpoint.
 """
 import argparse
@@ -44,12 +44,12 @@ def measured(build, scene, settings, steps):
         return json.loads(Path(out, "run/perf.json").read_text()), left
 
 
-def row(kind, perf, left, smallest):
+def row(kind, perf, left, before):
     particles = perf["particles"]
     memory = "-"
-    if particles > smallest["particles"]:
-        growth = perf["peak_rank_bytes"] - smallest["peak_rank_bytes"]
-        memory = f"{growth / (particles - smallest['particles']):.0f}"
+    if before:
+        growth = perf["peak_rank_bytes"] - before["peak_rank_bytes"]
+        memory = f"{growth / (particles - before['particles']):.0f}"
     output = perf["seconds"]["output"]["max"]
     nanoseconds = 1e9 * loop_seconds(perf) / perf["steps"] / particles
     return [kind, f"{particles:,}", f"{perf['setup_seconds']:.1f}", f"{nanoseconds:.0f}", f"{perf['rebuilds'] / perf['steps']:.3f}",
@@ -67,13 +67,14 @@ def main():
     scenes = [("grains", n, *bed(options.work.resolve(), tiles, steps), steps) for n, (tiles, steps) in BEDS.items()]
     scenes += [("3D fluid, mixed", n, *pool(spacing), steps) for n, (spacing, steps) in POOLS.items()]
     header = ("", "particles", "start [s]", "ns a step and particle", "rebuilds a step", "bytes a particle", "output [MB/s]")
-    smallest = {}
+    last = {}  # of a kind
     for kind, particles, scene, settings, steps in scenes:
         if particles > options.largest:
             continue
         began = time.monotonic()
         perf, left = measured(build, scene, settings, steps)
-        print(dict(zip(header, row(kind, perf, left, smallest.setdefault(kind, perf)))), f"{time.monotonic() - began:.0f} s", flush=True)
+        print(dict(zip(header, row(kind, perf, left, last.get(kind)))), f"{time.monotonic() - began:.0f} s", flush=True)
+        last[kind] = perf
 
 
 if __name__ == "__main__":
