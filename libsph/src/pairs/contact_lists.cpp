@@ -211,8 +211,8 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
         const bool is_fixed = fixed[group[row]];
         std::span<std::uint32_t> found = partners->find(row, pairs);
         if (is_fixed) {
-          const auto rest = std::ranges::remove_if(found, [&](std::uint32_t j) { return fixed[group[j]]; });
-          found = {found.begin(), rest.begin()};
+          const auto neither_moves = [&](std::uint32_t j) { return fixed[group[j]]; };
+          found = {found.begin(), std::remove_if(found.begin(), found.end(), neither_moves)};
         }
         listed_ += found.size();
         pairs.add(row, apart.take(row, found));
