@@ -69,7 +69,7 @@ void keep_only(const Rows& stay, Table& table, Payload* payload) {
     table.resize(stay.size(), 0);
     return;
   }
-  table.reorder(stay, Columns::carried);
+  table.reorder(stay);
   if (payload != nullptr) payload->reorder(stay);
 }
 

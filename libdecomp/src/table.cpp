@@ -37,18 +37,17 @@ void Column::swap_data(Column& other) noexcept {
   std::swap(capacity_, other.capacity_);
 }
 
-int Table::add_column(std::string name, std::size_t width, bool carried) {
+int Table::add_column(std::string name, std::size_t width) {
   if (rows() != 0) throw std::logic_error("column '" + name + "' added to a table that has rows");
   if (width == 0) throw std::logic_error("column '" + name + "' has no width");
-  columns_.emplace_back(std::move(name), width, carried);
+  columns_.emplace_back(std::move(name), width);
   columns_.back().reserve(0);
   return columns() - 1;
 }
 
-std::size_t Table::carried_bytes() const {
+std::size_t Table::row_bytes() const {
   std::size_t sum = 0;
-  for (const Column& c : columns_)
-    if (c.carried()) sum += c.width();
+  for (const Column& c : columns_) sum += c.width();
   return sum;
 }
 
@@ -60,23 +59,15 @@ void Table::resize(std::size_t owned, std::size_t halo) {
   halo_ = halo;
 }
 
-void Table::reorder(std::span<const std::uint32_t> order, Columns which) {
-  const auto moves = [&](const Column& c) { return which == Columns::all || c.carried(); };
-  std::map<std::size_t, Column*> free;  // one of each width: a column that stays behind, or a spare one
-  std::map<std::size_t, Column> spare;
-  for (Column& c : columns_)
-    if (!moves(c)) free[c.width()] = &c;
+void Table::reorder(std::span<const std::uint32_t> order) {
+  std::map<std::size_t, Column> spare;  // one of each width
   for (Column& c : columns_) {
-    if (!moves(c)) continue;
     const std::size_t width = c.width();
-    Column*& to = free[width];
-    if (to == nullptr) to = &spare.try_emplace(width, "spare", width).first->second;
-    to->reserve(order.size() + halo_);  // or the next resize would take the column twice for a while
-    gather_rows(to->data(), c.data(), order, width);
-    c.swap_data(*to);
+    Column& to = spare.try_emplace(width, "spare", width).first->second;
+    to.reserve(order.size() + halo_);  // or the next resize would take the column twice for a while
+    gather_rows(to.data(), c.data(), order, width);
+    c.swap_data(to);
   }
-  for (Column& c : columns_)
-    if (!moves(c)) poison(c.data(), c.capacity() * c.width());
   owned_ = order.size();
   halo_ = 0;
 }

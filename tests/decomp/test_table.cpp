@@ -75,7 +75,7 @@ TEST(Column, swaps_storage) {
 TEST(Table, knows_its_shape) {
   Table table = make_table(2);
   EXPECT_EQ(table.columns(), 2 + static_cast<int>(value_widths.size()));
-  EXPECT_EQ(table.carried_bytes(), 8U + 16U + 1 + 4 + 5 + 8 + 12 + 16 + 24 + 32 + 48);
+  EXPECT_EQ(table.row_bytes(), 8U + 16U + 1 + 4 + 5 + 8 + 12 + 16 + 24 + 32 + 48);
   EXPECT_EQ(table.rows(), 0U);
   table.resize(5, 3);
   EXPECT_EQ(table.owned(), 5U);
@@ -110,27 +110,6 @@ TEST(Table, reorder_moves_every_column_and_may_drop_rows) {
     EXPECT_EQ(table.halo(), 0U);
     expect_rows(table, moved);
     ids = moved;
-  }
-}
-
-TEST(Table, what_is_not_carried_lends_its_room_to_what_is) {
-  Table table;
-  const int id = table.add_column("id", 8), scratch = table.add_column("scratch", 8, false);
-  const int value = table.add_column("value", 4), sum = table.add_column("sum", 24, false);
-  table.resize(100, 0);
-  for (std::uint32_t r = 0; r < 100; ++r)
-    table.as<std::uint64_t>(id)[r] = table.as<std::uint32_t>(value)[r] = r;
-  EXPECT_EQ(table.carried_bytes(), 12U);
-  const std::byte* lent = table.column(scratch).data();
-  const std::byte* untouched = table.column(sum).data();
-  std::vector<std::uint32_t> order(100);
-  std::iota(order.rbegin(), order.rend(), 0U);
-  table.reorder(order, Columns::carried);
-  EXPECT_EQ(table.column(id).data(), lent);
-  EXPECT_EQ(table.column(sum).data(), untouched);
-  for (std::uint32_t r = 0; r < 100; ++r) {
-    EXPECT_EQ(table.as<std::uint64_t>(id)[r], 99 - r);
-    EXPECT_EQ(table.as<std::uint32_t>(value)[r], 99 - r);
   }
 }
 

@@ -15,11 +15,9 @@ namespace decomp {
 /// starts at any row may be read past the end without leaving the allocation.
 class Column {
  public:
-  Column(std::string name, std::size_t width, bool carried = true)
-      : name_(std::move(name)), width_(width), carried_(carried) {}
+  Column(std::string name, std::size_t width) : name_(std::move(name)), width_(width) {}
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::size_t width() const { return width_; }
-  [[nodiscard]] bool carried() const { return carried_; }
   [[nodiscard]] std::byte* data() { return data_.get(); }
   [[nodiscard]] const std::byte* data() const { return data_.get(); }
   [[nodiscard]] std::size_t capacity() const { return capacity_; }  ///< rows
@@ -32,22 +30,18 @@ class Column {
   };
   std::string name_;
   std::size_t width_;
-  bool carried_;
   std::size_t capacity_ = 0;
   std::unique_ptr<std::byte[], Free> data_;
 };
 
-enum class Columns : std::uint8_t { all, carried };
-
 class Table {
  public:
-  /// Returns the new column's index. Only while the table is empty. What is not `carried` stays behind when rows go
-  /// to another rank or are sorted for a new list: it is computed anew before anyone reads it.
-  int add_column(std::string name, std::size_t width, bool carried = true);
+  /// Returns the new column's index. Only while the table is empty.
+  int add_column(std::string name, std::size_t width);
   [[nodiscard]] int columns() const { return static_cast<int>(columns_.size()); }
   [[nodiscard]] Column& column(int c) { return columns_[static_cast<std::size_t>(c)]; }
   [[nodiscard]] const Column& column(int c) const { return columns_[static_cast<std::size_t>(c)]; }
-  [[nodiscard]] std::size_t carried_bytes() const;  ///< of a row: widths of the columns that are carried
+  [[nodiscard]] std::size_t row_bytes() const;  ///< sum of widths
 
   [[nodiscard]] std::size_t owned() const { return owned_; }
   [[nodiscard]] std::size_t halo() const { return halo_; }
@@ -55,8 +49,8 @@ class Table {
   /// Grows or shrinks; contents of rows that stay are kept, new rows are unspecified.
   void resize(std::size_t owned, std::size_t halo);
   /// Owned row r becomes old row order[r]; order.size() is the new number of owned rows (may be smaller:
-  /// rows not named are dropped). Halo rows are dropped. Of columns that are not among `which` the contents are unspecified.
-  void reorder(std::span<const std::uint32_t> order, Columns which = Columns::all);
+  /// rows not named are dropped). Halo rows are dropped.
+  void reorder(std::span<const std::uint32_t> order);
 
   template <class T>
   [[nodiscard]] T* as(int c) {

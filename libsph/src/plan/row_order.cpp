@@ -84,7 +84,7 @@ RowOrder::Sorted RowOrder::sort(ParticleSet& set, const decomp::JaggedPartition&
   std::vector<std::uint32_t> order = counting_sort(bucket, occupied, particles.data<Field::id>(), start);
   for (std::size_t c = 0; c < 4; ++c)
     set.ranges[c] = {start[occupied.before(c * cells)], start[occupied.before((c + 1) * cells)], 0};
-  particles.table().reorder(order, decomp::Columns::carried);
+  particles.table().reorder(order);
   return {std::move(order), to_face};
 }
 
