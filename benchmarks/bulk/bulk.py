@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Bulk behaviour of grains against experiments and published simulations; numbers, and pictures in PICTURES.
 
-    bulk.py [BUILD] [--cases column repose incline stable_wedge quiet hopper sandbox] [--work DIR] [--jobs 2] [--pictures DIR]
+    bulk.py [BUILD] [--cases column repose cone drum incline stable_wedge quiet hopper sandbox] [--work DIR] [--jobs 2] [--pictures DIR]
     ... --page              writes the tables of README.md, one a case
 
 Each run takes one core, a minute or several; all of `sandbox` takes an hour of them. Runs that have come to
@@ -21,13 +21,13 @@ from runs import Runner, here, source  # noqa: E402
 import manifest  # noqa: E402
 import tables  # noqa: E402
 
-CASES = {"column": 2, "repose": 1, "incline": 2, "stable_wedge": 2, "quiet": 1, "sandbox": 1, "hopper": 2}  # and the panels of its picture
+CASES = {"column": 2, "repose": 1, "cone": 1, "drum": 1, "incline": 2, "stable_wedge": 2, "quiet": 1, "sandbox": 1, "hopper": 2}  # and the panels of its picture
 
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("build", type=Path, nargs="?", default=source / "build")
-    arguments.add_argument("--cases", nargs="+", choices=CASES, default=["column", "repose", "incline", "stable_wedge", "quiet", "hopper"])
+    arguments.add_argument("--cases", nargs="+", choices=CASES, default=[case for case in CASES if case != "sandbox"])
     arguments.add_argument("--work", type=Path, default=source / "build/bulk")
     arguments.add_argument("--jobs", type=int, default=2)
     arguments.add_argument("--pictures", type=Path, default=here)

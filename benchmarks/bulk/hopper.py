@@ -1,37 +1,20 @@
 """Silo with a round hole, flat-bottomed, of triangles: rate of discharge against the hole's width (Beverloo et al. 1961)."""
 
-from math import cos, pi, sin
-
 import numpy as np
 
+from rings import widened, write_rings
 from runs import Series, exponent, snapshots
 
 DIAMETER, GRAVITY = 2e-3, 9.81  # mean of the grains [m]
 HOLES = (6, 7.5, 9, 10.5, 12)  # [diameters]
-RADIUS, HEIGHT, SIDES = 30, 120, 72  # of the silo [mm]
+RADIUS, HEIGHT = 30, 120  # of the silo [mm]
 OPENS, STEADY = 0.3, 0.15  # [s]: from OPENS + STEADY on the rate is measured
 EMPTY = 1.4  # k: a ring of k d / 2 along the edge of the hole is empty
 
 
-def write_rings(path, rings):
-    """Sheets between rings (radius, height), one after the other; a radius of 0 is a point."""
-    with open(path, "w") as out:
-        for radius, height in rings:
-            for k in range(SIDES):
-                out.write(f"v {radius * cos(2 * pi * k / SIDES):.9g} {radius * sin(2 * pi * k / SIDES):.9g} {height}\n")
-        for ring in range(len(rings) - 1):
-            for k in range(SIDES):
-                a, b = ring * SIDES + k + 1, ring * SIDES + (k + 1) % SIDES + 1
-                out.write(f"f {a} {b} {b + SIDES}\n")
-                if rings[ring + 1][0] > 0:
-                    out.write(f"f {a} {b + SIDES} {a + SIDES}\n")
-
-
 def settings(work, hole):
-    half = hole * DIAMETER * 1e3 / 2
+    half = widened(hole * DIAMETER * 1e3 / 2)
     silo, plug = work / f"silo_{hole}.obj", work / f"plug_{hole}.obj"
-    # The hole as wide as asked: a polygon's mean radius is that of its corners times 1 - (pi / SIDES)^2 / 3.
-    half /= 1 - (pi / SIDES) ** 2 / 3
     write_rings(silo, [(RADIUS, HEIGHT), (RADIUS, 0), (half, 0)])
     write_rings(plug, [(1.2 * half, 0), (0, 0)])
     return [f"mesh.silo.file={silo}", f"mesh.plug.file={plug}"]

@@ -6,6 +6,7 @@
 import importlib
 import shutil
 import sys
+import tracemalloc
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -70,6 +71,23 @@ class Package(Case):
             self.assertIsNot(run[1], snapshot)
         with self.assertRaises(ValueError):
             before[0] = 0
+
+    def test_open_holds_no_snapshot_however_many_there_are(self):
+        def peak(count):
+            folder = self.folder / f"many_{count}"
+            folder.mkdir()
+            for k in range(count):
+                (folder / f"snapshot_{k}.h5").hardlink_to(file)
+            tracemalloc.start()
+            run = self.peperite.open(folder)
+            opened = tracemalloc.get_traced_memory()[1]
+            sum(snapshot["position"].sum() for snapshot in run)
+            used = tracemalloc.get_traced_memory()[1]
+            tracemalloc.stop()
+            return np.array([opened, used])
+        file = self.open("grains").files[-1]
+        few, many = peak(2), peak(1002)
+        self.assertLess(max(many - few) / 1000, 1000, "bytes a snapshot: paths alone")
 
     def test_times(self):
         run = self.open("grains")

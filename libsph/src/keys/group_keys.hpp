@@ -375,8 +375,8 @@ inline constexpr auto group_keys = std::to_array<Key>({
     {"friction", Number{dimension::none, not_negative}, "Coulomb's mu.",
      at<&Group::grain, &GrainMaterial::friction>, grain},
     {"rolling_friction", Number{dimension::none, not_negative},
-     "mu_r: the arm of the rolling resistance in radii.", at<&Group::grain, &GrainMaterial::rolling_friction>,
-     grain},
+     "mu_r: the arm of the rolling resistance in effective radii r_1 r_2 / (r_1 + r_2), against walls in r.",
+     at<&Group::grain, &GrainMaterial::rolling_friction>, grain},
 });
 inline constexpr Table<Group> group{
     {"group", true,

@@ -19,7 +19,7 @@ inline constexpr auto decomposition_keys = std::to_array<Key>({
      Number{dimension::none,
             up_to(2, "it is a fraction of the kernel's radius (of grains: the largest diameter),")},
      "Margin of the neighbour lists, in kernel radii, of grains in largest diameters.",
-     at<&Decomposition::skin>, Default{"0.2; of grains 0.06"}},
+     at<&Decomposition::skin>},
     {"rebuild_every", count,
      "0: lists are rebuilt when a particle may leave the skin; n: also every n steps.",
      at<&Decomposition::rebuild_every>},

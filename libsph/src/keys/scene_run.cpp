@@ -137,10 +137,8 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
 }  // namespace
 
 Decomposition read_decomposition(const DecompositionReader& table, const Scene& scene) {
-  constexpr double skin_of_grains = 0.06;  // they stay where they are: short lists count for more
   Decomposition d;
   d.cut_axes = read_cut_axes(table, scene);
-  if (scene.of_grains()) d.skin = skin_of_grains;
   table.read(d);
   if (d.cuts == CutRule::replay && d.replay.empty())
     table.fail_missing("replay", "balance = \"replay\" needs the file of recorded cuts");
