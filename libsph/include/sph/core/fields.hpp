@@ -33,9 +33,9 @@ enum class Type : std::uint8_t { f64, i64, u64, u32 };
 /// the factor of sums of V_j grad W, of V_i V_j grad W, or of the density diffusion. none: no term sums it.
 enum class SumScale : std::uint8_t { none, one, gradient, force, diffusion };
 
-/// state: its bits at the start of a step determine the next step, so it is migrated, checkpointed and
-/// fingerprinted. derived: recomputed from state wherever it is needed; migrated never. `snapshot`: written
-/// to snapshots when the scene allocates it.
+/// state: its bits at the start of a step determine the next step, so it is checkpointed and fingerprinted.
+/// derived: computed from state in each step, before it is read; it goes with its row where lists are made in
+/// between. `snapshot`: written to snapshots when the scene allocates it.
 struct FieldInfo {
   Field field;
   std::string_view name;
