@@ -10,17 +10,15 @@ def widened(radius):
     return radius / (1 - (pi / SIDES) ** 2 / 3)
 
 
-def write_rings(path, *sheets):
-    """Each sheet goes through its rings (radius, height) one after the other; a radius of 0 is a point."""
-    vertices, facets = [], []
-    for rings in sheets:
-        first = len(vertices) + 1
-        vertices += [(radius * cos(2 * pi * k / SIDES), radius * sin(2 * pi * k / SIDES), height) for radius, height in rings for k in range(SIDES)]
-        for ring in range(len(rings) - 1):
-            for k in range(SIDES):
-                a, b = first + ring * SIDES + k, first + ring * SIDES + (k + 1) % SIDES
-                if rings[ring][0] > 0:
-                    facets.append((a, b, b + SIDES))
-                if rings[ring + 1][0] > 0:
-                    facets.append((a, b + SIDES, a + SIDES))
+def write_rings(path, rings):
+    """Sheets between rings (radius, height), one after the other; a radius of 0 is a point."""
+    vertices = [(radius * cos(2 * pi * k / SIDES), radius * sin(2 * pi * k / SIDES), height) for radius, height in rings for k in range(SIDES)]
+    facets = []
+    for ring in range(len(rings) - 1):
+        for k in range(SIDES):
+            a, b = ring * SIDES + k + 1, ring * SIDES + (k + 1) % SIDES + 1
+            if rings[ring][0] > 0:
+                facets.append((a, b, b + SIDES))
+            if rings[ring + 1][0] > 0:
+                facets.append((a, b + SIDES, a + SIDES))
     path.write_text("".join(f"v {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in vertices) + "".join(f"f {a} {b} {c}\n" for a, b, c in facets))

@@ -110,6 +110,7 @@ TEST(GrainScene, Defaults) {
   EXPECT_EQ(s.dim, 3);
   EXPECT_EQ(s.support(), 0.02);
   EXPECT_EQ(s.start.spacing, 1.1 * 0.02);
+  EXPECT_EQ(s.decomposition.skin, 0.2);
   EXPECT_FALSE(s.time.dt.has_value());
   EXPECT_EQ(s.grains.contact.law->word, "linear");
   sph::ContactControl plain;
