@@ -22,7 +22,7 @@ using V3 = V[3];
 template <class F>
 V lanes(F value) {
   V v = V::zero();
-  for (int l = 0; l < V::lanes; ++l) v.v[l] = value(l);
+  for (int l = 0; l < V::lanes; ++l) v.set(l, value(l));
   return v;
 }
 

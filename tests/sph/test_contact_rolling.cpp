@@ -91,7 +91,7 @@ TEST(ContactRolling, DashpotIsTheFractionOfTheCriticalOne) {
     p.step();
     for (int l = 0; l < V::lanes; ++l) {
       const double period = 2 * std::numbers::pi / (omega * std::sqrt(1 - eta[l] * eta[l]));
-      if (n == static_cast<int>(std::lround(period / p.dt[0]))) amplitude.v[l] = p.j.w[2][l];
+      if (n == static_cast<int>(std::lround(period / p.dt[0]))) amplitude.set(l, p.j.w[2][l]);
     }
   }
   for (int l = 0; l < V::lanes; ++l) {

@@ -12,7 +12,6 @@ namespace sph {
 namespace {
 
 using V = Simd<double>;
-using Native = V::Native;
 
 struct Lanes {
   BubblyFormulas<V> law;
@@ -22,10 +21,10 @@ struct Lanes {
 
 Lanes load(const Group& g, const EosRows& rows, std::size_t first, std::size_t last) {
   V m, rho;
-  for (std::size_t l = 0; l < V::lanes; ++l) {
-    const std::size_t i = std::min(first + l, last - 1);
-    m.v[l] = rows.gas_content[i];
-    rho.v[l] = rows.density[i];
+  for (int l = 0; l < V::lanes; ++l) {
+    const std::size_t i = std::min(first + static_cast<std::size_t>(l), last - 1);
+    m.set(l, rows.gas_content[i]);
+    rho.set(l, rows.density[i]);
   }
   const BubblyFormulas<V> law{g.density,
                               g.eos.bulk_modulus,
@@ -34,8 +33,8 @@ Lanes load(const Group& g, const EosRows& rows, std::size_t first, std::size_t l
                               g.bubbly.solubility_exponent,
                               m};
   const auto [pressure, density] = law.saturation();
-  const Int64x8 usual = (m.v > 0) & (rho.v > 0) & (rho.v < density.v) & (pressure.v > 0) &
-                        (pressure.v < (g.bubbly.gas_rt * density).v);
+  const Int64x8 usual =
+      (m > 0) & (rho > 0) & (rho < density) & (pressure > 0) & (pressure < g.bubbly.gas_rt * density);
   return {law, rho, pressure, usual};
 }
 
@@ -48,20 +47,20 @@ bool any(const Int64x8& mask) {
 /// BubblyEos::invert() of the usual lanes; those that it does not come to an end with are usual no more.
 V invert(Lanes& of) {
   V p = min(of.law.first_guess(of.rho, of.p_sat), of.p_sat), low = V::zero(), high = of.p_sat;
-  Int64x8 open = of.usual & (p.v > 0);
+  Int64x8 open = of.usual & (p > 0);
   of.usual = open;
   for (int step = 0; step < most_bubbly_steps && any(open); ++step) {
     const auto [h, slope] = of.law.balance(of.rho, p);
-    low.v = (open & (h.v > 0)) ? p.v : low.v;
-    high.v = (open & ~(h.v > 0)) ? p.v : high.v;
-    const Native next = (p - p * (h / slope)).v, change = next - p.v;
-    const Int64x8 near = open & ((change < 0 ? -change : change) <= (bubbly_tolerance * p).v);
-    const Native inside = next < low.v ? low.v : high.v < next ? high.v : next;
-    const Native middle = (0.5 * (low + high)).v;
-    p.v = near ? inside : open ? (((next > low.v) & (next < high.v)) ? next : middle) : p.v;
-    open &= ~near & (p.v > 0);
+    low = choose(open & (h > 0), p, low);
+    high = choose(open & ~(h > 0), p, high);
+    const V next = p - p * (h / slope), change = next - p;
+    const Int64x8 near = open & (choose(change < 0, -change, change) <= bubbly_tolerance * p);
+    const V inside = choose(next < low, low, choose(high < next, high, next));
+    const V trial = choose((next > low) & (next < high), next, 0.5 * (low + high));
+    p = choose(near, inside, choose(open, trial, p));
+    open = open & ~near & (p > 0);
   }
-  of.usual &= ~open & (p.v > 0) & (p.v < of.p_sat.v);
+  of.usual = of.usual & ~open & (p > 0) & (p < of.p_sat);
   return p;
 }
 
@@ -69,14 +68,14 @@ void derive_rows(const Group& g, const EosRows& rows, std::size_t first, std::si
   Lanes lanes = load(g, rows, first, last);
   const V p = invert(lanes), sound = lanes.law.sound_speed(p), psi = lanes.law.void_fraction(p);
   for (std::size_t i = first; i < last; ++i) {
-    const std::size_t l = i - first;
+    const int l = static_cast<int>(i - first);
     if (lanes.usual[l] == 0) {
       BubblyMagma::derive_row(bubbly_eos(g, rows.gas_content[i]), rows, i);
       continue;
     }
-    rows.pressure[i] = p.v[l] - rows.surface_pressure;
-    if (rows.sound_speed != nullptr) rows.sound_speed[i] = sound.v[l];
-    if (rows.void_fraction != nullptr) rows.void_fraction[i] = psi.v[l];
+    rows.pressure[i] = p[l] - rows.surface_pressure;
+    if (rows.sound_speed != nullptr) rows.sound_speed[i] = sound[l];
+    if (rows.void_fraction != nullptr) rows.void_fraction[i] = psi[l];
   }
 }
 

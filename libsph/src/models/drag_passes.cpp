@@ -168,16 +168,13 @@ void Drag::push_fluid(StepState& s, Side side) {
     V quanta = V::zero();
     for (int a = 0; a < 3; ++a) {
       const std::size_t component = i * 3 + static_cast<std::size_t>(a);
-      quanta.v[a] = quanta_a_weight(force[component], share[i]);
-      quanta.v[3 + a] = quanta_a_weight(on_grain[component], share[i]);
+      quanta.set(a, quanta_a_weight(force[component], share[i]));
+      quanta.set(3 + a, quanta_a_weight(on_grain[component], share[i]));
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (rows[k] >= fluid.owned()) continue;
       std::int64_t* at = deposits_.data() + std::size_t{rows[k]} * V::lanes;
-      Int64x8 sum;
-      std::memcpy(&sum, at, sizeof sum);
-      sum -= to_integers(quanta * V(near_.weights()[k]));
-      std::memcpy(at, &sum, sizeof sum);
+      (Int64x8::load(at) - to_integers(quanta * V(near_.weights()[k]))).store(at);
     }
   });
   if (side == Side::interior) return;

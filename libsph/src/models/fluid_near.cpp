@@ -23,7 +23,7 @@ using V = Simd<double>;
 #if defined(__AVX512F__) && defined(__AVX512VL__)
   const auto mask = static_cast<__mmask8>(wanted), out = static_cast<__mmask8>((1u << n) - 1);
   const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index));
-  _mm512_mask_storeu_pd(values, out, _mm512_maskz_compress_pd(mask, std::bit_cast<__m512d>(value.v)));
+  _mm512_mask_storeu_pd(values, out, _mm512_maskz_compress_pd(mask, value.as<__m512d>()));
   _mm256_mask_storeu_epi32(indices, out, _mm256_maskz_compress_epi32(mask, all));
 #else
   std::size_t k = 0;
@@ -41,7 +41,7 @@ template <class Kernel>
 std::size_t find_within(std::span<const std::uint32_t> listed, const std::int64_t* x, const std::int64_t* at,
                         double unit, double factor, double* kernel, std::uint32_t* rows) {
   V own[3];
-  for (int a = 0; a < 3; ++a) own[a] = V(std::bit_cast<V::Native>(Int64x8{} + at[a]));
+  for (int a = 0; a < 3; ++a) own[a] = Int64x8(at[a]).bits<double>();
   std::size_t n = 0;
   for (std::size_t k = 0; k < listed.size(); k += V::lanes) {
     const std::uint32_t* index = listed.data() + k;

@@ -17,19 +17,14 @@ constexpr std::size_t chunk = CandidateTable::chunk;
 /// Turns `lanes` lists of `longest` entries, stored one after the other `stride` apart, into the SIMD order.
 void transpose_lists(const std::uint32_t* lists, std::size_t stride, std::size_t lanes, std::size_t longest,
                      std::uint32_t* out) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
   std::uint32_t index[chunk];
   for (std::size_t l = 0; l < chunk; ++l) index[l] = static_cast<std::uint32_t>(l % lanes);
-  for (std::size_t k = 0; k < longest; k += 8) {
-    Simd<float> column[8];
-    simd_detail::load8(reinterpret_cast<const float*>(lists) + k, stride, index, column);
-    for (std::size_t c = 0; c < 8 && k + c < longest; ++c)
-      std::memcpy(out + (k + c) * lanes, &column[c].v, lanes * 4);
+  for (std::size_t k = 0; k < longest; k += 4) {
+    Simd<float> column[4];
+    simd_detail::load4(reinterpret_cast<const float*>(lists) + k, stride, index, column);
+    for (std::size_t c = 0; c < 4 && k + c < longest; ++c)
+      std::memcpy(out + (k + c) * lanes, &column[c], lanes * 4);
   }
-#else
-  for (std::size_t k = 0; k < longest; ++k)
-    for (std::size_t l = 0; l < lanes; ++l) out[k * lanes + l] = lists[l * stride + k];
-#endif
 }
 
 /// For `more` entries, of a row after `done` of `rows`. Lists that grew by doubling would be there three times for a while.

@@ -49,7 +49,7 @@ class Hash {
 /// A particle a lane: x, y, volume, pressure.
 template <class T>
 std::array<Simd<T>, 4> random_particles(Random& random) {
-  using Bits = typename SimdTraits<T>::IntScalar;
+  using Bits = typename Simd<T>::Bits;
   constexpr double range = 0x1p20;  // of a coordinate, in units
   constexpr std::size_t lanes = Simd<T>::lanes;
   std::array<std::array<T, lanes>, 4> value;
@@ -60,7 +60,7 @@ std::array<Simd<T>, 4> random_particles(Random& random) {
     value[3][l] = static_cast<T>(1e5 * (random.unit() - 0.3));
   }
   std::array<Simd<T>, 4> out;
-  for (std::size_t k = 0; k < 4; ++k) std::memcpy(&out[k].v, value[k].data(), sizeof out[k].v);
+  for (std::size_t k = 0; k < 4; ++k) out[k] = Simd<T>::load(value[k].data());
   return out;
 }
 

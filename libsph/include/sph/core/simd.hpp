@@ -15,7 +15,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <type_traits>
+#include <utility>
 
 #include "sph/core/fixed_point.hpp"
 
@@ -29,175 +31,189 @@ inline constexpr int register_bytes = 32;
 inline constexpr int register_bytes = 16;
 #endif
 
-template <class T>
-struct Simd;
-
-template <class T>
-struct SimdTraits;
-template <>
-struct SimdTraits<float> {
-  typedef float Native __attribute__((vector_size(64)));
-  typedef std::int32_t Int __attribute__((vector_size(64)));
-  using IntScalar = std::int32_t;
-};
-template <>
-struct SimdTraits<double> {
-  typedef double Native __attribute__((vector_size(64)));
-  typedef std::int64_t Int __attribute__((vector_size(64)));
-  using IntScalar = std::int64_t;
-};
-
-/// 64 bytes in pieces that registers hold: g++ does arithmetic on what is longer piece by piece, but compares, chooses and
-/// converts it lane by lane.
-template <class T>
-struct Pieces {
-  typedef T Piece __attribute__((vector_size(register_bytes)));
-  static constexpr int count = 64 / register_bytes;
-  Piece piece[count];
-};
-
-/// Arithmetic is lane by lane; comparisons give masks for select().
+/// Sixteen floats, eight doubles, or as many integers, in pieces that registers hold. A vector type longer than a register would
+/// be one line where this is many, but g++ keeps such vectors in memory, and compares, chooses and converts them lane by
+/// lane. Arithmetic is lane by lane; comparisons give masks, 0 or -1 in each lane.
 template <class T>
 struct Simd {
+  typedef T Piece __attribute__((vector_size(register_bytes)));
   static constexpr int lanes = 64 / static_cast<int>(sizeof(T));
-  using Native = typename SimdTraits<T>::Native;
-  using Int = typename SimdTraits<T>::Int;
-  Native v;
+  static constexpr int pieces = 64 / register_bytes, piece_lanes = lanes / pieces;
+  using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+  using Int = Simd<Bits>;
+  Piece piece[pieces];
 
   Simd() = default;
-  Simd(T scalar) : v(spread(scalar)) {}
-  explicit Simd(Native native) : v(native) {}
-  static Simd zero() { return Simd(Native{}); }
-
-  T operator[](int lane) const { return v[lane]; }
-
-  friend Simd operator+(Simd a, Simd b) { return Simd(a.v + b.v); }
-  friend Simd operator-(Simd a, Simd b) { return Simd(a.v - b.v); }
-  friend Simd operator*(Simd a, Simd b) { return Simd(a.v * b.v); }
-  friend Simd operator/(Simd a, Simd b) { return Simd(a.v / b.v); }
-  friend Simd operator-(Simd a) { return Simd(-a.v); }
-  Simd& operator+=(Simd b) {
-    v += b.v;
-    return *this;
+  [[gnu::always_inline]] Simd(T scalar) {
+    // x - 0 is x for every x, -0.0 included
+    for_pieces([&](int k) { piece[k] = scalar - Piece{}; });
   }
-  Simd& operator-=(Simd b) {
-    v -= b.v;
-    return *this;
+  static Simd zero() { return Simd(T{}); }
+  /// From memory, however aligned.
+  [[gnu::always_inline]] static Simd load(const T* from) {
+    Simd out;
+    for_pieces([&](int k) { std::memcpy(&out.piece[k], from + k * piece_lanes, sizeof(Piece)); });
+    return out;
+  }
+  [[gnu::always_inline]] void store(T* to) const {
+    for_pieces([&](int k) { std::memcpy(to + k * piece_lanes, &piece[k], sizeof(Piece)); });
+  }
+  /// From registers as intrinsics have them, and back.
+  template <class... Register>
+  [[gnu::always_inline]] static Simd of(Register... r) {
+    static_assert(sizeof...(Register) == pieces);
+    return Simd{from_pieces{}, std::bit_cast<Piece>(r)...};
+  }
+  template <class Register>
+  [[gnu::always_inline]] Register as(int k = 0) const {
+    return std::bit_cast<Register>(piece[k]);
   }
 
+  [[gnu::always_inline]] T operator[](int lane) const {
+    return piece[lane / piece_lanes][lane % piece_lanes];
+  }
+  [[gnu::always_inline]] void set(int lane, T x) { piece[lane / piece_lanes][lane % piece_lanes] = x; }
+
+  /// function(piece, those of others ...) of every piece.
+  template <class To = T, class Function, class... More>
+  [[gnu::always_inline]] Simd<To> each(Function function, const More&... more) const {
+    Simd<To> out;
+    for_pieces([&](int k) {
+      // clang's masks are of long long
+      out.piece[k] = std::bit_cast<typename Simd<To>::Piece>(function(piece[k], more.piece[k]...));
+    });
+    return out;
+  }
+  /// The same bits in lanes of another type.
+  template <class To>
+  [[gnu::always_inline]] Simd<To> bits() const {
+    return each<To>([](Piece x) { return x; });
+  }
+
+  friend Simd operator+(Simd a, Simd b) { return a.each(std::plus<>{}, b); }
+  friend Simd operator-(Simd a, Simd b) { return a.each(std::minus<>{}, b); }
+  friend Simd operator*(Simd a, Simd b) { return a.each(std::multiplies<>{}, b); }
+  friend Simd operator/(Simd a, Simd b) { return a.each(std::divides<>{}, b); }
+  friend Simd operator-(Simd a) { return a.each(std::negate<>{}); }
+  friend Simd operator&(Simd a, Simd b) { return a.each(std::bit_and<>{}, b); }
+  friend Simd operator~(Simd a) { return a.each(std::bit_not<>{}); }
+  friend Int operator<(Simd a, Simd b) { return a.template each<Bits>(std::less<>{}, b); }
+  friend Int operator<=(Simd a, Simd b) { return a.template each<Bits>(std::less_equal<>{}, b); }
+  friend Int operator>(Simd a, Simd b) { return b < a; }
+  Simd& operator+=(Simd b) { return *this = *this + b; }
+  Simd& operator-=(Simd b) { return *this = *this - b; }
+
+  /// a where the mask is set, elsewhere b.
+  friend Simd choose(Int mask, Simd a, Simd b) {
+    return mask.template each<T>([](auto m, Piece x, Piece y) { return m ? x : y; }, a, b);
+  }
   /// Where the two are equal / a < b: x, elsewhere +0.
   friend Simd where_equal(Simd a, Simd b, Simd x) {
-    return piecewise([](auto p, auto q, auto y) { return keep(p == q, y); }, a, b, x);
+    return a.each([](Piece p, Piece q, Piece y) { return keep(p == q, y); }, b, x);
   }
   friend Simd where_less(Simd a, Simd b, Simd x) {
-    return piecewise([](auto p, auto q, auto y) { return keep(p < q, y); }, a, b, x);
+    return a.each([](Piece p, Piece q, Piece y) { return keep(p < q, y); }, b, x);
   }
 
   friend Simd max(Simd a, Simd b) {
+    return a.each(
+        [](Piece x, Piece y) {
 #if defined(__AVX512F__)
-    if constexpr (sizeof(T) == 4)
-      return Simd(
-          std::bit_cast<Native>(_mm512_max_ps(std::bit_cast<__m512>(a.v), std::bit_cast<__m512>(b.v))));
-    else
-      return Simd(
-          std::bit_cast<Native>(_mm512_max_pd(std::bit_cast<__m512d>(a.v), std::bit_cast<__m512d>(b.v))));
+          if constexpr (sizeof(T) == 4)
+            return std::bit_cast<Piece>(_mm512_max_ps(std::bit_cast<__m512>(x), std::bit_cast<__m512>(y)));
+          else
+            return std::bit_cast<Piece>(_mm512_max_pd(std::bit_cast<__m512d>(x), std::bit_cast<__m512d>(y)));
+#elif defined(__AVX2__)
+          if constexpr (sizeof(T) == 4)
+            return std::bit_cast<Piece>(_mm256_max_ps(std::bit_cast<__m256>(x), std::bit_cast<__m256>(y)));
+          else
+            return std::bit_cast<Piece>(_mm256_max_pd(std::bit_cast<__m256d>(x), std::bit_cast<__m256d>(y)));
 #else
-    return piecewise([](auto x, auto y) { return x > y ? x : y; }, a, b);
+          return x > y ? x : y;
 #endif
+        },
+        b);
   }
   friend Simd min(Simd a, Simd b) {
+    return a.each(
+        [](Piece x, Piece y) {
 #if defined(__AVX512F__)
-    if constexpr (sizeof(T) == 4)
-      return Simd(
-          std::bit_cast<Native>(_mm512_min_ps(std::bit_cast<__m512>(a.v), std::bit_cast<__m512>(b.v))));
-    else
-      return Simd(
-          std::bit_cast<Native>(_mm512_min_pd(std::bit_cast<__m512d>(a.v), std::bit_cast<__m512d>(b.v))));
+          if constexpr (sizeof(T) == 4)
+            return std::bit_cast<Piece>(_mm512_min_ps(std::bit_cast<__m512>(x), std::bit_cast<__m512>(y)));
+          else
+            return std::bit_cast<Piece>(_mm512_min_pd(std::bit_cast<__m512d>(x), std::bit_cast<__m512d>(y)));
+#elif defined(__AVX2__)
+          if constexpr (sizeof(T) == 4)
+            return std::bit_cast<Piece>(_mm256_min_ps(std::bit_cast<__m256>(x), std::bit_cast<__m256>(y)));
+          else
+            return std::bit_cast<Piece>(_mm256_min_pd(std::bit_cast<__m256d>(x), std::bit_cast<__m256d>(y)));
 #else
-    return piecewise([](auto x, auto y) { return x < y ? x : y; }, a, b);
+          return x < y ? x : y;
 #endif
+        },
+        b);
   }
   friend Simd sqrt(Simd a) {
+    return a.each([](Piece x) {
 #if defined(__AVX512F__)
-    if constexpr (sizeof(T) == 4)
-      return Simd(std::bit_cast<Native>(_mm512_sqrt_ps(std::bit_cast<__m512>(a.v))));
-    else
-      return Simd(std::bit_cast<Native>(_mm512_sqrt_pd(std::bit_cast<__m512d>(a.v))));
+      if constexpr (sizeof(T) == 4)
+        return std::bit_cast<Piece>(_mm512_sqrt_ps(std::bit_cast<__m512>(x)));
+      else
+        return std::bit_cast<Piece>(_mm512_sqrt_pd(std::bit_cast<__m512d>(x)));
 #elif defined(__AVX2__)
-    return piecewise(
-        [](auto x) {
-          if constexpr (sizeof(T) == 4)
-            return std::bit_cast<decltype(x)>(_mm256_sqrt_ps(std::bit_cast<__m256>(x)));
-          else
-            return std::bit_cast<decltype(x)>(_mm256_sqrt_pd(std::bit_cast<__m256d>(x)));
-        },
-        a);
+      if constexpr (sizeof(T) == 4)
+        return std::bit_cast<Piece>(_mm256_sqrt_ps(std::bit_cast<__m256>(x)));
+      else
+        return std::bit_cast<Piece>(_mm256_sqrt_pd(std::bit_cast<__m256d>(x)));
 #else
-    Native r;
-    for (int l = 0; l < lanes; ++l) r[l] = std::sqrt(a.v[l]);
-    return Simd(r);
+      for (int l = 0; l < piece_lanes; ++l) x[l] = std::sqrt(x[l]);
+      return x;
 #endif
+    });
   }
 
  private:
-  [[gnu::always_inline]] static Native spread(T scalar) {
-    Pieces<T> out;
-    // x - 0 is x for every x, -0.0 included
-    for (int k = 0; k < Pieces<T>::count; ++k) out.piece[k] = scalar - typename Pieces<T>::Piece{};
-    return std::bit_cast<Native>(out);
+  /// Not a loop: arrays that loops index stay in memory until g++ has unrolled these, which is late.
+  template <class Work>
+  [[gnu::always_inline]] static void for_pieces(Work work) {
+    [&]<int... k>(std::integer_sequence<int, k...>) { (work(k), ...); }
+    (std::make_integer_sequence<int, pieces>{});
   }
-  template <class Mask, class Piece>
+  struct from_pieces {};
+  template <class... Of>
+  [[gnu::always_inline]] Simd(from_pieces, Of... of) : piece{of...} {}
+  template <class Mask>
   [[gnu::always_inline]] static Piece keep(Mask mask, Piece x) {
     return std::bit_cast<Piece>(mask & std::bit_cast<Mask>(x));
-  }
-  template <class Function, class... More>
-  [[gnu::always_inline]] static Simd piecewise(Function&& function, More... of) {
-    return pieces_of(function, std::bit_cast<Pieces<T>>(of.v)...);
-  }
-  template <class Function, class... More>
-  [[gnu::always_inline]] static Simd pieces_of(Function&& function, const More&... of) {
-    Pieces<T> out;
-    for (int k = 0; k < Pieces<T>::count; ++k) out.piece[k] = function(of.piece[k]...);
-    return Simd(std::bit_cast<Native>(out));
   }
 };
 
 /// Difference b - a of two rows' fixed-point coordinates, stored in the bits of Simd<T>, as a number of
 /// units. Modular, hence exact while the true distance is below 2^31 (float) or 2^51 (double) units.
 inline Simd<float> coordinate_difference(Simd<float> a, Simd<float> b) {
-  using Int = Simd<float>::Int;
-  typedef std::uint32_t Unsigned __attribute__((vector_size(64)));
-  const Int d = std::bit_cast<Int>(std::bit_cast<Unsigned>(b.v) - std::bit_cast<Unsigned>(a.v));
-  const auto pieces = std::bit_cast<Pieces<std::int32_t>>(d);
-  Pieces<float> out;
-  for (int k = 0; k < out.count; ++k)
-    out.piece[k] = __builtin_convertvector(pieces.piece[k], Pieces<float>::Piece);
-  return Simd<float>(std::bit_cast<Simd<float>::Native>(out));
+  const auto d = (b.bits<std::uint32_t>() - a.bits<std::uint32_t>()).bits<std::int32_t>();
+  return d.each<float>([](auto x) { return __builtin_convertvector(x, Simd<float>::Piece); });
 }
 inline Simd<double> coordinate_difference(Simd<double> a, Simd<double> b) {
   using Int = Simd<double>::Int;
-  const Int d = std::bit_cast<Int>(b.v) - std::bit_cast<Int>(a.v);
+  const Int d = b.bits<std::int64_t>() - a.bits<std::int64_t>();
 #if defined(__AVX512DQ__)
-  return Simd<double>(__builtin_convertvector(d, Simd<double>::Native));
+  return d.each<double>([](auto x) { return __builtin_convertvector(x, Simd<double>::Piece); });
 #else
   // 1.5 * 2^52: adding |d| < 2^51 to its bits adds d to its value, exactly.
   constexpr double magic = 6755399441055744.0;
-  const Int bits = d + std::bit_cast<std::int64_t>(magic);
-  return Simd<double>(std::bit_cast<Simd<double>::Native>(bits) - magic);
+  return (d + Int(std::bit_cast<std::int64_t>(magic))).bits<double>() - magic;
 #endif
 }
 
 /// Difference b - a of two stored coordinates, stored like them.
 inline Simd<float> stored_difference(Simd<float> a, Simd<float> b) {
-  typedef std::uint32_t Unsigned __attribute__((vector_size(64)));
-  return Simd<float>(
-      std::bit_cast<Simd<float>::Native>(std::bit_cast<Unsigned>(b.v) - std::bit_cast<Unsigned>(a.v)));
+  return (b.bits<std::uint32_t>() - a.bits<std::uint32_t>()).bits<float>();
 }
 inline Simd<double> stored_difference(Simd<double> a, Simd<double> b) {
-  using Int = Simd<double>::Int;
-  return Simd<double>(std::bit_cast<Simd<double>::Native>(std::bit_cast<Int>(b.v) - std::bit_cast<Int>(a.v)));
+  return (b.bits<std::int64_t>() - a.bits<std::int64_t>()).bits<double>();
 }
 
-using Int64x8 = SimdTraits<double>::Int;
+using Int64x8 = Simd<std::int64_t>;
 
 }  // namespace sph

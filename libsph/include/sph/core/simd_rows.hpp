@@ -33,8 +33,8 @@ namespace simd_detail {
   transpose_quarters(a);
   transpose_quarters(b);
   for (int k = 0; k < 4; ++k) {
-    out[k].v = std::bit_cast<Simd<float>::Native>(_mm512_shuffle_f32x4(a[k], b[k], 0x88));
-    out[k + 4].v = std::bit_cast<Simd<float>::Native>(_mm512_shuffle_f32x4(a[k], b[k], 0xdd));
+    out[k] = Simd<float>::of(_mm512_shuffle_f32x4(a[k], b[k], 0x88));
+    out[k + 4] = Simd<float>::of(_mm512_shuffle_f32x4(a[k], b[k], 0xdd));
   }
 }
 
@@ -49,7 +49,7 @@ namespace simd_detail {
     r[k] = _mm512_mask_broadcast_f32x4(r[k], 0xf000, _mm_loadu_ps(row(k + 12)));
   }
   transpose_quarters(r);
-  for (int k = 0; k < 4; ++k) out[k].v = std::bit_cast<Simd<float>::Native>(r[k]);
+  for (int k = 0; k < 4; ++k) out[k] = Simd<float>::of(r[k]);
 }
 
 [[gnu::always_inline]] inline void load4(const double* base, std::size_t stride, const std::uint32_t* index,
@@ -64,10 +64,10 @@ namespace simd_detail {
   const __m512d t2 = _mm512_unpacklo_pd(r[2], r[3]), t3 = _mm512_unpackhi_pd(r[2], r[3]);
   const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
                 high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-  out[0].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t0, low, t2));
-  out[1].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t1, low, t3));
-  out[2].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t0, high, t2));
-  out[3].v = std::bit_cast<Simd<double>::Native>(_mm512_permutex2var_pd(t1, high, t3));
+  out[0] = Simd<double>::of(_mm512_permutex2var_pd(t0, low, t2));
+  out[1] = Simd<double>::of(_mm512_permutex2var_pd(t1, low, t3));
+  out[2] = Simd<double>::of(_mm512_permutex2var_pd(t0, high, t2));
+  out[3] = Simd<double>::of(_mm512_permutex2var_pd(t1, high, t3));
 }
 
 #elif defined(__AVX2__)
@@ -89,11 +89,7 @@ namespace simd_detail {
     for (int k = 0; k < 4; ++k) half[h][k] = _mm256_loadu_pd(base + index[4 * h + k] * stride);
     transpose(half[h]);
   }
-  struct Halves {
-    __m256d of[2];
-  };
-  for (int k = 0; k < 4; ++k)
-    out[k].v = std::bit_cast<Simd<double>::Native>(Halves{{half[0][k], half[1][k]}});
+  for (int k = 0; k < 4; ++k) out[k] = Simd<double>::of(half[0][k], half[1][k]);
 }
 
 [[gnu::always_inline]] inline void load4(const float* base, std::size_t stride, const std::uint32_t* index,
@@ -113,10 +109,7 @@ namespace simd_detail {
     half[h][2] = _mm256_shuffle_ps(t2, t3, 0x44);
     half[h][3] = _mm256_shuffle_ps(t2, t3, 0xee);
   }
-  struct Halves {
-    __m256 of[2];
-  };
-  for (int k = 0; k < 4; ++k) out[k].v = std::bit_cast<Simd<float>::Native>(Halves{{half[0][k], half[1][k]}});
+  for (int k = 0; k < 4; ++k) out[k] = Simd<float>::of(half[0][k], half[1][k]);
 }
 
 #else
@@ -125,7 +118,7 @@ template <class T>
 [[gnu::always_inline]] inline void load4(const T* base, std::size_t stride, const std::uint32_t* index,
                                          Simd<T>* out) {
   for (std::size_t k = 0; k < 4; ++k)
-    for (int l = 0; l < Simd<T>::lanes; ++l) out[k].v[l] = base[index[l] * stride + k];
+    for (int l = 0; l < Simd<T>::lanes; ++l) out[k].set(l, base[index[l] * stride + k]);
 }
 
 #endif
@@ -155,25 +148,23 @@ template <int Stride>
 /// Bit l is set where lane l is above zero.
 [[gnu::always_inline]] inline unsigned positive_lanes(Simd<double> a) {
 #if defined(__AVX512F__)
-  return _mm512_cmp_pd_mask(std::bit_cast<__m512d>(a.v), _mm512_setzero_pd(), _CMP_GT_OQ);
+  return _mm512_cmp_pd_mask(a.as<__m512d>(), _mm512_setzero_pd(), _CMP_GT_OQ);
 #elif defined(__AVX2__)
-  const auto p = std::bit_cast<Pieces<double>>(a);
-  const auto above = [](auto x) {
-    return static_cast<unsigned>(
-        _mm256_movemask_pd(_mm256_cmp_pd(std::bit_cast<__m256d>(x), _mm256_setzero_pd(), _CMP_GT_OQ)));
+  const auto above = [](__m256d x) {
+    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(x, _mm256_setzero_pd(), _CMP_GT_OQ)));
   };
-  return above(p.piece[0]) | above(p.piece[1]) << 4;
+  return above(a.as<__m256d>(0)) | above(a.as<__m256d>(1)) << 4;
 #else
   unsigned bits = 0;
-  for (int l = 0; l < Simd<double>::lanes; ++l) bits |= (a.v[l] > 0 ? 1u : 0u) << l;
+  for (int l = 0; l < Simd<double>::lanes; ++l) bits |= (a[l] > 0 ? 1u : 0u) << l;
   return bits;
 #endif
 }
 
 /// Nearest integers, ties to even, of |a| < 2^51: as round_to_quanta() for scalars.
 [[gnu::always_inline]] inline Int64x8 to_integers(Simd<double> a) {
-  return std::bit_cast<Int64x8>((a + Simd<double>(rounding_shift)).v) -
-         std::bit_cast<std::int64_t>(rounding_shift);
+  return (a + Simd<double>(rounding_shift)).bits<std::int64_t>() -
+         Int64x8(std::bit_cast<std::int64_t>(rounding_shift));
 }
 
 #if defined(__AVX512F__)
@@ -202,8 +193,7 @@ template <int Stride, class T, class Lanes>
 [[gnu::always_inline]] inline void add_half_to_rows(T* base, const std::uint32_t* index, int half,
                                                     const Lanes (&value)[Stride]) {
   __m256d row[Stride / 4][4];
-  for (int k = 0; k < Stride; ++k)
-    row[k / 4][k % 4] = std::bit_cast<__m256d>(std::bit_cast<Pieces<double>>(value[k]).piece[half]);
+  for (int k = 0; k < Stride; ++k) row[k / 4][k % 4] = value[k].template as<__m256d>(half);
   for (auto& four : row) simd_detail::transpose(four);
   for (int l = 0; l < 4; ++l)
     for (int q = 0; q < Stride / 4; ++q) {
@@ -226,10 +216,10 @@ template <int Stride, class T, class Lanes>
   static_assert((Stride == 4 || Stride == 8) && sizeof(T) == 8);
 #if defined(__AVX512F__)
   const auto low = [&](int a, int b) {
-    return _mm512_unpacklo_epi64(std::bit_cast<__m512i>(value[a]), std::bit_cast<__m512i>(value[b]));
+    return _mm512_unpacklo_epi64(value[a].template as<__m512i>(), value[b].template as<__m512i>());
   };
   const auto high = [&](int a, int b) {
-    return _mm512_unpackhi_epi64(std::bit_cast<__m512i>(value[a]), std::bit_cast<__m512i>(value[b]));
+    return _mm512_unpackhi_epi64(value[a].template as<__m512i>(), value[b].template as<__m512i>());
   };
   const __m512i even01 = low(0, 1), odd01 = high(0, 1), even23 = low(2, 3), odd23 = high(2, 3);
   // Blocks of 128 bits: 0x88 takes the first and third of either operand, 0xdd the second and fourth.

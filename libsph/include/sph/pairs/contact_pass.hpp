@@ -97,41 +97,38 @@ struct ContactPass {
     Answer out;
     double* stored = list.history.data() + g * history * lanes;
     V memory[memories > 0 ? memories : 1];
-    for (int m = 0; m < memories; ++m)
-      std::memcpy(&memory[m].v, stored + (springs + m) * lanes, sizeof memory[m].v);
+    for (int m = 0; m < memories; ++m) memory[m] = V::load(stored + (springs + m) * lanes);
     const NormalForce<V> normal = normal_force<NormalLaw>(contact, k, memory);
     for (int m = 0; m < memories; ++m) {
-      const V kept = touching(memory[m]);
-      std::memcpy(stored + (springs + m) * lanes, &kept.v, sizeof kept.v);
+      touching(memory[m]).store(stored + (springs + m) * lanes);
     }
     const V push = touching(normal.force);
     V t[3] = {gone, gone, gone};
     if constexpr (FrictionLaw::history > 0) {
       V spring[3];
-      for (int a = 0; a < 3; ++a) std::memcpy(&spring[a].v, stored + a * lanes, sizeof spring[a].v);
+      for (int a = 0; a < 3; ++a) spring[a] = V::load(stored + a * lanes);
       FrictionLaw::force(contact, k, normal, spring, t);
       for (int a = 0; a < 3; ++a) {
-        const V kept = touching(spring[a]);
-        std::memcpy(stored + a * lanes, &kept.v, sizeof kept.v);
+        touching(spring[a]).store(stored + a * lanes);
         t[a] = touching(t[a]);
       }
     }
     for (int a = 0; a < 3; ++a) out.force[a] = touching(push * contact.normal[a]) + t[a];
-    if constexpr (spins)
+    if constexpr (spins) {
+      cross(contact.normal, t, out.couple);
       for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3, d = (a + 2) % 3;
-        out.couple[a] = touching(contact.normal[b] * t[d] - contact.normal[d] * t[b]);
+        out.couple[a] = touching(out.couple[a]);
         out.roll[a] = gone;
       }
+    }
     if constexpr (RollingLaw::history > 0) {
       double* rolled = stored + FrictionLaw::history * lanes;
       V spring[3];
-      for (int a = 0; a < 3; ++a) std::memcpy(&spring[a].v, rolled + a * lanes, sizeof spring[a].v);
+      for (int a = 0; a < 3; ++a) spring[a] = V::load(rolled + a * lanes);
       const V change = NormalLaw::rolling_change(contact, k, normal, memory);
       RollingLaw::torque(contact, k, normal, change, spring, out.roll);
       for (int a = 0; a < 3; ++a) {
-        const V kept = touching(spring[a]);
-        std::memcpy(rolled + a * lanes, &kept.v, sizeof kept.v);
+        touching(spring[a]).store(rolled + a * lanes);
         out.roll[a] = touching(out.roll[a]);
       }
     }
@@ -172,7 +169,8 @@ struct ContactPass {
     V ri, rj, group_i{}, group_j{};
   };
 
-  static void add_pairs(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
+  [[gnu::flatten]] static void add_pairs(const ContactContext& c, const Rows& rows, std::size_t g,
+                                         ContactSweep& sweep) {
     ContactGroups& list = c.lists->pairs();
     const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* j = list.j.data() + g * lanes;
@@ -278,6 +276,13 @@ struct ContactPass {
     add_to_rows<stride>(rows.sums, two.j, on_j);
   }
 
+  /// Not a loop: see Simd.
+  [[gnu::always_inline]] static void cross(const V (&a)[3], const V (&b)[3], V (&out)[3]) {
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+  }
+
   /// separation, slip and roll from the relative velocity and r_i omega_i + r_j omega_j.
   [[gnu::always_inline]] static void kinematics(Contact<V>& contact, const V (&rel)[3],
                                                 const V (&surface)[3]) {
@@ -285,15 +290,17 @@ struct ContactPass {
     contact.separation = rel[0] * n[0] + rel[1] * n[1] + rel[2] * n[2];
     if constexpr (spins) {
       const V along = contact.roll[0] * n[0] + contact.roll[1] * n[1] + contact.roll[2] * n[2];
+      V turned[3];
+      cross(surface, n, turned);
       for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3, d = (a + 2) % 3;
-        contact.slip[a] = rel[a] - contact.separation * n[a] - (surface[b] * n[d] - surface[d] * n[b]);
+        contact.slip[a] = rel[a] - contact.separation * n[a] - turned[a];
         contact.roll[a] -= along * n[a];
       }
     }
   }
 
-  static void add_walls(const ContactContext& c, const Rows& rows, std::size_t g, ContactSweep& sweep) {
+  [[gnu::flatten]] static void add_walls(const ContactContext& c, const Rows& rows, std::size_t g,
+                                         ContactSweep& sweep) {
     ContactGroups& list = c.lists->walls();
     const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* walls = list.j.data() + g * lanes;
@@ -310,16 +317,16 @@ struct ContactPass {
       const int k = static_cast<int>(l);
       const WallSide side = wall_side(c, walls[l], g * lanes + l, rows.x(r));
       for (std::size_t a = 0; a < 3; ++a) {
-        contact.normal[a].v[k] = -side.away[a];
-        rel[a].v[k] = side.velocity[a] - rows.v(r)[a];
+        contact.normal[a].set(k, -side.away[a]);
+        rel[a].set(k, side.velocity[a] - rows.v(r)[a]);
         if constexpr (spins) {
-          surface[a].v[k] = rows.radius(r) * rows.w(r)[a];
-          contact.roll[a].v[k] = -rows.w(r)[a];
+          surface[a].set(k, rows.radius(r) * rows.w(r)[a]);
+          contact.roll[a].set(k, -rows.w(r)[a]);
         }
       }
-      contact.overlap.v[k] = side.touchable ? rows.radius(r) - side.distance : 0.0;
-      contact.radius.v[k] = rows.radius(r);
-      contact.mass.v[k] = rows.mass(r);
+      contact.overlap.set(k, side.touchable ? rows.radius(r) - side.distance : 0.0);
+      contact.radius.set(k, rows.radius(r));
+      contact.mass.set(k, rows.mass(r));
       pair[l] = rows.group(r) * c.materials.groups + side.group;
       number[l] = side.number;
     }

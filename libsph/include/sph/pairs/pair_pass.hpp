@@ -246,7 +246,7 @@ struct PairPass {
     if (c.fluid == nullptr) return;
     for (int l = 0; l < static_cast<int>(V::lanes); ++l)
       if (!c.fluid->is_fluid(rows[l]))
-        for (V& s : sums.v) s.v[l] = 0;
+        for (V& s : sums.v) s.set(l, 0);
   }
 
   static const NeighbourLists& lists_of(const PassContext& c, const V* own) {
