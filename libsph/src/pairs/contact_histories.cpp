@@ -47,6 +47,41 @@ bool touches(const WallsNow& walls, const WallNumbers& numbers, std::uint32_t wa
   return numbers.is_facet(wall) || radius - distance_from(walls.planes[wall], x, quantum) > 0;
 }
 
+/// Those that came with the grains, those of a row one after the other, and what became of each.
+class Entries {
+ public:
+  enum class Fate : std::uint8_t { unlisted, apart, kept };
+  Entries(const decomp::Payload& payload, std::span<const std::uint32_t> order, std::size_t bytes)
+      : payload_(payload),
+        order_(order),
+        bytes_(bytes),
+        fate_(payload.bytes.size() / bytes, Fate::unlisted) {}
+  [[nodiscard]] std::size_t first(std::uint32_t row) const { return payload_.offset[order_[row]] / bytes_; }
+  [[nodiscard]] std::size_t last(std::uint32_t row) const {
+    return payload_.offset[order_[row] + 1] / bytes_;
+  }
+  [[nodiscard]] const std::byte* bytes(std::size_t entry) const {
+    return payload_.bytes.data() + entry * bytes_;
+  }
+  [[nodiscard]] Fate& fate(std::size_t entry) { return fate_[entry]; }
+  [[nodiscard]] std::optional<std::size_t> find(std::uint32_t row, std::uint64_t key) const {
+    for (std::size_t e = first(row); e < last(row); ++e)
+      if (key_of(bytes(e)) == key) return e;
+    return std::nullopt;
+  }
+  [[nodiscard]] bool any_unlisted(std::uint32_t row) const {
+    for (std::size_t e = first(row); e < last(row); ++e)
+      if (fate_[e] == Fate::unlisted) return true;
+    return false;
+  }
+
+ private:
+  const decomp::Payload& payload_;
+  std::span<const std::uint32_t> order_;
+  std::size_t bytes_;
+  std::vector<Fate> fate_;
+};
+
 /// Lists hold a history as it acts on j; i has its own view of it.
 double seen(double value, Parity parity, bool by_i) { return by_i && parity == Parity::odd ? -value : value; }
 
@@ -116,50 +151,48 @@ ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& pa
   const std::uint64_t* id = p.data<Field::id>();
   const std::int64_t* x = p.data<Field::position>();
   const double* radius = p.data<Field::radius>();
-  enum class Fate : std::uint8_t { unlisted, apart, kept };
-  std::vector<Fate> fate(payload.bytes.size() / entry_bytes(), Fate::unlisted);
-  const auto entry_of = [&](std::uint32_t row, std::uint64_t key) {
-    const std::uint64_t end = payload.offset[order[row] + 1];
-    std::uint64_t at = payload.offset[order[row]];
-    while (at < end && key_of(payload.bytes.data() + at) != key) at += entry_bytes();
-    return at < end ? std::optional(at) : std::nullopt;
-  };
-  for (ContactGroups* g : {&pairs_, &walls_})
-    for (std::size_t k = 0; k < g->i.size(); ++k) {
-      const std::uint32_t i = g->i[k], j = g->j[k];
-      const bool with_wall = g == &walls_;
-      if (with_wall ? j == ContactGroups::no_wall : i == j) continue;
-      const std::uint64_t wanted = with_wall ? numbers_.key(j) : id[j];
-      const std::optional<std::uint64_t> at = entry_of(i, wanted);
-      if (!at) continue;
-      const std::int64_t* at_i = x + std::size_t{i} * 3;
-      const bool kept = with_wall ? touches(walls, numbers_, j, at_i, radius[i], quantum)
-                                  : touch(at_i, x + std::size_t{j} * 3, radius[i] + radius[j], quantum);
-      const Fate what = kept ? Fate::kept : Fate::apart;
-      fate[*at / entry_bytes()] = what;
-      const bool both = !with_wall && j < p.owned();
-      if (both)
-        if (const auto other = entry_of(j, id[i])) fate[*other / entry_bytes()] = what;
-      if (!kept) continue;
-      g->touching[k / lanes] = static_cast<std::uint8_t>(g->touching[k / lanes] | 1u << (k % lanes));
-      double* history = g->history.data() + k / lanes * history_ * lanes + k % lanes;
-      for (std::size_t c = 0; c < history_; ++c) {
-        double value;
-        std::memcpy(&value, payload.bytes.data() + *at + 8 * (1 + c), sizeof value);
-        history[c * lanes] = seen(value, parities_[c], true);
-      }
-      count(found, id[i], wanted);
-      if (both) count(found, wanted, id[i]);
+  Entries entries(payload, order, entry_bytes());
+  const auto place = [&](ContactGroups* g, std::size_t k) {
+    const std::uint32_t i = g->i[k], j = g->j[k];
+    const bool with_wall = g == &walls_;
+    if (with_wall ? j == ContactGroups::no_wall : i == j) return;
+    const std::uint64_t wanted = with_wall ? numbers_.key(j) : id[j];
+    const auto entry = entries.find(i, wanted);
+    if (!entry) return;
+    const std::int64_t* at_i = x + std::size_t{i} * 3;
+    const bool kept = with_wall ? touches(walls, numbers_, j, at_i, radius[i], quantum)
+                                : touch(at_i, x + std::size_t{j} * 3, radius[i] + radius[j], quantum);
+    const auto what = kept ? Entries::Fate::kept : Entries::Fate::apart;
+    entries.fate(*entry) = what;
+    const bool both = !with_wall && j < p.owned();
+    if (both)
+      if (const auto other = entries.find(j, id[i])) entries.fate(*other) = what;
+    if (!kept) return;
+    g->touching[k / lanes] = static_cast<std::uint8_t>(g->touching[k / lanes] | 1u << (k % lanes));
+    double* history = g->history.data() + k / lanes * history_ * lanes + k % lanes;
+    for (std::size_t c = 0; c < history_; ++c) {
+      double value;
+      std::memcpy(&value, entries.bytes(*entry) + 8 * (1 + c), sizeof value);
+      history[c * lanes] = seen(value, parities_[c], true);
     }
+    count(found, id[i], wanted);
+    if (both) count(found, wanted, id[i]);
+  };
+  const std::size_t candidates = blocks_.empty() ? 0 : blocks_.front().candidates.first * lanes;
+  for (std::size_t k = 0; k < candidates; ++k) place(&pairs_, k);
+  for (std::size_t k = 0; k < walls_.i.size(); ++k) place(&walls_, k);
+  // Of what did not touch when lists were made: only few rows have entries that are in no place yet.
+  std::vector<std::uint8_t> waits(p.owned());
+  for (std::uint32_t row = 0; row < p.owned(); ++row) waits[row] = entries.any_unlisted(row) ? 1 : 0;
+  for (std::size_t k = candidates; k < pairs_.i.size(); ++k)
+    if (waits[pairs_.i[k]] != 0) place(&pairs_, k);
   carried_ = static_cast<std::int64_t>(found.count);
   for (std::uint32_t row = 0; row < p.owned(); ++row)
-    for (std::uint64_t at = payload.offset[order[row]]; at < payload.offset[order[row] + 1];
-         at += entry_bytes()) {
-      if (fate[at / entry_bytes()] == Fate::kept) continue;
-      const std::byte* entry = payload.bytes.data() + at;
-      const std::uint64_t key = key_of(entry);
-      parted_.push_back({row, key, fate[at / entry_bytes()] == Fate::apart});
-      parted_entries_.insert(parted_entries_.end(), entry, entry + entry_bytes());
+    for (std::size_t e = entries.first(row); e < entries.last(row); ++e) {
+      if (entries.fate(e) == Entries::Fate::kept) continue;
+      const std::uint64_t key = key_of(entries.bytes(e));
+      parted_.push_back({row, key, entries.fate(e) == Entries::Fate::apart});
+      parted_entries_.insert(parted_entries_.end(), entries.bytes(e), entries.bytes(e) + entry_bytes());
       count(found, id[row], key);
       if ((key & wall_key) == 0)
         found.one_sided += id[row] < key ? mixed(id[row], key) : -mixed(key, id[row]);

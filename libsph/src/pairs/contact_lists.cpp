@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <numeric>
 #include <optional>
-#include <tuple>
 
 #include "pairs/candidates.hpp"
 
@@ -31,6 +31,12 @@ class Writer {
   void add(std::uint32_t i, std::size_t count) {
     std::fill_n(g_.i.data() + n_, count, i);
     n_ += count;
+  }
+  void add(const std::deque<std::array<std::uint32_t, 2>>& all) {
+    std::uint32_t* j = partners(all.size());
+    std::uint32_t* i = g_.i.data() + n_;
+    for (const auto& pair : all) *i++ = pair[0], *j++ = pair[1];
+    n_ += all.size();
   }
   /// Fills the last group with pairs (i, j) that are none.
   void pad(std::uint32_t i, std::uint32_t j) {
@@ -60,10 +66,10 @@ class PartnerFinder {
     // In the order of the bins and in their units, each with half of what lists reach beyond: the skin, and the
     // rounding of positions to float (the bins' limit is 1 and that).
     const double* radius = p.data<Field::radius>();
-    const double unit = static_cast<double>(reach) * quantum;
+    const double per_unit = 1 / (static_cast<double>(reach) * quantum);
     const float slack = 0.5f * (bins_.limit() - 1.0f);
     for (std::size_t k = 0; k < p.rows(); ++k)
-      reaches_[k] = static_cast<float>((radius[bins_.rows()[k]] + 0.5 * skin) / unit) + slack;
+      reaches_[k] = static_cast<float>((radius[bins_.rows()[k]] + 0.5 * skin) * per_unit) + slack;
   }
 
   /// Those above `row`, after what `pairs` has.
@@ -87,8 +93,11 @@ class PartnerFinder {
 /// Pairs of a block that do not touch, until those of all blocks that do are written.
 class Candidates {
  public:
-  Candidates(const Particles& p, double quantum)
-      : x_(p.data<Field::position>()), radius_(p.data<Field::radius>()), quantum_(quantum) {}
+  Candidates(const Particles& p, double quantum, double skin)
+      : x_(p.data<Field::position>()),
+        radius_(p.data<Field::radius>()),
+        quantum_(quantum),
+        to_distance_((distances - 1) / skin) {}
 
   /// Takes from `partners` of row i those that are apart from it; returns how many it leaves.
   std::size_t take(std::uint32_t i, std::span<std::uint32_t> partners) {
@@ -96,7 +105,8 @@ class Candidates {
     for (const std::uint32_t j : partners) {
       const double gap = gap_between(i, j);
       if (gap > 0)
-        of_block_.push_back({gap, i, j});
+        of_block_.push_back(
+            {static_cast<std::uint32_t>(std::min(gap * to_distance_, distances - 1.0)), i, j});
       else
         partners[left++] = j;
     }
@@ -104,29 +114,27 @@ class Candidates {
   }
   /// Which groups those of a block will be, counted from the first of all; `row` of unused lanes.
   ContactBlock::Groups end_block(std::uint32_t row) {
-    std::ranges::sort(of_block_, {}, [](const Pair& a) { return std::tuple(a.gap, a.i, a.j); });
-    const std::size_t first = all_.size() / lanes;
-    for (const Pair& pair : of_block_) all_.push_back({pair.i, pair.j});
-    while (all_.size() % lanes != 0) all_.push_back({row, row});
+    const std::size_t first = all_.size(), entries = of_block_.size();
+    std::array<std::size_t, distances> at{};
+    for (const Pair& pair : of_block_) ++at[pair.distance];
+    std::exclusive_scan(at.begin(), at.end(), at.begin(), first);
+    all_.resize(first + (entries + lanes - 1) / lanes * lanes, {row, row});
+    for (const Pair& pair : of_block_) all_[at[pair.distance]++] = {pair.i, pair.j};
     of_block_.clear();
-    return {first, all_.size() / lanes};
+    return {first / lanes, all_.size() / lanes};
   }
   void append_to(Writer& pairs, std::vector<ContactBlock>& blocks) const {
     for (ContactBlock& block : blocks) {
       block.candidates.first += pairs.groups();
       block.candidates.last += pairs.groups();
     }
-    (void)pairs.partners(all_.size());  // grows once
-    for (const auto& [i, j] : all_) {
-      *pairs.partners(1) = j;
-      pairs.add(i, 1);
-    }
+    pairs.add(all_);
   }
 
  private:
+  static constexpr std::uint32_t distances = 32;  ///< classes of gaps, from 0 to the skin
   struct Pair {
-    double gap;
-    std::uint32_t i, j;
+    std::uint32_t distance, i, j;
   };
   [[nodiscard]] double gap_between(std::uint32_t i, std::uint32_t j) const {
     double distance2 = 0;
@@ -140,7 +148,7 @@ class Candidates {
 
   const std::int64_t* x_;
   const double* radius_;
-  double quantum_;
+  double quantum_, to_distance_;
   std::vector<Pair> of_block_;
   std::deque<std::array<std::uint32_t, 2>> all_;  // a vector that grows takes all twice
 };
@@ -193,7 +201,7 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
   const double* radius = p.data<Field::radius>();
   blocks_.clear();
   Writer pairs(pairs_), walls(walls_);
-  Candidates apart(p, quantum);
+  Candidates apart(p, quantum, skin);
   numbers_ = WallNumbers(now.planes.size(), now.meshes);
   WallFinder finder(now, numbers_, quantum, walls, walls_.facets);
   listed_ = 0;

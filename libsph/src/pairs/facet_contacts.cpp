@@ -111,9 +111,11 @@ void FacetContacts::keep_nearest(const MeshNow& mesh) {
 
 void FacetContacts::add(const MeshNow& mesh, std::size_t number, const Candidate& c, const Point3& x) {
   FacetContact f{c.entry, c.entry, std::sqrt(c.near.square), {}, mesh.velocity, number};
-  Point3 away = mesh.surface->normal(c.facet);
+  Point3 away;
   if (f.distance > 0)
     for (std::size_t a = 0; a < 3; ++a) away[a] = (x[a] - c.near.point[a]) / f.distance;
+  else
+    away = mesh.surface->normal(c.facet);
   f.away = mesh.turned(away);
   const Point3 arm = mesh.turned(c.near.point), &w = mesh.spin;
   for (std::size_t a = 0; a < 3; ++a) {
