@@ -25,7 +25,10 @@ using namespace sph;
 /// In the order of the list. 0.0 and the integer 0 have the same bits, so sweeps of both kinds may alternate.
 struct DoubleSums {
   using Sum = double;
-  static Simd<double> lanes(Simd<double> x) { return x; }
+  template <int bytes>
+  static Simd<double, bytes> lanes(Simd<double, bytes> x) {
+    return x;
+  }
   static double scalar(double x) { return x; }
   static FourDoubles values(const double* four) {
     FourDoubles sums;

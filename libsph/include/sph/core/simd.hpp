@@ -1,5 +1,6 @@
 // Fixed-width vectors: 16 floats or 8 doubles in 64 bytes, whatever the machine has. The lane count is in the
-// source, so SSE2, AVX2 and AVX-512 builds do the same operations on the same lanes and give the same bits.
+// source, so SSE2, AVX2 and AVX-512 builds do the same operations on the same lanes and give the same bits. Where
+// lanes never meet, as in a contact, they may come a register at a time instead: OneRegister.
 // Never passed across a translation unit.
 #pragma once
 
@@ -34,13 +35,13 @@ inline constexpr int register_bytes = 16;
 /// Sixteen floats, eight doubles, or as many integers, in pieces that registers hold. A vector type longer than a register would
 /// be one line where this is many, but g++ keeps such vectors in memory, and compares, chooses and converts them lane by
 /// lane. Arithmetic is lane by lane; comparisons give masks, 0 or -1 in each lane.
-template <class T>
+template <class T, int bytes = 64>
 struct Simd {
   typedef T Piece __attribute__((vector_size(register_bytes)));
-  static constexpr int lanes = 64 / static_cast<int>(sizeof(T));
-  static constexpr int pieces = 64 / register_bytes, piece_lanes = lanes / pieces;
+  static constexpr int lanes = bytes / static_cast<int>(sizeof(T));
+  static constexpr int pieces = bytes / register_bytes, piece_lanes = lanes / pieces;
   using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
-  using Int = Simd<Bits>;
+  using Int = Simd<Bits, bytes>;
   Piece piece[pieces];
 
   Simd() = default;
@@ -76,17 +77,17 @@ struct Simd {
 
   /// function(piece, those of others ...) of every piece.
   template <class To = T, class Function, class... More>
-  [[gnu::always_inline]] Simd<To> each(Function function, const More&... more) const {
-    Simd<To> out;
+  [[gnu::always_inline]] Simd<To, bytes> each(Function function, const More&... more) const {
+    Simd<To, bytes> out;
     for_pieces([&](int k) {
       // clang's masks are of long long
-      out.piece[k] = std::bit_cast<typename Simd<To>::Piece>(function(piece[k], more.piece[k]...));
+      out.piece[k] = std::bit_cast<typename Simd<To, bytes>::Piece>(function(piece[k], more.piece[k]...));
     });
     return out;
   }
   /// The same bits in lanes of another type.
   template <class To>
-  [[gnu::always_inline]] Simd<To> bits() const {
+  [[gnu::always_inline]] Simd<To, bytes> bits() const {
     return each<To>([](Piece x) { return x; });
   }
 
@@ -194,15 +195,17 @@ inline Simd<float> coordinate_difference(Simd<float> a, Simd<float> b) {
   const auto d = (b.bits<std::uint32_t>() - a.bits<std::uint32_t>()).bits<std::int32_t>();
   return d.each<float>([](auto x) { return __builtin_convertvector(x, Simd<float>::Piece); });
 }
-inline Simd<double> coordinate_difference(Simd<double> a, Simd<double> b) {
-  using Int = Simd<double>::Int;
-  const Int d = b.bits<std::int64_t>() - a.bits<std::int64_t>();
+template <int bytes>
+Simd<double, bytes> coordinate_difference(Simd<double, bytes> a, Simd<double, bytes> b) {
+  using Int = typename Simd<double, bytes>::Int;
+  const Int d = b.template bits<std::int64_t>() - a.template bits<std::int64_t>();
 #if defined(__AVX512DQ__)
-  return d.each<double>([](auto x) { return __builtin_convertvector(x, Simd<double>::Piece); });
+  using Piece = typename Simd<double, bytes>::Piece;
+  return d.template each<double>([](auto x) { return __builtin_convertvector(x, Piece); });
 #else
   // 1.5 * 2^52: adding |d| < 2^51 to its bits adds d to its value, exactly.
   constexpr double magic = 6755399441055744.0;
-  return (d + Int(std::bit_cast<std::int64_t>(magic))).bits<double>() - magic;
+  return (d + Int(std::bit_cast<std::int64_t>(magic))).template bits<double>() - magic;
 #endif
 }
 
@@ -215,5 +218,8 @@ inline Simd<double> stored_difference(Simd<double> a, Simd<double> b) {
 }
 
 using Int64x8 = Simd<std::int64_t>;
+/// As many lanes as a register has.
+template <class T>
+using OneRegister = Simd<T, register_bytes>;
 
 }  // namespace sph

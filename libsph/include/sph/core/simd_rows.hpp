@@ -83,13 +83,19 @@ namespace simd_detail {
 }
 
 [[gnu::always_inline]] inline void load4(const double* base, std::size_t stride, const std::uint32_t* index,
+                                         OneRegister<double>* out) {
+  __m256d r[4];
+  for (int k = 0; k < 4; ++k) r[k] = _mm256_loadu_pd(base + index[k] * stride);
+  transpose(r);
+  for (int k = 0; k < 4; ++k) out[k] = OneRegister<double>::of(r[k]);
+}
+
+[[gnu::always_inline]] inline void load4(const double* base, std::size_t stride, const std::uint32_t* index,
                                          Simd<double>* out) {
-  __m256d half[2][4];
-  for (int h = 0; h < 2; ++h) {
-    for (int k = 0; k < 4; ++k) half[h][k] = _mm256_loadu_pd(base + index[4 * h + k] * stride);
-    transpose(half[h]);
-  }
-  for (int k = 0; k < 4; ++k) out[k] = Simd<double>::of(half[0][k], half[1][k]);
+  OneRegister<double> half[2][4];
+  for (int h = 0; h < 2; ++h) load4(base, stride, index + 4 * h, half[h]);
+  for (int k = 0; k < 4; ++k)
+    out[k] = Simd<double>::of(half[0][k].template as<__m256d>(), half[1][k].template as<__m256d>());
 }
 
 [[gnu::always_inline]] inline void load4(const float* base, std::size_t stride, const std::uint32_t* index,
@@ -114,11 +120,11 @@ namespace simd_detail {
 
 #else
 
-template <class T>
+template <class T, int bytes>
 [[gnu::always_inline]] inline void load4(const T* base, std::size_t stride, const std::uint32_t* index,
-                                         Simd<T>* out) {
+                                         Simd<T, bytes>* out) {
   for (std::size_t k = 0; k < 4; ++k)
-    for (int l = 0; l < Simd<T>::lanes; ++l) out[k].set(l, base[index[l] * stride + k]);
+    for (int l = 0; l < Simd<T, bytes>::lanes; ++l) out[k].set(l, base[index[l] * stride + k]);
 }
 
 #endif
@@ -127,8 +133,8 @@ template <class T>
 
 /// Rows index[0 .. lanes) of a table of Stride values a row, transposed: out[k] lane l = row index[l], value
 /// k.
-template <int Stride, class T>
-[[gnu::always_inline]] inline void load_rows(const T* base, const std::uint32_t* index, Simd<T>* out) {
+template <int Stride, class T, int bytes>
+[[gnu::always_inline]] inline void load_rows(const T* base, const std::uint32_t* index, Simd<T, bytes>* out) {
   static_assert(Stride % 4 == 0);
   int k = 0;
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
@@ -139,32 +145,36 @@ template <int Stride, class T>
 }
 
 /// The first four values of rows index[0 .. lanes) of a table of Stride values a row, transposed.
-template <int Stride>
+template <int Stride, int bytes>
 [[gnu::always_inline]] inline void load_vectors(const double* base, const std::uint32_t* index,
-                                                Simd<double> (&out)[4]) {
+                                                Simd<double, bytes> (&out)[4]) {
   simd_detail::load4(base, Stride, index, out);
 }
 
 /// Bit l is set where lane l is above zero.
-[[gnu::always_inline]] inline unsigned positive_lanes(Simd<double> a) {
+template <int bytes>
+[[gnu::always_inline]] inline unsigned positive_lanes(Simd<double, bytes> a) {
 #if defined(__AVX512F__)
-  return _mm512_cmp_pd_mask(a.as<__m512d>(), _mm512_setzero_pd(), _CMP_GT_OQ);
-#elif defined(__AVX2__)
-  const auto above = [](__m256d x) {
-    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(x, _mm256_setzero_pd(), _CMP_GT_OQ)));
-  };
-  return above(a.as<__m256d>(0)) | above(a.as<__m256d>(1)) << 4;
+  return _mm512_cmp_pd_mask(a.template as<__m512d>(), _mm512_setzero_pd(), _CMP_GT_OQ);
 #else
   unsigned bits = 0;
-  for (int l = 0; l < Simd<double>::lanes; ++l) bits |= (a[l] > 0 ? 1u : 0u) << l;
+#if defined(__AVX2__)
+  for (int k = 0; k < a.pieces; ++k) {
+    const __m256d above = _mm256_cmp_pd(a.template as<__m256d>(k), _mm256_setzero_pd(), _CMP_GT_OQ);
+    bits |= static_cast<unsigned>(_mm256_movemask_pd(above)) << 4 * k;
+  }
+#else
+  for (int l = 0; l < a.lanes; ++l) bits |= (a[l] > 0 ? 1u : 0u) << l;
+#endif
   return bits;
 #endif
 }
 
 /// Nearest integers, ties to even, of |a| < 2^51: as round_to_quanta() for scalars.
-[[gnu::always_inline]] inline Int64x8 to_integers(Simd<double> a) {
-  return (a + Simd<double>(rounding_shift)).bits<std::int64_t>() -
-         Int64x8(std::bit_cast<std::int64_t>(rounding_shift));
+template <int bytes>
+[[gnu::always_inline]] inline Simd<std::int64_t, bytes> to_integers(Simd<double, bytes> a) {
+  return (a + Simd<double, bytes>(rounding_shift)).template bits<std::int64_t>() -
+         Simd<std::int64_t, bytes>(std::bit_cast<std::int64_t>(rounding_shift));
 }
 
 #if defined(__AVX512F__)
@@ -188,12 +198,12 @@ template <class T>
 #endif
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-/// Of add_to_rows() the lanes of one half.
+/// Of add_to_rows() the lanes of one piece.
 template <int Stride, class T, class Lanes>
-[[gnu::always_inline]] inline void add_half_to_rows(T* base, const std::uint32_t* index, int half,
-                                                    const Lanes (&value)[Stride]) {
+[[gnu::always_inline]] inline void add_piece_to_rows(T* base, const std::uint32_t* index, int piece,
+                                                     const Lanes (&value)[Stride]) {
   __m256d row[Stride / 4][4];
-  for (int k = 0; k < Stride; ++k) row[k / 4][k % 4] = value[k].template as<__m256d>(half);
+  for (int k = 0; k < Stride; ++k) row[k / 4][k % 4] = value[k].template as<__m256d>(piece);
   for (auto& four : row) simd_detail::transpose(four);
   for (int l = 0; l < 4; ++l)
     for (int q = 0; q < Stride / 4; ++q) {
@@ -253,9 +263,9 @@ template <int Stride, class T, class Lanes>
     add_to_two_rows(base, index, 3, d);
   }
 #elif defined(__AVX2__)
-  for (int half = 0; half < 2; ++half) add_half_to_rows<Stride>(base, index + 4 * half, half, value);
+  for (int k = 0; k < Lanes::pieces; ++k) add_piece_to_rows<Stride>(base, index + 4 * k, k, value);
 #else
-  for (int l = 0; l < Simd<double>::lanes; ++l)
+  for (int l = 0; l < Lanes::lanes; ++l)
     for (int k = 0; k < Stride; ++k)
       base[std::size_t{index[l]} * Stride + static_cast<std::size_t>(k)] += static_cast<T>(value[k][l]);
 #endif

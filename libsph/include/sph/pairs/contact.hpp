@@ -8,7 +8,7 @@
 
 namespace sph {
 
-/// Kinematics of eight contacts, one a lane. Values of lanes that do not touch are meaningless, never used.
+/// Kinematics of contacts, one a lane. Values of lanes that do not touch are meaningless, never used.
 template <class V>
 struct Contact {
   V overlap;     ///< delta = r_i + r_j - |x_j - x_i|, > 0 where they touch [m]
@@ -20,6 +20,30 @@ struct Contact {
   V mass;        ///< m_i m_j / (m_i + m_j); against a wall m_i [kg]
   V dt;          ///< [s]
 };
+
+/// Not a loop: see Simd.
+template <class V>
+[[gnu::always_inline]] inline void cross(const V (&a)[3], const V (&b)[3], V (&out)[3]) {
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// separation, slip and roll, from the relative velocity, r_i omega_i + r_j omega_j, and omega_j - omega_i in roll.
+template <bool spins, class V>
+[[gnu::always_inline]] inline void set_motion(Contact<V>& contact, const V (&rel)[3], const V (&surface)[3]) {
+  const V(&n)[3] = contact.normal;
+  contact.separation = rel[0] * n[0] + rel[1] * n[1] + rel[2] * n[2];
+  if constexpr (spins) {
+    const V along = contact.roll[0] * n[0] + contact.roll[1] * n[1] + contact.roll[2] * n[2];
+    V turned[3];
+    cross(surface, n, turned);
+    for (int a = 0; a < 3; ++a) {
+      contact.slip[a] = rel[a] - contact.separation * n[a] - turned[a];
+      contact.roll[a] -= along * n[a];
+    }
+  }
+}
 
 /// Constants of a pair of materials; which of them mean what is said by the laws.
 template <class V>

@@ -1,5 +1,6 @@
-// The only loop over contacts: eight pairs at a time, one SIMD lane each. Forces and torques are rounded to
-// quanta and added as integers, so their sums depend on no order; the pair's two sides get exact opposites.
+// The only loop over contacts: one SIMD lane each, as many at a time as a register has (of more, registers of AVX2 could not hold
+// half). Forces and torques are rounded to quanta and added as integers, so their sums depend on no order; the pair's two
+// sides get exact opposites.
 // Once the pairs and walls of a block of rows are summed its grains are kicked and drift at once, while they
 // are still in the cache: nothing that comes later in the sweep reads them.
 #pragma once
@@ -36,9 +37,9 @@ struct ContactPass {
     return all;
   }();
   static constexpr int stride = spins ? 8 : 4;
-  static constexpr std::size_t lanes = ContactGroups::lanes;
+  using V = OneRegister<double>;
+  static constexpr std::size_t lanes = ContactGroups::lanes, part_lanes = V::lanes;
   static constexpr std::size_t ahead = 8;  // groups whose rows are fetched before they are read
-  using V = Simd<double>;
   using Sum = typename Sums::Sum;
 
   static void run(const ContactContext& c, std::span<const ContactBlock> blocks, const RowRanges& ranges,
@@ -88,14 +89,22 @@ struct ContactPass {
     return ContactConstants<V>::of_row(k, V(c.materials.least_force));
   }
 
-  /// The laws, with the history of group `g` before and after. Lanes that do not touch answer zero and lose
-  /// their history.
+  /// Lanes at, at + 1, ... of a group, which fill a register.
+  struct Part {
+    std::size_t group, at;
+    [[nodiscard]] std::size_t first() const { return group * lanes + at; }
+    [[nodiscard]] unsigned in_group(unsigned bits) const { return bits << at; }
+    /// Those of a group's bits.
+    [[nodiscard]] unsigned of_group(unsigned bits) const { return bits >> at & ((1u << part_lanes) - 1); }
+  };
+
+  /// The laws, with the histories before and after. Lanes that do not touch answer zero and lose theirs.
   [[gnu::always_inline]] static Answer respond(Contact<V>& contact, const ContactConstants<V>& k,
-                                               ContactGroups& list, std::size_t g, ContactSweep& sweep) {
+                                               ContactGroups& list, Part part, ContactSweep& sweep) {
     const V gone = V::zero();
     const auto touching = [&](V x) { return where_less(gone, contact.overlap, x); };
     Answer out;
-    double* stored = list.history.data() + g * history * lanes;
+    double* stored = list.history.data() + part.group * history * lanes + part.at;
     V memory[memories > 0 ? memories : 1];
     for (int m = 0; m < memories; ++m) memory[m] = V::load(stored + (springs + m) * lanes);
     const NormalForce<V> normal = normal_force<NormalLaw>(contact, k, memory);
@@ -132,13 +141,14 @@ struct ContactPass {
         out.roll[a] = touching(out.roll[a]);
       }
     }
-    const unsigned now = positive_lanes(contact.overlap), before = list.touching[g];
+    std::uint8_t& touched = list.touching[part.group];
+    const unsigned now = positive_lanes(contact.overlap), before = part.of_group(touched);
     if (now != before) {
       if constexpr (history > 0) {  // without history nobody remembers at a rebuild who touched
         sweep.created += std::popcount(now & ~before);
         sweep.ended += std::popcount(before & ~now);
       }
-      list.touching[g] = static_cast<std::uint8_t>(now);
+      touched = static_cast<std::uint8_t>(touched ^ part.in_group(now ^ before));
     }
     return out;
   }
@@ -166,55 +176,69 @@ struct ContactPass {
   /// Two rows in each lane, their radii and groups.
   struct Partners {
     const std::uint32_t *i, *j;
-    V ri, rj, group_i{}, group_j{};
+    V ri, rj, group_i, group_j;
+    Partners(const ContactGroups& list, std::size_t first)
+        : i(list.i.data() + first), j(list.j.data() + first) {}
   };
 
   [[gnu::flatten]] static void add_pairs(const ContactContext& c, const Rows& rows, std::size_t g,
                                          ContactSweep& sweep) {
     ContactGroups& list = c.lists->pairs();
-    const std::uint32_t* i = list.i.data() + g * lanes;
-    const std::uint32_t* j = list.j.data() + g * lanes;
+    const bool may_sleep = list.touching[g] == 0 && c.path < std::numeric_limits<double>::infinity();
+    double gap = std::numeric_limits<double>::infinity();
+    for (Part part{g, 0}; part.at < lanes; part.at += part_lanes) {
+      Partners two(list, part.first());
+      Contact<V> contact;
+      V d[3];
+      const V distance2 = look_at_places(c, rows, two, d), distance = sqrt(distance2);
+      // Unused lanes hold a row twice: distance 0 does not touch.
+      contact.overlap = where_less(V::zero(), distance2, two.ri + two.rj - distance);
+      if (positive_lanes(contact.overlap) == 0 && part.of_group(list.touching[g]) == 0) {
+        if (may_sleep) gap = std::min(gap, gap_of(contact.overlap, distance2, two));
+        continue;
+      }
+      const V inverse = V(1.0) / distance;
+      for (int a = 0; a < 3; ++a) contact.normal[a] = d[a] * inverse;
+      look_at_motion(rows, two, contact);
+      contact.radius = two.ri * two.rj / (two.ri + two.rj);
+      contact.dt = V(c.dt);
+      std::uint32_t pair[part_lanes];
+      if constexpr (!one_material)
+        for (std::size_t l = 0; l < part_lanes; ++l)
+          pair[l] = static_cast<std::uint32_t>(two.group_i[static_cast<int>(l)]) * c.materials.groups +
+                    static_cast<std::uint32_t>(two.group_j[static_cast<int>(l)]);
+      const Answer answer = respond(contact, constants_of(c, pair), list, part, sweep);
+      const V excess = contact.overlap - V(c.largest_overlap) * min(two.ri, two.rj);
+      if (positive_lanes(excess) != 0) note_pairs(c, two.i, two.j, excess, contact.overlap, sweep.deep);
+      add_answer(c, rows, two, answer, sweep);
+    }
+    // Of its two grains neither has to go further than half of it before they touch.
+    if (may_sleep && list.touching[g] == 0) list.asleep[g] = c.path + 0.499 * gap;
+  }
+
+  /// Difference x_j - x_i [m] and its square.
+  [[gnu::always_inline]] static V look_at_places(const ContactContext& c, const Rows& rows, Partners& two,
+                                                 V (&d)[3]) {
     const V unit(c.quantum.length);
-    V xi[4], xj[4];
-    load_vectors<Rows::motion_width>(rows.motion, i, xi);
-    load_vectors<Rows::motion_width>(rows.motion, j, xj);
-    Contact<V> contact;
-    V d[3], distance2 = V::zero();
+    V xi[4], xj[4], distance2 = V::zero();
+    load_vectors<Rows::motion_width>(rows.motion, two.i, xi);
+    load_vectors<Rows::motion_width>(rows.motion, two.j, xj);
     for (int a = 0; a < 3; ++a) {
       d[a] = coordinate_difference(xi[a], xj[a]) * unit;
       distance2 += d[a] * d[a];
     }
-    Partners two{i, j, xi[3], xj[3]};
-    const V distance = sqrt(distance2), inverse = V(1.0) / distance;
-    // Unused lanes hold a row twice: distance 0 does not touch.
-    contact.overlap = where_less(V::zero(), distance2, two.ri + two.rj - distance);
-    if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) {
-      if (c.path < std::numeric_limits<double>::infinity())
-        list.asleep[g] = c.path + way_to_touch(contact.overlap, distance2, two);
-      return;
-    }
-    for (int a = 0; a < 3; ++a) contact.normal[a] = d[a] * inverse;
-    look_at_motion(rows, two, contact);
-    contact.radius = two.ri * two.rj / (two.ri + two.rj);
-    contact.dt = V(c.dt);
-    std::uint32_t pair[lanes];
-    if constexpr (!one_material)
-      for (std::size_t l = 0; l < lanes; ++l)
-        pair[l] = static_cast<std::uint32_t>(two.group_i[static_cast<int>(l)]) * c.materials.groups +
-                  static_cast<std::uint32_t>(two.group_j[static_cast<int>(l)]);
-    const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
-    const V excess = contact.overlap - V(c.largest_overlap) * min(two.ri, two.rj);
-    if (positive_lanes(excess) != 0) note_pairs(c, i, j, excess, contact.overlap, sweep.deep);
-    add_answer(c, rows, two, answer, sweep);
+    two.ri = xi[3];
+    two.rj = xj[3];
+    return distance2;
   }
 
-  /// How far grains may go before any of these pairs touches, each of its two; no pair does now.
-  [[gnu::noinline]] static double way_to_touch(V overlap, V distance2, const Partners& two) {
+  /// The least of pairs that do not touch.
+  [[gnu::noinline]] static double gap_of(V overlap, V distance2, const Partners& two) {
     double gap = std::numeric_limits<double>::infinity();
     for (int l = 0; l < V::lanes; ++l)
       if (distance2[l] > 0)
         gap = std::min(gap, -overlap[l] - 1e-9 * (two.ri[l] + two.rj[l]));  // for rounding
-    return 0.499 * gap;
+    return gap;
   }
 
   /// Those that are not asleep. Sums are in whole quanta: whoever has nothing to add need not be asked.
@@ -247,7 +271,7 @@ struct ContactPass {
     }
     contact.mass = vi[3] * vj[3] / (vi[3] + vj[3]);
     for (int a = 0; a < 3; ++a) rel[a] = vj[a] - vi[a];
-    kinematics(contact, rel, surface);
+    set_motion<spins>(contact, rel, surface);
   }
 
   /// Whole quanta of force and torque to the sums of both grains.
@@ -276,85 +300,72 @@ struct ContactPass {
     add_to_rows<stride>(rows.sums, two.j, on_j);
   }
 
-  /// Not a loop: see Simd.
-  [[gnu::always_inline]] static void cross(const V (&a)[3], const V (&b)[3], V (&out)[3]) {
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-  }
-
-  /// separation, slip and roll from the relative velocity and r_i omega_i + r_j omega_j.
-  [[gnu::always_inline]] static void kinematics(Contact<V>& contact, const V (&rel)[3],
-                                                const V (&surface)[3]) {
-    const V(&n)[3] = contact.normal;
-    contact.separation = rel[0] * n[0] + rel[1] * n[1] + rel[2] * n[2];
-    if constexpr (spins) {
-      const V along = contact.roll[0] * n[0] + contact.roll[1] * n[1] + contact.roll[2] * n[2];
-      V turned[3];
-      cross(surface, n, turned);
-      for (int a = 0; a < 3; ++a) {
-        contact.slip[a] = rel[a] - contact.separation * n[a] - turned[a];
-        contact.roll[a] -= along * n[a];
-      }
-    }
-  }
-
   [[gnu::flatten]] static void add_walls(const ContactContext& c, const Rows& rows, std::size_t g,
                                          ContactSweep& sweep) {
     ContactGroups& list = c.lists->walls();
-    const std::uint32_t* i = list.i.data() + g * lanes;
     const std::uint32_t* walls = list.j.data() + g * lanes;
     // Of fine meshes most facets that are listed touch nothing.
     if (list.touching[g] == 0 && c.walls.facets->any() && !c.walls.facets->any_in(g) &&
         *std::min_element(walls, walls + lanes) >= c.walls.planes.size())
       return;
-    Contact<V> contact;
-    V rel[3], surface[3];
-    std::uint32_t pair[lanes];
-    std::size_t number[lanes];
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const std::size_t r = i[l];
-      const int k = static_cast<int>(l);
-      const WallSide side = wall_side(c, walls[l], g * lanes + l, rows.x(r));
-      for (std::size_t a = 0; a < 3; ++a) {
-        contact.normal[a].set(k, -side.away[a]);
-        rel[a].set(k, side.velocity[a] - rows.v(r)[a]);
-        if constexpr (spins) {
-          surface[a].set(k, rows.radius(r) * rows.w(r)[a]);
-          contact.roll[a].set(k, -rows.w(r)[a]);
+    for (Part part{g, 0}; part.at < lanes; part.at += part_lanes) {
+      Contact<V> contact;
+      V rel[3], surface[3];
+      std::uint32_t pair[part_lanes];
+      std::size_t number[part_lanes];
+      for (std::size_t l = 0; l < part_lanes; ++l) {
+        const std::size_t entry = part.first() + l, r = list.i[entry];
+        const int k = static_cast<int>(l);
+        const WallSide side = wall_side(c, list.j[entry], entry, rows.x(r));
+        for (std::size_t a = 0; a < 3; ++a) {
+          contact.normal[a].set(k, -side.away[a]);
+          rel[a].set(k, side.velocity[a] - rows.v(r)[a]);
+          if constexpr (spins) {
+            surface[a].set(k, rows.radius(r) * rows.w(r)[a]);
+            contact.roll[a].set(k, -rows.w(r)[a]);
+          }
         }
+        contact.overlap.set(k, side.touchable ? rows.radius(r) - side.distance : 0.0);
+        contact.radius.set(k, rows.radius(r));
+        contact.mass.set(k, rows.mass(r));
+        pair[l] = rows.group(r) * c.materials.groups + side.group;
+        number[l] = side.number;
       }
-      contact.overlap.set(k, side.touchable ? rows.radius(r) - side.distance : 0.0);
-      contact.radius.set(k, rows.radius(r));
-      contact.mass.set(k, rows.mass(r));
-      pair[l] = rows.group(r) * c.materials.groups + side.group;
-      number[l] = side.number;
+      if (positive_lanes(contact.overlap) == 0 && part.of_group(list.touching[g]) == 0) continue;
+      set_motion<spins>(contact, rel, surface);
+      contact.dt = V(c.dt);
+      const Answer answer = respond(contact, constants_of(c, pair), list, part, sweep);
+      for (std::size_t l = 0; l < part_lanes; ++l)
+        if (contact.overlap[static_cast<int>(l)] > 0)
+          add_wall_answer(c, rows, part.first() + l, number[l], contact, answer, static_cast<int>(l), sweep);
     }
-    kinematics(contact, rel, surface);
-    contact.dt = V(c.dt);
-    const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const int k = static_cast<int>(l);
-      if (!(contact.overlap[k] > 0)) continue;
-      const double deepest = c.largest_overlap * rows.radius(i[l]);
-      if (contact.overlap[k] > deepest)
-        note(c, i[l], c.lists->numbers().key(walls[l]), contact.overlap[k], deepest, sweep.deep);
-      for (int a = 0; a < 3; ++a) {
-        const double f = answer.force[a][k] * (1 / c.quantum.force);
-        if (std::fabs(f) > largest_force)
-          note(c, i[l], c.lists->numbers().key(walls[l]), std::fabs(f), largest_force, sweep.strong);
-        const Sum sum = Sums::scalar(f);
-        rows.sums[std::size_t{i[l]} * stride + static_cast<std::size_t>(a)] -= sum;
-        // A wall has any number of contacts: two halves have room for 2^31 of them.
-        const std::size_t at = number[l] * 3 + static_cast<std::size_t>(a);
-        const auto on_wall = static_cast<std::int64_t>(sum);
-        c.walls.force[at] += on_wall & 0xffffffff;
-        c.walls.force[3 * c.walls.count + at] += on_wall >> 32;
-        if constexpr (spins) {
-          const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
-          rows.sums[std::size_t{i[l]} * stride + 4 + static_cast<std::size_t>(a)] +=
-              Sums::scalar(torque * (1 / c.quantum.torque));
-        }
+  }
+
+  /// That of lane k.
+  static void add_wall_answer(const ContactContext& c, const Rows& rows, std::size_t entry,
+                              std::size_t number, const Contact<V>& contact, const Answer& answer, int k,
+                              ContactSweep& sweep) {
+    const ContactGroups& list = c.lists->walls();
+    const std::size_t i = list.i[entry];
+    const auto of_wall = [&] { return c.lists->numbers().key(list.j[entry]); };
+    const double deepest = c.largest_overlap * rows.radius(i);
+    if (contact.overlap[k] > deepest)
+      note(c, list.i[entry], of_wall(), contact.overlap[k], deepest, sweep.deep);
+    for (int a = 0; a < 3; ++a) {
+      const double f = answer.force[a][k] * (1 / c.quantum.force);
+      if (std::fabs(f) > largest_force)
+        note(c, list.i[entry], of_wall(), std::fabs(f), largest_force, sweep.strong);
+      const Sum sum = Sums::scalar(f);
+      rows.sums[i * stride + static_cast<std::size_t>(a)] -= sum;
+      // A wall has any number of contacts: two halves have room for 2^31 of them.
+      const std::size_t at = number * 3 + static_cast<std::size_t>(a);
+      const auto on_wall = static_cast<std::int64_t>(sum);
+      c.walls.force[at] += on_wall & 0xffffffff;
+      c.walls.force[3 * c.walls.count + at] += on_wall >> 32;
+      if constexpr (spins) {
+        const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
+        rows.sums[i * stride + 4 + static_cast<std::size_t>(a)] +=
+            Sums::scalar(torque * (1 / c.quantum.torque));
       }
     }
   }

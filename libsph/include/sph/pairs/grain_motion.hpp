@@ -19,7 +19,10 @@ typedef std::int64_t FourIntegers __attribute__((vector_size(32)));
 /// Sums in whole quanta, whose bits depend on no order. benchmarks/contacts.cpp has what they cost.
 struct QuantumSums {
   using Sum = std::uint64_t;
-  static Int64x8 lanes(Simd<double> quanta) { return to_integers(quanta); }
+  template <int bytes>
+  static Simd<std::int64_t, bytes> lanes(Simd<double, bytes> quanta) {
+    return to_integers(quanta);
+  }
   static Sum scalar(double quanta) { return static_cast<Sum>(round_to_quanta(quanta)); }
   static FourDoubles values(const Sum* four) {
     FourIntegers sums;
