@@ -160,8 +160,7 @@ class Maker:
         leaves = d.one("leaves", ["none", "delete", "delete", "stop", "some"])
         if leaves != "none":
             domain["leaves"] = [f for f in faces if d.chance(f"leaves/{f}", 0.5)] if leaves == "some" else leaves
-        scene["outlet"] = [dict(zip(("lower", "upper"), self.box(d.part("drain", k), 0)))
-                           for k in range(d.weighted("drains", {0: 2, 1: 3, 2: 1}))]
+        scene["outlet"] = [self.drain(d.part("drain", k), dt) for k in range(d.weighted("drains", {0: 2, 1: 3, 2: 1}))]
         scene["insertion"] = [i for k in range(d.weighted("insertions", {0: 1, 1: 3, 2: 2}))
                               if (i := self.insertion(d.part("insertion", k), dt))]
         for key in ("outlet", "insertion"):
@@ -169,6 +168,10 @@ class Maker:
                 del scene[key]
         if d.chance("budget", 0.5) and ("insertion" in scene or "outlet" in scene or domain.get("leaves", "stop") not in ("stop", [])):
             scene["monitor"] = [{"kind": "budget"}]
+
+    def drain(self, d, dt):
+        out = dict(zip(("lower", "upper"), self.box(d, 0)))
+        return {**out, "every": dt * d.log("every", 0.5, 60)} if d.chance("now and then", 0.4) else out
 
     def box(self, d, least):
         """Somewhere in the domain, so wide at least, or nothing."""

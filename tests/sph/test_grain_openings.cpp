@@ -171,6 +171,43 @@ TEST(GrainOpenings, FacesAndOutletsDelete) {
   EXPECT_GT(s.grains()->pairs().counters().carried, 0);
 }
 
+/// Steps in which grains left a box that all of them come into within `duration` s.
+std::int64_t departures(const std::string& outlet, double duration) {
+  Simulation s(self(), sph::parse_scene(box("[0.01, 0.02, 0.005]",
+                                            "[[outlet]]\nlower = [0, 0, 0.005]\n"
+                                            "upper = [0.04, 0.02, 0.02]\n" +
+                                                outlet),
+                                        "scene",
+                                        {"start.velocity=[0, 0, 1]", "domain.gravity=[0, 0, 0]",
+                                         "start.spacing=0.0025", "start.jitter=0.1"}));
+  const auto inside = [&] {
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < s.particles().owned(); ++i)
+      count += s.scale().metres(s.particles().data<Field::position>()[3 * i + 2]) >= 0.005 ? 1 : 0;
+    return count;
+  };
+  const double every = s.scene().domain.openings.outlets[0].every;
+  std::int64_t steps = 0, most = 0;
+  while (s.global().time < duration) {
+    const double before = s.global().time;
+    const std::int64_t count = s.particle_count();
+    s.step();
+    const bool opens = every == 0 || std::floor(s.global().time / every) > std::floor(before / every);
+    EXPECT_TRUE(!opens || inside() == 0) << s.global().time;
+    EXPECT_TRUE(opens || s.particle_count() == count) << s.global().time;
+    most = std::max(most, inside());
+    if (s.particle_count() < count) ++steps;
+  }
+  EXPECT_EQ(s.particle_count(), 0) << "all have come into it";
+  EXPECT_TRUE(every == 0 || most > 10) << "some wait";
+  return steps;
+}
+
+TEST(GrainOpenings, OutletsMayOpenNowAndThen) {
+  EXPECT_GT(departures("", 0.006), 4);
+  EXPECT_LE(departures("every = \"2 ms\"\n", 0.0061), 3);
+}
+
 // All of them, and the run goes on with none.
 TEST(GrainOpenings, AllMayLeave) {
   Simulation s(self(), sph::parse_scene(box("[0.01, 0.02, 0.004]", ""), "scene",

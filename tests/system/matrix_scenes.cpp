@@ -217,7 +217,10 @@ const std::vector<Source>& sources() {
       // walls of triangles that turn, shake, come and go; contacts pass from facet to facet
       {"meshes", "tests/scenes/grains_mesh.toml", {}},
       // grains come and go, and their contacts with them
-      {"silo", "tests/scenes/grains_silo.toml", {}},
+      {"silo",
+       "tests/scenes/grains_silo.toml",
+       {"outlet=[{lower=[17e-3, 3e-3, 0], upper=[20e-3, 8e-3, 1e-3]}, "
+        "{lower=[14e-3, 3e-3, 0], upper=[17e-3, 8e-3, 1e-3], every=\"0.3 ms\"}]"}},
       // cells that no cut moves
       {"melts2d", "tests/scenes/melts2d.toml", {"time.dt=0.2"}},
       // grains that the flow on them carries for some steps: what is between two flows is state

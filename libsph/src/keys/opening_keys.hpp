@@ -55,6 +55,11 @@ inline constexpr auto outlet_keys = std::to_array<Key>({
     {"settle_time", Number{dimension::time, positive},
      "In so long the pressure comes back to what is given. Waves that are slow against it are thrown back.",
      at<&Outlet::settle_time>, of_fluids, Default{"1000 h over the fastest sound of a fluid"}},
+    {"every", Number{dimension::time, positive},
+     "Grains in the box are deleted so often. Lists of neighbours are made anew whenever grains are, so that "
+     "a box that they "
+     "need a while to cross costs less so.",
+     at<&Outlet::every>, of_grains, Default{"after each step"}},
 });
 inline constexpr Table<Outlet> outlet{
     {"outlet", true, "A box in which fluids, updated solids and grains are deleted; budgets count them.",

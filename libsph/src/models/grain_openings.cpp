@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 #include "sph/core/error.hpp"
@@ -42,7 +43,7 @@ GrainOpenings::GrainOpenings(std::size_t set, const Scene& scene, const Position
       insertions_(scene, scale),
       due_(insertions_.count(), 0) {
   for (const Outlet& outlet : scene.domain.openings.outlets) {
-    Box box{};
+    Box box;
     for (std::size_t a = 0; a < 3; ++a) {
       box.lower[a] = quantum_from(outlet.lower[a], scale);
       box.upper[a] = quantum_from(outlet.upper[a], scale);
@@ -70,6 +71,7 @@ double GrainOpenings::start(const decomp::Comm& comm, Particles& particles, Glob
 }
 
 bool GrainOpenings::report(const StepState& s, Reduction& r) {
+  open_outlets(s.global);
   find_leavers(s.particles, s.particles.has_lines() ? GrainPlaces(s.particles.lines().motion.data())
                                                     : GrainPlaces(s.particles));
   auto events = static_cast<std::int64_t>(leavers_.size());
@@ -81,17 +83,28 @@ bool GrainOpenings::report(const StepState& s, Reduction& r) {
   return true;
 }
 
+void GrainOpenings::open_outlets(const GlobalState& before) {
+  for (std::size_t k = 0; k < outlets_.size(); ++k) {
+    const double every = scene_->domain.openings.outlets[k].every;
+    outlets_[k].open =
+        every == 0 || std::floor((before.time + before.dt) / every) > std::floor(before.time / every);
+  }
+}
+
 void GrainOpenings::find_leavers(const Particles& p, const GrainPlaces& places) {
   leavers_.clear();
+  const bool opens = std::ranges::any_of(outlets_, &Box::open);
+  if (!opens && std::ranges::none_of(scene_->domain.openings.deletes, std::identity{})) return;
   const std::uint32_t* group = p.data<Field::group>();
   for (std::size_t i = 0; i < p.owned(); ++i) {
     std::array<std::int64_t, 3> x = places.x(i);
     for (std::size_t a = 0; a < 3; ++a) x[a] = wrap_(static_cast<int>(a), x[a]);
     const bool inside = domain_.contains(x);
-    if (inside && outlets_.empty()) continue;
+    if (inside && !opens) continue;
     const Group& g = scene_->groups[group[i]];
     if (g.grain.fixed) continue;
-    const auto outlet = std::ranges::find_if(outlets_, [&](const Box& box) { return box.contains(x); });
+    const auto outlet =
+        std::ranges::find_if(outlets_, [&](const Box& box) { return box.open && box.contains(x); });
     if (outlet != outlets_.end())
       leavers_.push_back({i, static_cast<std::size_t>(outlet - outlets_.begin())});
     else if (!inside && is_deleted(*scene_, scale_, g, x.data()))

@@ -35,6 +35,7 @@ constexpr auto of_elements = std::to_array<std::array<std::string_view, 2>>({{"g
                                                                              {"inlet", "pressure"},
                                                                              {"inlet", "temperature"},
                                                                              {"outlet", "pressure"},
+                                                                             {"outlet", "every"},
                                                                              {"insertion", "rate"},
                                                                              {"insertion", "velocity"},
                                                                              {"insertion", "every"}});

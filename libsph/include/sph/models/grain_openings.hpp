@@ -1,6 +1,6 @@
-// Where grains come in and leave: [[insertion]], [[outlet]], domain.leaves. Those that a step leaves in an outlet, or outside
-// the domain beyond a face that deletes, are no more, nor are their contacts; insertions then put in theirs. Which grains
-// these are follows from the state at the end of a step alone.
+// Where grains come in and leave: [[insertion]], [[outlet]], domain.leaves. Those that a step leaves in an outlet that is open
+// then, or outside the domain beyond a face that deletes, are no more, nor are their contacts; insertions then put in theirs.
+// Which grains these are follows from the state at the end of a step alone.
 #pragma once
 
 #include <array>
@@ -39,11 +39,13 @@ class GrainOpenings final : public Model {
   };
   /// lower <= x < upper [quanta]
   struct Box {
-    std::array<std::int64_t, 3> lower, upper;
+    std::array<std::int64_t, 3> lower{}, upper{};
+    bool open = true;  ///< in the step at hand
     [[nodiscard]] bool contains(const std::array<std::int64_t, 3>& x) const;
   };
 
   [[nodiscard]] std::size_t faces() const { return outlets_.size(); }  ///< their passage
+  void open_outlets(const GlobalState& before);
   void find_leavers(const Particles& particles, const GrainPlaces& places);
   void find_leavers(const decomp::Comm& comm, const Particles& particles, std::span<const std::uint64_t> ids);
   [[nodiscard]] std::vector<bool> staying(const Particles& particles) const;  ///< by row

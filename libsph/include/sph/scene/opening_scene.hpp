@@ -46,9 +46,10 @@ struct Insertion {
 /// A box in which particles are deleted. With a pressure it is led on to the box's end first, and lets sound out.
 struct Outlet {
   std::array<double, 3> lower{}, upper{};
-  Direction direction = Direction::x_up;     ///< with a pressure
-  TimeCurve pressure;                        ///< at the middle of the box [Pa]; empty: it is deleted at once
-  double settle_time = 0;                    ///< how fast the pressure returns to that [s]
+  Direction direction = Direction::x_up;  ///< with a pressure
+  TimeCurve pressure;                     ///< at the middle of the box [Pa]; empty: it is deleted at once
+  double settle_time = 0;                 ///< how fast the pressure returns to that [s]
+  double every = 0;  ///< grains in it are deleted at once so often [s]; 0: after each step
   static constexpr double settles_in = 100;  ///< h / c: what is beside boxes is a mean over so long
   friend bool operator==(const Outlet&, const Outlet&) = default;
 };
