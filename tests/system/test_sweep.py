@@ -5,9 +5,12 @@
 """
 import csv
 import json
+import shutil
+import signal
 import sys
+import tomllib
 
-from runner import Case, main
+from runner import Case, main, rows_in, wait_for
 
 
 class Sweep(Case):
@@ -60,13 +63,50 @@ class Sweep(Case):
         self.assertIn("another scene", self.run_of.run(1, "peperite", "sweep", more, *words, code=2).err)
 
     def test_what_was_stopped_goes_on(self):
+        """After SIGTERM, to the runs at hand too; after the loss of all but the first files; not what ended elsewhere."""
         out = self.folder / "stopped"
-        words = ["--vary", "time.cfl=0.5", "--out", "stopped", "--steps", 8]
-        self.run_of.run(1, "peperite", "run", self.scene, "--set", "time.cfl=0.5", "--steps", 3, "--out", out / "cfl=0.5")
-        (out / "cfl=0.5/perf.json").unlink()
+        words = ["--vary", "time.cfl=0.5,0.7", "--jobs", 1, "--out", "stopped", "--steps", 1500]
+        sweep = self.run_of.start(1, "peperite", "sweep", self.scene, *words)
+        wait_for(lambda: rows_in(out / "cfl=0.5/series.csv") > 2)
+        sweep.send_signal(signal.SIGTERM)
+        done = self.run_of.finish(sweep)
+        self.assertEqual(done.code, 75, done.err)
+        self.assertIn("exit code 75", done.out)
+        self.assertIn("cfl=0.7: not begun", done.out)
+        self.assertLess(json.loads((out / "cfl=0.5/perf.json").read_text())["end"]["step"], 1500)
         self.sweep(*words)
-        whole = self.run_of.run(1, "peperite", "run", self.scene, "--set", "time.cfl=0.5", "--steps", 8, "--out", "whole")
-        self.assertEqual(self.table("stopped")[0]["fingerprint"], whole.fingerprint.split()[1])
+        self.assertEqual([row["step"] for row in self.table("stopped")], ["1500.0", "1500.0"])
+        for value in ("0.5", "0.7"):
+            whole = self.run_of.run(1, "peperite", "run", self.scene, "--set", f"time.cfl={value}", "--steps", 1500, "--out", f"whole{value}")
+            self.assertIn(whole.fingerprint.split()[1], {row["fingerprint"] for row in self.table("stopped") if row["time.cfl"] == value})
+        (out / "cfl=0.5/perf.json").unlink()
+        shutil.rmtree(out / "cfl=0.5/checkpoint")  # as a run is that was killed before its first
+        before = self.table("stopped")
+        self.sweep(*words)
+        self.assertEqual([row["fingerprint"] for row in self.table("stopped")], [row["fingerprint"] for row in before])
+
+    def test_folders_are_of_their_settings(self):
+        """Whatever their names: of two keys with the same last word, of values that differ by what a name cannot hold."""
+        words = ["--out", "named", "--steps", 2, "--set", "output.series_interval=0"]
+        self.sweep(*words, "--vary", "title=a b,a_b," + 200 * "x")
+        self.assertEqual([tomllib.loads((self.folder / "named" / name / "scene.toml").read_text())["title"]
+                          for name in ("title=a_b", "title=a_b_2", "title=" + 94 * "x")], ["a b", "a_b", 200 * "x"])
+        self.sweep(*words, "--vary", "title=a_b,c")
+        self.assertTrue((self.folder / "named/title=c").is_dir())
+        self.assertFalse((self.folder / "named/title=a_b_3").exists())
+        self.sweep(*words, "--vary", "output.title=a_b", code=2)  # no such key
+        self.assertEqual(self.table("named"), [])
+
+    def test_what_is_not_of_a_sweep_is_left(self):
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/sweep.csv").write_text("mine\n")
+        self.assertIn("holds no sweep", self.sweep("--vary", "time.cfl=0.5", "--out", "mine", "--steps", 1, code=2).err)
+        self.assertEqual((self.folder / "mine/sweep.csv").read_text(), "mine\n")
+        self.sweep("--vary", "time.cfl=0.5", "--out", "hurt", "--steps", 1)
+        (self.folder / "hurt/cfl=0.5/perf.json").write_text("{}")
+        self.assertIn("not of a run", self.sweep("--vary", "time.cfl=0.5", "--out", "hurt", "--steps", 1, code=2).out)
+        (self.folder / "hurt/sweep.json").write_text("")
+        self.assertIn("damaged", self.sweep("--vary", "time.cfl=0.5", "--out", "hurt", "--steps", 1, code=2).err)
 
     def test_one_that_fails_leaves_the_others(self):
         done = self.sweep("--vary", "time.cfl=0.5,-1,0.7", "--out", "some", "--steps", 2, code=2)
