@@ -104,9 +104,15 @@ class Simulation(PythonCase):
                 peperite.Simulation(scene, set=settings)
             self.assertIn(says, str(caught.exception))
             self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        from mpi4py import MPI
+        for comm in (MPI.COMM_NULL, MPI.GROUP_NULL, 3):
+            with self.assertRaises(peperite.InputError):
+                peperite.Simulation(path, comm=comm)
         s = peperite.Simulation(path)
-        with self.assertRaises(peperite.InputError):
-            s.field("void")
+        for wrong in (lambda: s.field("void"), lambda: s.step(-1), lambda: s.run(until=float("nan")), lambda: s.run(steps=-1),
+                      lambda: s.save("a\0b")):
+            with self.assertRaises(peperite.InputError):
+                wrong()
         with self.assertRaises(peperite.OutputError) as caught:
             s.save(self.folder / "nowhere/snapshot.h5")
         fast = peperite.Simulation(path, set={"start.velocity": [0, 0, 60]})

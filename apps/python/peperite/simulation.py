@@ -82,6 +82,8 @@ class Simulation:
         except ImportError as error:
             raise Error(f"Simulation needs mpi4py and peperite_simulation, which -DPEPERITE_PYTHON=ON builds: {error}") from None
         self.comm = MPI.COMM_WORLD if comm is None else comm
+        if not isinstance(self.comm, MPI.Intracomm) or self.comm == MPI.COMM_NULL:
+            raise InputError(f"comm: is {comm!r}; give an mpi4py communicator within one group, such as MPI.COMM_WORLD")
         if isinstance(scene, Mapping):
             text = "".join(f"{quoted(key)} = {toml_of(value)}\n" for key, value in scene.items())
             read = module.parse_scene(text, "scene", settings(set))
@@ -205,6 +207,8 @@ class Simulation:
         return [value for value, _ in said]
 
     def step(self, steps=1):
+        if steps < 0:
+            raise InputError(f"step: {steps} steps; give 0 or more")
         self._running.step(steps)
 
     def run(self, until=None, steps=None, each=None):
@@ -213,6 +217,8 @@ class Simulation:
         end = self.scene["time"]
         if until is None and steps is None:
             until, steps = end.get("until"), end.get("steps")
+        if not (until is None or until >= 0) or not (steps is None or steps >= 0):
+            raise InputError(f"run: until = {until}, steps = {steps}; give numbers from 0")
         while (until is None or self.time < until) and (steps is None or self.steps < steps):
             self.step()
             if each is not None:
@@ -253,6 +259,8 @@ class Simulation:
     def save(self, path, overwrite=False):
         """Writes a snapshot, as runs do; instead of another one where that is said."""
         path = os.fspath(path)
+        if "\0" in path:
+            raise InputError(f"save: {path!r} is no name of a file")
         self._refuse(OutputError, lambda: os.path.lexists(path) and not (overwrite and is_snapshot(path)), path)
         self._running.save(path)
 

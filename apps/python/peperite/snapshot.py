@@ -81,8 +81,10 @@ class Snapshot:
         if not isinstance(values, np.ndarray) or values.dtype.kind not in "iuf" or len(values) != len(self._ids) or (
                 vector and values.shape[1:] != (self.scene["dimension"],)):
             raise Error(f"{self.path}: {field} is not a row of numbers for each particle")
-        if field == "group" and len(values) and values.max() >= len(self.scene["group"]):
-            raise Error(f"{self.path}: group: the scene has {len(self.scene['group'])} groups, not {values.max() + 1}")
+        if field == "group" and len(values) and not 0 <= values.min() <= values.max() < len(self.scene["group"]):
+            raise Error(f"{self.path}: group: the scene has {len(self.scene['group'])} groups, numbers are {values.min()} to {values.max()}")
+        if field == "position" and not np.isfinite(values).all():
+            raise Error(f"{self.path}: position: some are no numbers")
 
     @functools.cached_property
     def _ids(self):
