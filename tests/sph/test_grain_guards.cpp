@@ -98,6 +98,10 @@ TEST(GrainGuards, WallSpeedsAreRefused) {
   EXPECT_SAYS(refused(stage, {}), "stage \"go\": velocity: wall \"floor\" at 88 m/s");
   EXPECT_SAYS(refused("", {"wall.floor.force=1", "wall.floor.servo_gain=1", "wall.floor.largest_speed=1e3"}),
               "wall.largest_speed");
+  EXPECT_SAYS(refused("[[mesh]]\nname = \"plate\"\nmaterial = \"sand\"\nfile = \"none.stl\"\n"
+                      "amplitude = [0.03, 0, 0.04]\nfrequency = 300\n",
+                      {}),
+              "mesh.amplitude: mesh \"plate\" at 94.2478 m/s");
   // Along the plane it moves nothing.
   EXPECT_NO_THROW(check_time_step(parse_scene(bare, "bare", {"wall.floor.velocity=[1e5, 0, -1]"})));
 }

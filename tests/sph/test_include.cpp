@@ -155,6 +155,8 @@ TEST_F(Include, ErrorsAreWhereTheyAreWritten) {
   EXPECT_EQ(refusal(both + "[start]\ninclude = \"a\"\n"),
             "scene.toml:3:1: start.include: unknown key; it belongs above the first table");
   EXPECT_EQ(refusal(std::string(materials) + materials).find("scene.toml:13:8: group.wall.name: "), 0U);
+  const std::string twice = "[[group]]\nname = \"melt\"\nviscosity = 7\n";
+  EXPECT_NE(refusal(both + twice + twice).find("group.melt.name: "), std::string::npos) << "in one file";
 }
 
 TEST_F(Include, WhatCannotBeIncludedIsSaidAtTheInclude) {

@@ -1,5 +1,6 @@
 // Nearest points of triangles against points spread over them; which triangles are near, against asking all.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -167,6 +168,29 @@ TEST(MeshFile, SaysWhichFacetIsBroken) {
   EXPECT_NE(said_of("", ".obj").find("give an STL or OBJ file"), std::string::npos);
   EXPECT_EQ(said_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", ".obj"), "4 vertices, 2");
   EXPECT_NE(said_of("v 0 0 0\nv 1 0 0\nl 1 2\n", ".obj").find("mesh.one"), std::string::npos);
+  // Cut off anywhere, in a number of the second facet too.
+  const std::string whole = "solid x\n" + good + beside;
+  for (std::size_t end = 9; end < whole.size(); ++end)
+    EXPECT_EQ(said_of(whole.substr(0, end), ".stl").find("mesh.one: "), 0U) << end;
+  EXPECT_EQ(said_of(whole + "EndSolid \r\n\n", ".stl"), "4 vertices, 2");
+  EXPECT_NE(
+      said_of(
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 "
+          "2\n",
+          ".ply")
+          .find("another format"),
+      std::string::npos);
+}
+
+// What an OBJ says of materials is not opened: a pipe would never end.
+TEST(MeshFile, ReadsTheMeshAlone) {
+  const std::filesystem::path pipe =
+      std::filesystem::temp_directory_path() / ("peperite_pipe_" + std::to_string(getpid()));
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(said_of("mtllib " + pipe.filename().string() + "\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", ".obj"),
+            "3 vertices, 1");
+  std::filesystem::remove(pipe);
 }
 
 }  // namespace

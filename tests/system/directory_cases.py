@@ -169,6 +169,15 @@ class Cases:
         assert first
         self.run.refused(2, "peperite", "run", self.scene, *record, "--steps", 3, "--out", "again", says="exists")
         self.run.run(2, "peperite", "resume", "recorded", "--steps", 6)
+        more = cuts.read_bytes()
+        assert more.startswith(first) and len(more) > len(first)
+        cuts.write_bytes(more[:-3])  # as a run that was killed leaves it
+        self.run.run(2, "peperite", "resume", "recorded", "--steps", 8)
+        assert all(line.count(b"[") == more.splitlines()[0].count(b"[") for line in cuts.read_bytes().splitlines())
+        other = self.folder("other_cuts")
+        other.write_bytes(first)
+        self.run.refused(2, "peperite", "resume", "recorded", "--steps", 9, "--set", f"decomposition.record={other}", says="exists")
+        assert other.read_bytes() == first
         cuts.write_bytes(first + b"a note of mine\n")
         self.run.refused(2, "peperite", "resume", "recorded", "--steps", 9, says="exists")
         assert cuts.read_bytes().endswith(b"mine\n")

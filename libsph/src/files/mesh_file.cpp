@@ -1,15 +1,22 @@
 #include "files/mesh_file.hpp"
 
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <span>
+#include <string_view>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "files/content_hash.hpp"
@@ -92,14 +99,54 @@ class Welded {
   std::uint64_t facet_ = 0;
 };
 
+/// Of the mesh alone: an OBJ's materials are none of ours, and may be pipes.
+class OneFile : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string path) : path_(std::move(path)) {}
+  bool Exists(const char* file) const override { return file == path_ && DefaultIOSystem::Exists(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return file == path_ ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string path_;
+};
+
+/// One of numbers has the length that its count says, or the importer takes it for one of text: that ends with a line "endsolid".
+bool is_whole_stl(const std::string& path) {
+  constexpr std::uint64_t head = 80, facet = 50;
+  std::ifstream in(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (std::uint32_t count = 0; text.size() >= head + sizeof count) {
+    std::memcpy(&count, text.data() + head, sizeof count);
+    if (text.size() == head + sizeof count + facet * count) return true;
+  }
+  const std::size_t end = text.find_last_not_of(" \t\r\n");
+  if (end == std::string::npos) return false;
+  const std::size_t word = text.find_first_not_of(" \t", text.find_last_of("\r\n", end) + 1);
+  constexpr std::string_view closing = "endsolid";
+  return std::ranges::equal(std::string_view(text).substr(word, closing.size()), closing, {},
+                            [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
+}
+
 }  // namespace
 
 Triangles read_triangles(const std::string& path, const std::string& what) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(path));  // the importer's from then on
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr)
     throw InputError(
         fmt::format("{}: cannot be read: {}; give an STL or OBJ file", what, importer.GetErrorString()));
+  const int reader = importer.GetPropertyInteger("importerIndex", -1);
+  const aiImporterDesc* format =
+      reader < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(reader));
+  const std::string_view endings = format != nullptr ? format->mFileExtensions : "";
+  if (endings != "stl" && endings != "obj")
+    throw InputError(fmt::format("{}: is of another format ({}); give an STL or OBJ file", what,
+                                 format != nullptr ? format->mName : "unknown"));
+  if (endings == "stl" && !is_whole_stl(path))
+    throw InputError(what + ": ends before its last facet does; give the whole file");
   Welded welded(what);
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) welded.add(*scene->mMeshes[m]);
   Triangles all = welded.take();

@@ -55,14 +55,17 @@ void merge_tables(Table& into, Table from, const std::string& path) {
   }
 }
 
-/// Two elements of one name in one file stay two, which the reader refuses.
+/// Two elements of one name in one file stay two, which the reader refuses: one of the file before takes one.
 void merge_arrays(Array& into, Array from, const std::string& path) {
   const auto before = static_cast<std::ptrdiff_t>(into.size());
+  std::vector<std::string> merged;
   for (Node& element : from) {
     const std::string name = name_of(element);
     const auto last = into.begin() + before;
     const auto at = std::find_if(into.begin(), last, [&](const Node& n) { return name_of(n) == name; });
-    if (name.empty() || at == last)
+    const bool again = std::ranges::find(merged, name) != merged.end();
+    merged.push_back(name);
+    if (name.empty() || at == last || again)
       into.push_back(std::move(element));
     else
       merge(*at, std::move(element), path + "." + name);

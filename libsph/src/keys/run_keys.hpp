@@ -36,7 +36,8 @@ inline constexpr auto decomposition_keys = std::to_array<Key>({
     {"slowness",
      Number{dimension::none, {.least = 1, .most = 1000, .is = "it multiplies the time of one rank,"}},
      "slow_rank takes so many times as long.", at<&Decomposition::slowness>},
-    {"record", File{}, "Write the cuts of every rebuild to it.", at<&Decomposition::record>},
+    {"record", File{}, "Write the cuts of every rebuild to it. A run that goes on adds to it.",
+     at<&Decomposition::record>},
     {"replay", File{}, "The file for balance = \"replay\".", at<&Decomposition::replay>},
 });
 inline constexpr Table<Decomposition> decomposition{

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "sph/core/error.hpp"
 #include "sph/core/findings.hpp"
@@ -74,10 +75,13 @@ void check_wall_speeds(const Scene& scene) {
   for (const MeshWall& mesh : scene.grains.meshes) {
     double most = mesh.drive.largest_speed;
     for (const auto& [t, v] : mesh.motion.speed) most = std::max(most, std::fabs(v));
-    if (most * dt > limit)
+    const double swings = 2 * std::numbers::pi * mesh.motion.frequency * speed_of(mesh.motion.amplitude);
+    if (!((most + swings) * dt <= limit))
       throw InputError(fmt::format("{}: mesh.{}: mesh \"{}\" at {:.6g} m/s: {}, or this speed", scene.file,
-                                   mesh.drive.any() ? "largest_speed" : "velocity", mesh.name, most,
-                                   grain_move_text(scene, most * dt)));
+                                   mesh.drive.any() ? "largest_speed"
+                                   : swings > most  ? "amplitude"
+                                                    : "velocity",
+                                   mesh.name, most + swings, grain_move_text(scene, (most + swings) * dt)));
   }
   for (const Insertion& in : scene.domain.openings.insertions) {
     const double speed = speed_of(in.velocity);

@@ -1,5 +1,7 @@
 #include "sph/output/monitors.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -13,6 +15,7 @@
 #include "output/nearest_particle.hpp"
 #include "output/particle_values.hpp"
 #include "output/wall_values.hpp"
+#include "sph/core/error.hpp"
 #include "sph/models/energies.hpp"
 #include "sph/output/contact_records.hpp"
 
@@ -215,7 +218,12 @@ void Monitors::make_names(const Simulation& s) {
     if (m.kind == MonitorKind::melt) quantities = s.melt()->columns();
     if (m.kind == MonitorKind::flux) quantities = Flux::names();
     for (const std::string& quantity : quantities) {
-      names_.push_back(m.name + "_" + quantity);
+      const std::string name = m.name + "_" + quantity;
+      if (std::ranges::find(names_, name) != names_.end())
+        throw InputError(
+            fmt::format("monitor.{}.name: \"{}\" would be two columns of series.csv; give it another name",
+                        m.name, name));
+      names_.push_back(name);
       units_.push_back(unit_of(m.kind, quantity, s.scene().dim));
     }
   }

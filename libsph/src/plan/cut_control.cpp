@@ -1,7 +1,9 @@
 #include "sph/plan/cut_control.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "sph/core/error.hpp"
@@ -20,8 +22,10 @@ std::unique_ptr<decomp::CutPolicy> make_policy(const Decomposition& d) {
     case CutRule::chaos:
       return decomp::make_chaos(d.chaos_seed);
     case CutRule::replay: {
-      std::ifstream in(d.replay);
-      if (!in) throw InputError("decomposition.replay: cannot read '" + d.replay + "'");
+      std::error_code none;  // a pipe would be opened for ever
+      std::ifstream in;
+      if (std::filesystem::is_regular_file(d.replay, none)) in.open(d.replay);
+      if (!in.is_open()) throw InputError("decomposition.replay: cannot read '" + d.replay + "'");
       std::vector<decomp::Cuts> cuts;
       for (std::string line; std::getline(in, line);) cuts.push_back(decomp::cuts_from_text(line));
       return decomp::make_replay(std::move(cuts));

@@ -75,16 +75,18 @@ bool is_record(const fs::path& file) {
   return good;
 }
 
-void claim_record(const fs::path& record, bool again) {
+/// A run that goes on adds to its own, after the last whole line.
+void claim_record(const fs::path& record, bool own) {
   std::error_code none;
   if (fs::exists(record, none)) {
-    const bool replaceable =
-        fs::is_regular_file(record) && (fs::file_size(record) == 0 || (again && is_record(record)));
-    if (!replaceable)
+    const bool usable =
+        fs::is_regular_file(record) && (fs::file_size(record) == 0 || (own && is_record(record)));
+    if (!usable)
       throw InputError(record.string() +
-                       " exists and would be overwritten; name another file, or move it away");
+                       " exists and is not of this run; name another file, or move it away");
   }
-  Descriptor(record, O_WRONLY | O_CREAT | O_TRUNC).close();
+  Descriptor(record, O_WRONLY | O_CREAT).close();
+  fs::resize_file(record, read_text(record).rfind('\n') + 1);
 }
 
 }  // namespace
@@ -149,11 +151,11 @@ void remove_snapshots(const fs::path& dir, std::int64_t first, const std::vector
   for (const fs::path& path : own) fs::remove(path);
 }
 
-void prepare_record(const decomp::Comm& comm, const Scene& scene, bool again) {
+void prepare_record(const decomp::Comm& comm, const Scene& scene, bool own) {
   const fs::path record = scene.decomposition.record;
   if (record.empty()) return;
   const std::string failure = agree(comm, attempt([&] {
-                                      if (comm.rank() == 0) claim_record(record, again);
+                                      if (comm.rank() == 0) claim_record(record, own);
                                     }));
   if (!failure.empty()) throw InputError(scene.file + ": decomposition.record: " + failure);
 }

@@ -34,8 +34,8 @@ void remove_leftovers(const std::filesystem::path& dir);
 void remove_snapshots(const std::filesystem::path& dir, std::int64_t first,
                       const std::vector<std::string>& listed, const std::vector<std::string>& scenes);
 
-/// Makes the scene's file of recorded cuts an empty one. InputError, before anything is written, if it exists
-/// and is neither empty nor, where the run goes on (`again`), a record. Collective.
-void prepare_record(const decomp::Comm& comm, const Scene& scene, bool again);
+/// Makes the scene's file of recorded cuts ready for more. InputError, before anything is written, if it exists
+/// and is neither empty nor, where the run goes on with its `own`, a record. Collective.
+void prepare_record(const decomp::Comm& comm, const Scene& scene, bool own);
 
 }  // namespace sph

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "checkpoint/checkpoint_files.hpp"
 #include "files/agree.hpp"
@@ -116,6 +117,13 @@ RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
   return start;
 }
 
+/// It is the one that the run had so far.
+bool keeps_record(const RunOptions& options) {
+  return std::ranges::none_of(options.overrides, [](const std::string& given) {
+    return given.starts_with("decomposition.record") || given.starts_with("decomposition=");
+  });
+}
+
 RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
   refuse_other_changes(options.overrides);
   RunStart start;
@@ -127,9 +135,16 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
               if (comm.rank() != 0) return;
               if (!fs::is_directory(start.dir))
                 throw InputError(start.dir.string() + " is not the directory of a run");
-              if (!has_checkpoint(start.dir) && !fs::exists(file))
+              if (has_checkpoint(start.dir)) return;
+              if (!fs::exists(file))
                 throw InputError("there is no run in " + start.dir.string() +
                                  ": neither checkpoint nor scene.toml");
+              if (fs::exists(start.dir / "perf.json"))
+                throw InputError(
+                    fmt::format("{0} has the results of a run, but its checkpoint is gone: from the "
+                                "beginning they would be overwritten; "
+                                "begin another run with peperite run {0}/scene.toml --out DIR",
+                                start.dir.string()));
             }));
   if (!failure.empty()) throw InputError(failure);
   start.lock = std::make_unique<RunLock>(comm, start.dir);
@@ -143,7 +158,7 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
     if (comm.rank() == 0)
       fmt::print(stderr, "peperite: {} has no checkpoint yet: beginning anew\n", start.dir.string());
     const Scene scene = parse_scene(text, file, options.overrides, options.end);
-    prepare_record(comm, scene, true);
+    prepare_record(comm, scene, keeps_record(options));
     start.old_scene = text;
     start.simulation = simulate(scene, [&] { return begun(comm, scene); });
     return start;
@@ -152,7 +167,7 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
   if (!checkpoint.warning.empty() && comm.rank() == 0)
     fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
   const Scene scene = parse_scene(checkpoint.record.scene_toml, file, options.overrides, options.end);
-  prepare_record(comm, scene, true);
+  prepare_record(comm, scene, keeps_record(options));
   start.old_scene = checkpoint.record.scene_toml;
   start.memory = memory_from_json(checkpoint.record.extra_json);
   start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
