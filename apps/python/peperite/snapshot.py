@@ -164,6 +164,8 @@ class Snapshot:
     def displacement_since(self, first):
         """Of each particle [m]; NaN if it was not there. Periods count where a particle went less than half of one."""
         ids, before = self["id"], first["id"]
+        if not len(before):
+            return np.full(self["position"].shape, np.nan)
         place = np.minimum(np.searchsorted(before, ids), len(before) - 1)
         way = self.nearest_image(self["position"] - first["position"][place])
         return np.where((before[place] == ids)[:, None], way, np.nan)

@@ -150,6 +150,9 @@ Outlet read_outlet(const Reader<keys::outlet>& table, const Scene& scene) {
   const double usual = outlet.settle_time;
   table.read(outlet);
   outlet.pressure = read_curve(table.value("pressure"), dimension::pressure);
+  if (table.has("every") && !(outlet.every >= 1e-12))
+    table.fail("every", fmt::format("is {:.3g} s", outlet.every),
+               "shorter than any step: give 1e-12 s or more");
   const bool led = !outlet.pressure.empty();
   if (led) table.require("direction");
   const std::string_view deletes = "the outlet has no pressure: what comes into it is deleted";
@@ -157,6 +160,14 @@ Outlet read_outlet(const Reader<keys::outlet>& table, const Scene& scene) {
   table.only_if(led || outlet.settle_time == usual, "settle_time", deletes);
   check_box(table, outlet, scene, led);
   if (led) check_direction(table, outlet, scene);
+  for (std::size_t face = 0; outlet.every > 0 && face < 6; ++face) {
+    const std::size_t a = face / 2;
+    const bool beyond =
+        face % 2 == 0 ? outlet.lower[a] < scene.domain.lower[a] : outlet.upper[a] > scene.domain.upper[a];
+    if (beyond && !scene.domain.periodic[a] && !scene.domain.openings.deletes[face])
+      table.fail("every", fmt::format("lets grains wait beyond {}, where they end the run", face_name(face)),
+                 fmt::format("add \"{}\" to domain.leaves, or leave it out", face_name(face)));
+  }
   table.finish();
   return outlet;
 }

@@ -37,8 +37,7 @@ constexpr auto of_elements = std::to_array<std::array<std::string_view, 2>>({{"g
                                                                              {"outlet", "pressure"},
                                                                              {"outlet", "every"},
                                                                              {"insertion", "rate"},
-                                                                             {"insertion", "velocity"},
-                                                                             {"insertion", "every"}});
+                                                                             {"insertion", "velocity"}});
 
 std::string key_of(const std::string& given) { return given.substr(0, given.find_first_of(" =")); }
 
