@@ -109,31 +109,21 @@ class Runs:
         return f"exit code {child.returncode}: {said[0]}"
 
 
-def report_of(folder):
-    """What a run says at its end, or when it is stopped; None before."""
-    try:
-        return json.loads((folder / "perf.json").read_text())
-    except FileNotFoundError:
-        return None
-    except ValueError as error:
-        raise Error(f"{folder / 'perf.json'}: is damaged: {error}; remove it, and the run goes on") from None
-
-
 def is_done(folder):
     """It has come to its end."""
-    report = report_of(folder)
-    if report is None:
+    if not (folder / "perf.json").is_file():
         return False
+    run = Run(folder)
     try:
-        wanted, end = Run(folder).scene["time"], report["end"]
+        wanted, end = run.scene["time"], run.perf["end"]
         return end["step"] >= wanted.get("steps", math.inf) or end["time"] >= wanted.get("until", math.inf)
     except (KeyError, TypeError):
         raise Error(f"{folder / 'perf.json'}: is not of a run") from None
 
 
 def row_of(folder, setting):
-    run, report = Run(folder), report_of(folder)
-    row = {**dict(setting), "fingerprint": report["fingerprint"], "cost_seconds": report["cost_seconds"]}
+    run = Run(folder)
+    row = {**dict(setting), "fingerprint": run.perf["fingerprint"], "cost_seconds": run.perf["cost_seconds"]}
     try:
         return row | {name: column[-1] for name, column in run.series.items()}
     except Error:
