@@ -180,8 +180,10 @@ PYBIND11_MODULE(peperite_simulation, m) {
   m.def("read_scene", [](const std::string& path, const std::vector<std::string>& set) {
     return sph::read_scene(path, set);
   });
-  m.def("parse_scene", [](const std::string& text, const std::string& name,
-                          const std::vector<std::string>& set) { return sph::parse_scene(text, name, set); });
+  m.def("parse_scene",
+        [](const std::string& text, const std::string& name, const std::vector<std::string>& set) {
+          return sph::parse_scene(text, name, set, {}, true);
+        });
   py::class_<Running>(m, "Simulation")
       .def(py::init<const sph::Scene&, std::uintptr_t>(), Released())
       .def("step", &Running::step, Released())

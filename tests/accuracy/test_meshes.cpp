@@ -1,130 +1,17 @@
 // Grains on walls of triangles: a floor of facets against a plane, a ball on a turntable (Ehrlich & Tuszynski 1995: it runs in
 // circles at 2/7 of the table's rate), a ball that swings in a tube of facets, balls that bounce off edges and corners.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <random>
 
+#include "accuracy/mesh_balls.hpp"
 #include "accuracy/pinned.hpp"
-#include "sph/step/simulation.hpp"
 
 namespace {
 
-using Point = std::array<double, 3>;
-
-/// Files of a test, gone with it.
-class Files {
- public:
-  Files()
-      : folder_(std::filesystem::temp_directory_path() / ("peperite_meshes_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Files() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  Files(const Files&) = delete;
-  Files& operator=(const Files&) = delete;
-  std::string add(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
-  }
-
- private:
-  std::filesystem::path folder_;
-};
-
-/// An OBJ file as it grows.
-class Mesh {
- public:
-  int vertex(const Point& p) {
-    char line[128];
-    (void)std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", p[0], p[1], p[2]);
-    text_ += line;
-    return ++vertices_;
-  }
-  void facet(int a, int b, int c) {
-    text_ += "f " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
-  }
-  /// Of n x m quadrilaterals between points of a grid.
-  template <class At>
-  void sheet(int n, int m, At&& at) {
-    const int first = vertices_ + 1;
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= m; ++j) vertex(at(i, j));
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < m; ++j) {
-        const int a = first + i * (m + 1) + j, b = a + m + 1;
-        facet(a, b, b + 1);
-        facet(a, b + 1, a + 1);
-      }
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-  int vertices_ = 0;
-};
-
-const std::string steel = R"(
-dimension = 3
-[contact]
-law = "linear"
-[[group]]
-name = "steel"
-kind = "grain"
-diameter = 0.2
-density = 2500
-normal_stiffness = 1e5
-tangential_stiffness = 5e4
-)";
-
-struct Ball {
-  Point x, v, w;
-};
-
-std::string start_of(const Files& files, const std::vector<Ball>& balls) {
-  std::string rows = "id,x,y,z,vx,vy,vz,wx,wy,wz,group,radius\n";
-  char line[256];
-  for (std::size_t k = 0; k < balls.size(); ++k) {
-    const Ball& b = balls[k];
-    (void)std::snprintf(line, sizeof line,
-                        "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,0,0.1\n", k, b.x[0],
-                        b.x[1], b.x[2], b.v[0], b.v[1], b.v[2], b.w[0], b.w[1], b.w[2]);
-    rows += line;
-  }
-  return "[start]\nfile = \"" + files.add("start.csv", rows) + "\"\n";
-}
-
-Ball ball(const sph::Simulation& s) {
-  const sph::Particles& p = s.particles();
-  Ball out{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    out.x[a] = s.scale().metres(p.data<sph::Field::position>()[a]);
-    out.v[a] = p.data<sph::Field::velocity>()[a];
-    if (p.has(sph::Field::spin)) out.w[a] = p.data<sph::Field::spin>()[a];
-  }
-  return out;
-}
-
-/// After so long, and what is seen on the way.
-template <class See>
-Ball run(const std::string& text, double until, See&& see) {
-  const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(comm, sph::parse_scene(text + "until = 1e9\n", "mesh.toml", {}));
-  while (s.global().time < until) {
-    s.step();
-    see(s);
-  }
-  return ball(s);
-}
-Ball run(const std::string& text, double until) {
-  return run(text, until, [](const sph::Simulation&) {});
-}
+using namespace mesh_balls;
 
 // Facets of all shapes in one plane that lies askew: a ball that hops and rolls over some forty of their edges sees none.
 TEST(Meshes, FacetsInAPlaneAreThePlane) {
@@ -218,74 +105,6 @@ TEST(Meshes, BallOnATurntable) {
   });
   const double off = worst / radius;
   EXPECT_LT(PINNED(off), 0.01);
-}
-
-/// A level plate.
-std::string plate(const Files& files, double z) {
-  Mesh mesh;
-  mesh.sheet(3, 3, [&](int i, int j) { return Point{i - 1.5, j - 1.5, z}; });
-  return "[[mesh]]\nname = \"plate\"\nmaterial = \"steel\"\nfile = \"" + files.add("plate.obj", mesh.text()) +
-         "\"\n";
-}
-
-/// A ball that lies on a floor under a plate, and gravity along z.
-std::string pressed(const Files& files, double gravity) {
-  char text[400];
-  (void)std::snprintf(text, sizeof text,
-                      "[domain]\nlower = [-2, -2, -2]\nupper = [2, 2, 2]\ngravity = [0, 0, "
-                      "%.17g]\n[[wall]]\nname = \"floor\"\n"
-                      "material = \"steel\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n",
-                      gravity);
-  return steel + "friction = 0.5\nrestitution = 0.2\n" + start_of(files, {{{0, 0, 0.1}, {}, {}}}) + text +
-         plate(files, 0.203);
-}
-
-double way_of_plate(const sph::Simulation& s) {
-  return s.scale().metres(s.global().walls[1].offset[2]) - s.scale().metres(0);
-}
-
-// The springs of the ball's two contacts bear the plate, the lower one the ball too.
-TEST(Meshes, MassesRestOnWhatBearsThem) {
-  const Files files;
-  constexpr double g = 10, mass = 40, ball_mass = 2500 * 4 * std::numbers::pi / 3 * 1e-3, k = 1e5;
-  double way = 0, force = 0;
-  const Ball end =
-      run(pressed(files, -g) + "direction = [0, 0, -1]\nmass = 40\nlargest_speed = 5\n[time]\ndt = 2e-4\n", 3,
-          [&](const sph::Simulation& s) {
-            way = way_of_plate(s);
-            force = s.grains()->walls().newton(s.global().walls[1].force[2]);
-          });
-  const double low = (mass + ball_mass) * g / k, high = mass * g / k;
-  EXPECT_NEAR(force / (mass * g), 1, 1e-6);
-  EXPECT_NEAR(0.1 - end.x[2], low, 1e-4 * low);
-  EXPECT_NEAR(-way, 0.003 + low + high, 1e-4 * low);
-}
-
-TEST(Meshes, MassesFallUntilTheyAreAsFastAsTheyMayBe) {
-  const Files files;
-  const std::string text =
-      pressed(files, -10) +
-      "direction = [0, 1, 2]\nmass = 3\nforce = 90\nlargest_speed = 2\n[time]\ndt = 1e-4\n";
-  double worst = 0;
-  const double along = -10 * 2 / std::sqrt(5.0) + 30,
-               free = 2 / along;  // of gravity along it, and the force's
-  run(text, 0.3, [&](const sph::Simulation& s) {
-    const double t = s.global().time;
-    const double exact = t < free ? along * t * t / 2 : along * free * free / 2 + 2 * (t - free);
-    worst = std::max(worst, std::abs(way_of_plate(s) - 2 / std::sqrt(5.0) * exact));
-  });
-  EXPECT_LT(worst, 3e-4);  // the first half step has no kick: along dt t / 2
-}
-
-TEST(Meshes, ServosPressAsTold) {
-  const Files files;
-  double force = 0;
-  const Ball end = run(
-      pressed(files, 0) +
-          "direction = [0, 0, -1]\nforce = 300\nservo_gain = 1e-4\nlargest_speed = 0.1\n[time]\ndt = 2e-4\n",
-      8, [&](const sph::Simulation& s) { force = s.grains()->walls().newton(s.global().walls[1].force[2]); });
-  EXPECT_NEAR(force / 300, 1, 1e-6);
-  EXPECT_NEAR(0.1 - end.x[2], 300 / 1e5, 1e-7);
 }
 
 /// Period of a ball that rolls to and fro in a tube of so many facets, over that in a round one.

@@ -93,9 +93,15 @@ TEST(Gauges, are_exact_for_linear_fields) {
 TEST(Gauges, find_the_surface) {
   const decomp::Comm comm(MPI_COMM_WORLD);
   const std::string level = "[[monitor]]\nkind = \"level\"\nat = ";
-  Simulation s(comm, parse_scene(tank("h_over_dx = 1.2", level + "[2, 0.5]\nname = \"in\"\n" + level +
-                                                             "[2, 3.5]\nname = \"above\"\n"),
-                                 "tank", {}));
+  Simulation s(
+      comm, parse_scene(tank("h_over_dx = 1.2",
+                             level + "[2, 0.5]\nname = \"in\"\n" + level + "[2, 3.5]\nname = \"above\"\n" +
+                                 level + "[4, 0.5]\nname = \"wall\"\n" + level +
+                                 "[0, 0]\nname = \"corner\"\n" + level + "[-0.5, 0.5]\nname = \"behind\"\n"),
+                        "tank", {}));
+  EXPECT_NEAR(value_of(s, "wall_h"), 2.5, 0.03);
+  EXPECT_NEAR(value_of(s, "corner_h"), 3, 0.03);
+  EXPECT_EQ(value_of(s, "behind_h"), 0);
   EXPECT_NEAR(value_of(s, "in_h"), 2.5, 0.02);
   EXPECT_EQ(value_of(s, "above_h"), 0);
 }
@@ -149,6 +155,27 @@ TEST(Gauges, say_what_passes) {
   EXPECT_NEAR(value_of(s, "face_mass_rate"), -3 * 0.25 * 4, 0.03);
   EXPECT_NEAR(value_of(s, "half_mass_rate"), 3 * 0.5, 0.05);
   EXPECT_EQ(value_of(s, "none_mass_rate"), 0);
+}
+
+// Where it is deleted, too: fewer particles say it then, in the mean over two of their distances the same.
+TEST(Gauges, say_what_passes_beside_openings) {
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  for (const auto& [opening, place] :
+       {std::pair{"domain.leaves=\"delete\"", "1.9"}, {"outlet=[{lower=[1.9,0,0], upper=[2,2,2]}]", "1.8"}}) {
+    const std::string at = place;
+    Simulation s(comm, parse_scene(box + flux("inside", "[1.03, 0, 0]", "[1.03, 2, 2]") +
+                                       flux("beside", "[" + at + ", 0, 0]", "[" + at + ", 2, 2]"),
+                                   "box",
+                                   {"domain.periodic=[false, true, true]", "start.velocity=[0.5, 0, 0]",
+                                    "time.dt=0.004", "time.steps=125", opening}));
+    double inside = 0, beside = 0;
+    for (int k = 0; k < 125; ++k) {
+      s.step();
+      inside += value_of(s, "inside_mass_rate");
+      beside += value_of(s, "beside_mass_rate");
+    }
+    EXPECT_NEAR(beside / inside, 1, 0.04) << opening;
+  }
 }
 
 // The tank without its right half, which fills: what has passed is what has come, but for what is in the slab.

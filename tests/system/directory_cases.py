@@ -106,6 +106,14 @@ class Cases:
         self.run.refused(2, "peperite", "resume", grains, "--branch", self.folder("rolling"), "--set", "group.sand.rolling_friction=0.1",
                          says="rolling")
         self.run.run(2, "peperite", "resume", grains, "--branch", self.folder("rougher"), "--steps", 80, "--set", "group.sand.friction=0.7")
+        # Who is nearest to a point moves on: its monitor goes with it.
+        one, far = self.folder("one"), self.folder("far")
+        self.run.run(2, "peperite", "run", sand, "--out", one, "--steps", 200, "--set", "output.series_interval=0",
+                     "--set", 'monitor=[{kind="particle", name="one", nearest_to=[0.005,0.005,0.01]}]')
+        self.run.run(2, "peperite", "resume", one, "--branch", far, "--steps", 201, "--set", "group.sand.friction=0.7")
+        last, first = ([float(x) for x in (folder / "series.csv").read_text().splitlines()[row].split(",")]
+                       for folder, row in ((one, -1), (far, 1)))
+        assert abs(last[2] - 0.005) > 1e-3 and max(abs(a - b) for a, b in zip(last[2:5], first[2:5])) < 2e-5, (last, first)
         assert self.run.files("trunk") == before, "a branch has changed the run that it comes from"
         assert self.run.run(1, "peperite", "resume", out, "--steps", 30).fingerprint == plain.fingerprint
 

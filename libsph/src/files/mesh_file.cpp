@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
@@ -129,15 +130,31 @@ bool is_whole_stl(const std::string& path) {
                             [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
 }
 
+/// The importer leaves a vertex out that is no three numbers: facets would have others than they name.
+void refuse_broken_vertex(const std::string& path, const std::string& what) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text;
+  for (std::size_t line = 1; std::getline(in, text); ++line) {
+    if (!text.starts_with("v ") && !text.starts_with("v\t")) continue;
+    std::istringstream numbers(text.substr(1));
+    double x = 0, y = 0, z = 0;
+    if (!(numbers >> x >> y >> z))
+      throw InputError(
+          fmt::format("{}: line {} is of a vertex and has no three numbers; repair the mesh", what, line));
+  }
+}
+
 }  // namespace
 
 Triangles read_triangles(const std::string& path, const std::string& what) {
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(path));  // the importer's from then on
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
-  if (scene == nullptr)
+  if (scene == nullptr) {
+    refuse_broken_vertex(path, what);
     throw InputError(
         fmt::format("{}: cannot be read: {}; give an STL or OBJ file", what, importer.GetErrorString()));
+  }
   const int reader = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* format =
       reader < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(reader));
@@ -147,6 +164,7 @@ Triangles read_triangles(const std::string& path, const std::string& what) {
                                  format != nullptr ? format->mName : "unknown"));
   if (endings == "stl" && !is_whole_stl(path))
     throw InputError(what + ": ends before its last facet does; give the whole file");
+  if (endings == "obj") refuse_broken_vertex(path, what);
   Welded welded(what);
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) welded.add(*scene->mMeshes[m]);
   Triangles all = welded.take();

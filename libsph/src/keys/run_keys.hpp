@@ -75,7 +75,7 @@ inline constexpr auto monitor_keys = std::to_array<Key>({
      "point, or along a line; \"level\": how "
      "high above a point the surface is. Of grains: \"wall\": its place, its velocity and the force of the "
      "grains on it; \"body\": the same of a rigid solid, with its rotation and torque; \"contacts\": their "
-     "number and largest overlap. Of melts \"melt\". Of heat \"budget\": "
+     "number, that with walls, and the mean of a grain. Of melts \"melt\". Of heat \"budget\": "
      "what there is, and "
      "what came from outside.",
      at<&Monitor::kind>, required},

@@ -258,8 +258,8 @@ void check_file(const TableReader& table, std::string_view name, const std::stri
 }
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
-                  const End& end) {
-  return complete_and_resolve(toml_tree::parse(text, name), name, overrides, end, false);
+                  const End& end, bool begins) {
+  return complete_and_resolve(toml_tree::parse(text, name), name, overrides, end, begins);
 }
 
 Scene parse_record(const std::string& text, const std::string& name) {

@@ -11,6 +11,24 @@
 namespace sph {
 namespace {
 
+/// Masses on the springs of a contact between grains as light as the scene has: along its normal, and along
+/// its surfaces, which spin makes lighter.
+struct ContactMass {
+  double normal, sliding;
+};
+
+/// Of two grains, or of one and a mesh that it moves, whichever is less: 1/m + 1/M, 7/2 1/m + 1/M.
+ContactMass lightest(const Scene& scene, double grain) {
+  ContactMass least{0.5 * grain, grain / 7};
+  for (const MeshWall& mesh : scene.grains.meshes) {
+    const double m = mesh.drive.mass;
+    if (!(m > 0)) continue;
+    least.normal = std::min(least.normal, grain * m / (grain + m));
+    least.sliding = std::min(least.sliding, grain * m / (grain + 3.5 * m));
+  }
+  return least;
+}
+
 PairConstants law_part(const std::array<double, 8>& k) { return {k[0], k[1], k[2], k[7]}; }
 
 }  // namespace
@@ -46,9 +64,9 @@ double stiffest_contact(const Scene& scene, double radius, std::optional<double>
   return stiffest;
 }
 
-// The default is the law's. The limit is that of one contact of the two lightest grains at the largest
-// overlap, and of the springs and dashpots of friction and rolling there: as if on 2/7 m of the pair (spin
-// lightens surfaces), and on the inertia 2/5 m r^2 of a grain.
+// The default is the law's. The limit is that of one contact of the two lightest grains, or of one with a mesh
+// that it moves, at the largest overlap, and of the springs and dashpots of friction and rolling there: on the
+// inertia 2/5 m r^2 of a grain.
 GrainTimeSteps grain_time_steps(const Scene& scene) {
   const ContactLaw& law = contact_law(scene);
   double mass = std::numeric_limits<double>::infinity(), radius = mass;
@@ -66,13 +84,14 @@ GrainTimeSteps grain_time_steps(const Scene& scene) {
       if (k[4] > 0) sliding = std::max(sliding, law.shear_stiffness(law_part(k), stiffness));
       rolling = std::max(rolling, k[5]);
     }
-  const double zeta = law.damping_share(damping, stiffness, 0.5 * mass);
+  const ContactMass on = lightest(scene, mass);
+  const double zeta = law.damping_share(damping, stiffness, on.normal);
   GrainTimeSteps steps;
-  steps.limit = linear_stable_step(stiffness, 0.5 * mass, zeta);
+  steps.limit = linear_stable_step(stiffness, on.normal, zeta);
   if (sliding > 0) {
-    const double share = 2.0 / 7.0 * sliding / stiffness;
+    const double share = on.sliding / on.normal * sliding / stiffness;
     steps.limit = std::min(
-        steps.limit, linear_stable_step(sliding, mass / 7,
+        steps.limit, linear_stable_step(sliding, on.sliding,
                                         scene.grains.contact.tangential_damping * zeta / std::sqrt(share)));
   }
   if (rolling > 0)  // pairs/rolling.hpp: k_r = 2.25 k (mu_r r)^2, dashpot 2 eta sqrt(7/5 m r^2 k_r)

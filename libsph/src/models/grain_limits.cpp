@@ -12,6 +12,7 @@
 #include <limits>
 #include <numbers>
 
+#include "models/grain_constants.hpp"
 #include "sph/core/error.hpp"
 #include "sph/core/findings.hpp"
 #include "sph/models/insertions.hpp"
@@ -43,6 +44,11 @@ double step_of_scene(const Scene& scene) {
 
 }  // namespace
 
+bool any_grain_moves(const Scene& scene) {
+  return std::ranges::any_of(scene.groups,
+                             [](const Group& g) { return g.grain.largest_radius > 0 && !g.grain.fixed; });
+}
+
 double longest_grain_move(const Scene& scene) {
   const double lambda = scene.grains.contact.largest_overlap;
   return std::min(1.0, std::sqrt(4 * lambda - lambda * lambda)) * least_radius(scene);
@@ -58,11 +64,51 @@ std::string grain_move_text(const Scene& scene, double way) {
 
 double grain_step(const Scene& scene) { return scene.time.dt.value_or(grain_time_steps(scene).recommended); }
 
+// What turns is as fast as its farthest point. Of grains in melts there is no step that could be too long.
+void check_mesh_speed(const Scene& scene, const MeshWall& mesh, double radius) {
+  if (!any_grain_moves(scene) || scene.has_melt()) return;
+  const double dt = step_of_scene(scene);
+  double told = mesh.drive.largest_speed, spin = 0;
+  for (const auto& [t, v] : mesh.motion.speed) told = std::max(told, std::fabs(v));
+  for (const auto& [t, w] : mesh.motion.spin) spin = std::max(spin, std::fabs(w));
+  const double swings = 2 * std::numbers::pi * mesh.motion.frequency * speed_of(mesh.motion.amplitude),
+               turns = spin * radius, speed = told + swings + turns;
+  if (speed * dt <= longest_grain_move(scene)) return;
+  const char* key = mesh.drive.any()        ? "largest_speed"
+                    : turns > told + swings ? "spin"
+                    : swings > told         ? "amplitude"
+                                            : "velocity";
+  throw InputError(fmt::format("{}: mesh.{}: mesh \"{}\" at {:.6g} m/s: {}, or this speed", scene.file, key,
+                               mesh.name, speed, grain_move_text(scene, speed * dt)));
+}
+
+// Grains of one size lie on a plane no closer than 2 sqrt(3) r^2 each. N of them on a mass M, all with stiffness k along
+// (n d)^2 of their normals: w^2 = N k (n d)^2 / M, and dt < 2 / w.
+double least_mesh_mass(const Scene& scene, const MeshWall& mesh, const TriangleSurface& surface) {
+  const double radius = least_radius(scene), dt = grain_step(scene);
+  const auto vertices = surface.vertices();
+  double area = 0;
+  for (std::size_t t = 0; t < surface.size(); ++t) {
+    const auto& corners = surface.triangles()[t];
+    Point3 side[2], across{};
+    double along = 0, square = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t k : {0, 1}) side[k][a] = vertices[corners[k + 1]][a] - vertices[corners[0]][a];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+      across[a] = side[0][b] * side[1][c] - side[0][c] * side[1][b];
+      along += across[a] * mesh.motion.direction[a];
+      square += across[a] * across[a];
+    }
+    area += 0.5 * along * along / std::sqrt(square);
+  }
+  const double per_grain = 2 * std::numbers::sqrt3 * radius * radius;
+  return area / per_grain * stiffest_contact(scene, radius) * dt * dt / 4;
+}
+
 void check_wall_speeds(const Scene& scene) {
   const double dt = step_of_scene(scene), limit = longest_grain_move(scene);
-  if (std::ranges::all_of(scene.groups,
-                          [](const Group& g) { return g.kind != GroupKind::grain || g.grain.fixed; }))
-    return;
+  if (!any_grain_moves(scene)) return;
   const auto check = [&](const Wall& wall, const std::string& key, double speed) {
     if (speed * dt <= limit) return;
     throw InputError(fmt::format("{}: {}: wall \"{}\" at {:.6g} m/s: {}, or this speed", scene.file, key,
@@ -72,17 +118,7 @@ void check_wall_speeds(const Scene& scene) {
     check(wall, "wall.velocity", speed_along(wall.velocity, wall.normal));
     check(wall, "wall.largest_speed", wall.largest_speed);
   }
-  for (const MeshWall& mesh : scene.grains.meshes) {
-    double most = mesh.drive.largest_speed;
-    for (const auto& [t, v] : mesh.motion.speed) most = std::max(most, std::fabs(v));
-    const double swings = 2 * std::numbers::pi * mesh.motion.frequency * speed_of(mesh.motion.amplitude);
-    if (!((most + swings) * dt <= limit))
-      throw InputError(fmt::format("{}: mesh.{}: mesh \"{}\" at {:.6g} m/s: {}, or this speed", scene.file,
-                                   mesh.drive.any() ? "largest_speed"
-                                   : swings > most  ? "amplitude"
-                                                    : "velocity",
-                                   mesh.name, most + swings, grain_move_text(scene, (most + swings) * dt)));
-  }
+  for (const MeshWall& mesh : scene.grains.meshes) check_mesh_speed(scene, mesh, 0);
   for (const Insertion& in : scene.domain.openings.insertions) {
     const double speed = speed_of(in.velocity);
     if (speed * dt > limit)

@@ -85,12 +85,12 @@ void Grains::guard(const decomp::Comm& comm, const StepState& s, const Reduction
 }
 
 void Grains::act(const Reduction& r, GlobalState& global) {
-  const std::vector<std::int64_t> forces = walls_.forces(r[in_.halves], global);
+  // As of grains: first the kick, then the drift.
+  walls_.push(global, walls_.forces(r[in_.halves], global));
   if (alone_) {
     walls_.move(global);
     pairs_.moved(1.0001 * r[Reduction::speed] * global.dt);
   }
-  walls_.push(global, forces);
 }
 
 }  // namespace sph

@@ -113,11 +113,14 @@ void GrainWalls::drive(std::size_t mesh, GlobalState& global) const {
   for (std::size_t a = 0; a < 3; ++a) state.velocity[a] = speed * m.motion.direction[a];
 }
 
+// A stage that begins now has told nobody its velocities yet.
 double GrainWalls::longest_way(const GlobalState& global) const {
   double speed2 = 0;
-  for (const WallState& w : global.walls)
-    speed2 = std::max(speed2, w.velocity[0] * w.velocity[0] + w.velocity[1] * w.velocity[1] +
-                                  w.velocity[2] * w.velocity[2]);
+  const auto look = [&](const Double3& v) {
+    speed2 = std::max(speed2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  };
+  for (const WallState& w : global.walls) look(w.velocity);
+  for (std::size_t w = 0; w < planes(); ++w) look(now_of(w, global).velocity);
   return std::max(1.0001 * std::sqrt(speed2) * global.dt,
                   meshes_.longest_way(global.time, global.time + global.dt));
 }

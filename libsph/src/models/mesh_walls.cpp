@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "sph/core/exact_math.hpp"
+#include "sph/models/grain_limits.hpp"
 #include "start/surfaces.hpp"
 
 namespace sph {
@@ -21,7 +22,10 @@ std::array<Point3, 3> rotation_of(const Point3& n, double angle) {
 }  // namespace
 
 MeshWalls::MeshWalls(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale)
-    : scene_(&scene), scale_(scale), surfaces_(read_surfaces(comm, scene)) {}
+    : scene_(&scene), scale_(scale), surfaces_(read_surfaces(comm, scene)) {
+  for (std::size_t m = 0; m < count(); ++m)
+    check_mesh_speed(scene, scene.grains.meshes[m], surfaces_[m].radius());
+}
 
 std::size_t MeshWalls::bytes() const {
   std::size_t sum = 0;
@@ -43,6 +47,7 @@ std::vector<MeshNow> MeshWalls::now(double time, std::span<const WallState> driv
     for (std::size_t a = 0; a < 3; ++a) {
       place.centre[a] = scale_.quanta(motion.centre[a]) + driven[m].offset[a];
       place.spin[a] = moved.spin * motion.axis[a];
+      if (mesh.drive.mass > 0) place.lightness[a] = motion.direction[a] / std::sqrt(mesh.drive.mass);
     }
     place.rotation = rotation_of(motion.axis, moved.angle);
     place.smooth_cosine = exact_cos(mesh.smooth_angle * (std::numbers::pi / 180));

@@ -18,15 +18,13 @@ namespace {
 constexpr double rounded = 0.99;  // what is below a limit is so with three digits too
 
 void check_contact_step(const Scene& scene) {
-  const bool move = std::ranges::any_of(
-      scene.groups, [](const Group& g) { return g.grain.largest_radius > 0 && !g.grain.fixed; });
-  if (!move) return check_wall_speeds(scene);
+  if (!any_grain_moves(scene)) return check_wall_speeds(scene);
   const GrainTimeSteps steps = grain_time_steps(scene);
   if (scene.time.dt && *scene.time.dt > steps.limit)
     throw InputError(
         fmt::format("{}: time.dt: {:.6g} s is above the limit of a stable contact, {:.6g} s; set it "
                     "to {:.6g} s or less",
-                    scene.file, *scene.time.dt, steps.limit, steps.advised));
+                    scene.file, *scene.time.dt, steps.limit, std::min(steps.advised, rounded * steps.limit)));
   const double dt = grain_step(scene);
   if (!(steps.limit > 0 && std::isfinite(steps.advised) && dt > 0 && std::isfinite(dt)))
     throw InputError(

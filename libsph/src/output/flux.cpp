@@ -1,6 +1,7 @@
 #include "output/flux.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 
@@ -18,6 +19,45 @@ Flux::Flux(const Simulation& s, const Monitor& monitor)
     lower_[a] = s.scale().quanta(std::min((*monitor.lower)[a], (*monitor.upper)[a]));
     upper_[a] = s.scale().quanta(std::max((*monitor.lower)[a], (*monitor.upper)[a]));
   }
+  place_ = (*monitor.lower)[normal_];
+  find_clear_way(*monitor.lower, *monitor.upper);
+}
+
+void Flux::keep_from(double place) { clear_ = std::min(clear_, std::fabs(place - place_)); }
+
+// What is led through a box comes or goes at one end of it, anything else anywhere in its box.
+void Flux::find_clear_way(const Double3& one, const Double3& other) {
+  const OpeningControl& openings = scene_->domain.openings;
+  const auto beside = [&](const Double3& lower, const Double3& upper) {
+    for (std::size_t a = 0; a < d_; ++a)
+      if (a != normal_ && (std::min(one[a], other[a]) >= upper[a] || std::max(one[a], other[a]) < lower[a]))
+        return false;
+    return true;
+  };
+  const auto keep_from_box = [&](const Double3& lower, const Double3& upper) {
+    if (lower[normal_] <= place_ && place_ < upper[normal_]) keep_from(place_);
+    keep_from(lower[normal_]);
+    keep_from(upper[normal_]);
+  };
+  for (const std::size_t side : {0, 1})
+    if (openings.deletes[2 * normal_ + side])
+      keep_from((side == 0 ? scene_->domain.lower : scene_->domain.upper)[normal_]);
+  for (const Inlet& in : openings.inlets) {
+    if (!beside(in.lower, in.upper)) continue;
+    if (axis_of(in.direction) == normal_)
+      keep_from((is_up(in.direction) ? in.lower : in.upper)[normal_]);
+    else
+      keep_from_box(in.lower, in.upper);
+  }
+  for (const Outlet& out : openings.outlets) {
+    if (!beside(out.lower, out.upper)) continue;
+    if (!out.pressure.empty() && axis_of(out.direction) == normal_)
+      keep_from((is_up(out.direction) ? out.upper : out.lower)[normal_]);
+    else
+      keep_from_box(out.lower, out.upper);
+  }
+  for (const Insertion& in : openings.insertions)
+    if (beside(in.lower, in.upper)) keep_from_box(in.lower, in.upper);
 }
 
 double Flux::weight(const ParticleValues& of, std::size_t row) const {
@@ -34,7 +74,8 @@ double Flux::weight(const ParticleValues& of, std::size_t row) const {
   std::int64_t way = std::abs(of.quanta(row, normal_) - lower_[normal_]);
   const std::int64_t period = wrap_.period[normal_];
   if (period > 0) way = std::min(way, period - way);
-  double reach = 2 * size;  // within a period each particle counts once
+  double reach = std::max(std::min(2 * size, clear_), 0.5 * size);
+  // Within a period each particle counts once.
   if (period > 0) reach = std::min(reach, 0.5 * static_cast<double>(period) * quantum_);
   const double r = static_cast<double>(way) * quantum_ / reach;
   constexpr double peak = 15.0 / 16;  // the integral over -1..1 is 1

@@ -58,7 +58,7 @@ Gauge::Gauge(const Simulation& s, const Monitor& monitor)
     points_.push_back(point);
   }
   if (!is_level_) quantities_ = ParticleValues::count(s.particles()) - d_;
-  sums_of_point_ = is_level_ ? 1 : 1 + d_ + d_ * (d_ + 1) / 2 + quantities_ * (1 + d_);
+  sums_of_point_ = is_level_ ? 2 : 1 + d_ + d_ * (d_ + 1) / 2 + quantities_ * (1 + d_);
 }
 
 std::vector<std::string> Gauge::names(const Simulation& s, const Monitor& monitor) {
@@ -73,7 +73,9 @@ std::vector<std::string> Gauge::names(const Simulation& s, const Monitor& monito
 }
 
 void Gauge::add(const ParticleValues& of, std::size_t row, std::span<decomp::ExactSum> sums) const {
-  if (scene_->groups[of.group(row)].kind != GroupKind::fluid) return;
+  const GroupKind kind = scene_->groups[of.group(row)].kind;
+  const bool stands = kind == GroupKind::wall || kind == GroupKind::solid;
+  if (kind != GroupKind::fluid && !(is_level_ && stands)) return;
   for (std::size_t k = 0; k < points_.size(); ++k)
     add_at(of, row, k, sums.subspan(k * sums_of_point_, sums_of_point_));
 }
@@ -98,9 +100,9 @@ void Gauge::add_at(const ParticleValues& of, std::size_t row, std::size_t point,
   if (kernel == 0) return;
   const double volume = of.mass(row) / p.data<Field::density>()[row];
   const double w = volume * normalisation_ * kernel / (d_ == 2 ? h * h : h * h * h);
+  if (is_level_) return sums[scene_->groups[of.group(row)].kind == GroupKind::fluid ? 0 : 1].add(w);
   std::size_t k = 0;
   sums[k++].add(w);
-  if (is_level_) return;
   // Lengths over the scene's h.
   const double scale = h / scene_->kernel.smoothing_length;
   for (std::size_t a = 0; a < d_; ++a) x[a] *= scale;
@@ -153,10 +155,15 @@ void Gauge::append_point(std::span<const double> sums, std::vector<double>& to) 
 }
 
 double Gauge::level(std::span<const double> covers) const {
-  constexpr double half = 0.5;
-  for (std::size_t k = covers.size(); k-- > 0;) {
-    if (covers[k] < half) continue;
-    const double beyond = k + 1 < covers.size() ? (covers[k] - half) / (covers[k] - covers[k + 1]) : 0.0;
+  constexpr double most = 0.6;  // of what stands: 1/2 on a plane of it, and what particles leave of that
+  const auto excess = [&](std::size_t point) {
+    const double fluid = covers[2 * point], stands = covers[2 * point + 1];
+    return std::min(fluid - 0.5 * (1 - stands), most - stands);
+  };
+  for (std::size_t k = points_.size(); k-- > 0;) {
+    const double here = excess(k);
+    if (here < 0) continue;
+    const double beyond = k + 1 < points_.size() ? here / (here - excess(k + 1)) : 0.0;
     return apart_ * (static_cast<double>(k) + beyond);
   }
   return 0;

@@ -176,9 +176,13 @@ std::vector<double> values_of(const Simulation& s, const ParticleValues& of,
 
 }  // namespace
 
-Monitors::Monitors(const Simulation& s) {
+Monitors::Monitors(const Simulation& s, const std::vector<std::optional<std::uint64_t>>& known) {
   for (const Monitor& m : s.scene().output.monitors) {
     if (m.kind != MonitorKind::particle) continue;
+    if (const std::size_t k = ids_.size(); k < known.size() && known[k]) {
+      ids_.push_back(*known[k]);
+      continue;
+    }
     if (m.nearest_to) {
       ids_.push_back(nearest_particle(s, *m.nearest_to));
       continue;

@@ -235,13 +235,22 @@ std::string courant_text(const Scene& scene, const SphTimeStep& steps, const std
   return out;
 }
 
-std::string contact_step_text(const Scene& scene, double dt) {
+std::string contact_step_text(const Scene& scene, const MeshWalls& meshes, double dt) {
   const GrainTimeSteps steps = grain_time_steps(scene);
   if (!std::isfinite(steps.limit)) return {};  // no grain moves
   std::string out =
       fmt::format("time step: {:.6g} s (default {:.6g}, advised at most {:.6g}, limit {:.6g})\n", dt,
                   steps.recommended, steps.advised, steps.limit);
   if (dt > steps.advised) out += "warning: time.dt is above what dense packings bear: reduce it\n";
+  for (std::size_t m = 0; m < meshes.count(); ++m) {
+    const MeshWall& mesh = scene.grains.meshes[m];
+    const double least = mesh.drive.mass > 0 ? least_mesh_mass(scene, mesh, meshes.surface(m)) : 0;
+    if (mesh.drive.mass < least)
+      out += fmt::format(
+          "warning: mesh \"{}\" of {:.3g} kg is unstable with these steps where grains touch all of it: make "
+          "it {:.3g} kg or more, or reduce time.dt\n",
+          mesh.name, mesh.drive.mass, least);
+  }
   return out;
 }
 
@@ -351,7 +360,9 @@ int check_case(const RunOptions& options, const decomp::Comm& comm) {
                  particles_text(scene, start.count), mesh_text(scene, parts), warnings(open_regions(scene)),
                  unlooked_text(scene, placed), memory_text(scene, parts, need, machine), gas_text(scene),
                  tension_text(scene), options.plan ? plan_text(scene, parts) : "",
-                 parts.grains && !parts.suspension ? contact_step_text(scene, dt) : "",
+                 parts.grains && !parts.suspension
+                     ? contact_step_text(scene, parts.grains->walls().meshes(), dt)
+                     : "",
                  parts.physics ? courant_text(scene, parts.physics->steps(), start.sounds, dt) : "",
                  drag_text(scene, parts), suspension_text(scene, parts, start.count),
                  speed_warnings(scene, start.count.heights, start.speed), steps_text(scene, dt),

@@ -22,7 +22,7 @@ class Run {
       : simulation_(*start.simulation),
         files_(start.memory ? RunFiles(simulation_, start.dir, start.old_scene, *start.memory,
                                        simulation_.global().step + (finished() ? 0 : 1))
-                            : RunFiles(simulation_, start.dir, start.old_scene)),
+                            : RunFiles(simulation_, start.dir, start.old_scene, start.followed)),
         control_(simulation_.comm().rank(), begin, simulation_.scene().output, start.dir / "stop",
                  options.max_seconds),
         screen_(simulation_, begin),

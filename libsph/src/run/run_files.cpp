@@ -80,8 +80,9 @@ bool is_complete(const Simulation& s, const fs::path& dir) {
   return missing.empty();
 }
 
-RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_scene)
-    : dir_(std::move(dir)), monitors_(s) {
+RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_scene,
+                   const std::vector<std::optional<std::uint64_t>>& followed)
+    : dir_(std::move(dir)), monitors_(s, followed) {
   on_root_or_refuse(s.comm(),
                     "cannot write in " + dir_.string() + ", choose another place with --out: ", [&] {
                       remove_leftovers(dir_);

@@ -31,9 +31,10 @@ struct RunMemory {
 class RunFiles {
  public:
   /// Of a run from its beginning: removes what an earlier start without a checkpoint has left, writes
-  /// scene.toml. `old_scene`: the resolved scene of that start, or empty. Throws InputError where nothing can
+  /// scene.toml. `old_scene`: the resolved scene of that start, or empty; `followed`: by monitors of particles, Monitors. Throws InputError where nothing can
   /// be written. Collective, as all members are.
-  RunFiles(const Simulation& simulation, std::filesystem::path dir, const std::string& old_scene);
+  RunFiles(const Simulation& simulation, std::filesystem::path dir, const std::string& old_scene,
+           const std::vector<std::optional<std::uint64_t>>& followed);
   /// Of one that goes on: cuts series.csv and the XDMF index back to the checkpoint, and removes its own
   /// snapshots from step `first_snapshot` on that the checkpoint does not list.
   RunFiles(const Simulation& simulation, std::filesystem::path dir, const std::string& old_scene,

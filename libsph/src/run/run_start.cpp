@@ -88,6 +88,23 @@ RunStart start_new(const RunOptions& options, const decomp::Comm& comm) {
   return start;
 }
 
+/// By each monitor of a particle in the scene: what the same monitor of the run before follows.
+std::vector<std::optional<std::uint64_t>> followed_before(const Scene& scene, const Scene& before,
+                                                          const std::vector<std::uint64_t>& ids) {
+  std::vector<std::optional<std::uint64_t>> out;
+  for (const Monitor& m : scene.output.monitors) {
+    if (m.kind != MonitorKind::particle) continue;
+    out.emplace_back();
+    std::size_t k = 0;
+    for (const Monitor& old : before.output.monitors) {
+      if (old.kind != MonitorKind::particle) continue;
+      if (old == m && k < ids.size()) out.back() = ids[k];
+      ++k;
+    }
+  }
+  return out;
+}
+
 RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
   constexpr double at_first = 1e-6;
   refuse_changes_of_parts(options.overrides);
@@ -99,7 +116,9 @@ RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
     fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
   const std::string file = (options.resume / "scene.toml").string();
   const Scene scene = parse_scene(checkpoint.record.scene_toml, file, options.overrides, options.end);
-  if (history_of(parse_record(checkpoint.record.scene_toml, file)) != history_of(scene))
+  const Scene before = parse_record(checkpoint.record.scene_toml, file);
+  start.followed = followed_before(scene, before, memory_from_json(checkpoint.record.extra_json).monitor_ids);
+  if (history_of(before) != history_of(scene))
     throw InputError(
         "--set: contacts would have other histories, with rolling friction or without: a branch keeps them");
   // How large a step may be is known at the end of one.

@@ -16,7 +16,9 @@ struct RunStart {
   std::unique_ptr<RunLock> lock;
   std::string old_scene;  ///< resolved, of the start before; empty: there is none
   std::unique_ptr<Simulation> simulation;
-  std::optional<RunMemory> memory;  ///< of the checkpoint; none: begins at step 0
+  std::optional<RunMemory> memory;  ///< of the checkpoint; none: begins a series of its own
+  /// Of a branch: what its monitors of particles follow, where the run before had them too.
+  std::vector<std::optional<std::uint64_t>> followed;
 };
 
 /// Collective; InputError on all ranks.

@@ -148,8 +148,8 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
   for (const Model* m : parts_.models) m->guard(comm_, runner_.state_of(m->set(), global_), parts_.reduction);
   if (parts_.reduction[Reduction::bad] > 0) stop_at_fault(*this, runner_.findings());
   if (parts_.reduction[Reduction::left] > 0) left.stop(comm_, step_text(global_.step));
-  age_.add_paths(parts_.reduction[Reduction::speed]);
   for (Model* m : parts_.models) m->act(parts_.reduction, global_);
+  age_.add_paths(parts_.reduction[Reduction::speed]);
   for (const Model* m : parts_.models) sets_[m->set()].changed(m->follow(sets_[m->set()].particles, global_));
   ++global_.step;
   global_.time += global_.dt;

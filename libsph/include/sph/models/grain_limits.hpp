@@ -5,9 +5,12 @@
 
 #include "decomp/comm.hpp"
 #include "sph/core/particles.hpp"
+#include "sph/pairs/triangle_surface.hpp"
 #include "sph/scene/scene.hpp"
 
 namespace sph {
+
+[[nodiscard]] bool any_grain_moves(const Scene& scene);
 
 /// Time steps of a scene of grains [s].
 struct GrainTimeSteps {
@@ -21,7 +24,11 @@ struct GrainTimeSteps {
 /// No grain and no wall may go further in a step [m]; what is said of one that would.
 [[nodiscard]] double longest_grain_move(const Scene& scene);
 [[nodiscard]] std::string grain_move_text(const Scene& scene, double way);
+/// Below it a mesh with a mass that as many grains touch as find room is unstable [kg].
+[[nodiscard]] double least_mesh_mass(const Scene& scene, const MeshWall& mesh,
+                                     const TriangleSurface& surface);
 /// Throw InputError.
+void check_mesh_speed(const Scene& scene, const MeshWall& mesh, double radius);  ///< its farthest point [m]
 void check_wall_speeds(const Scene& scene);
 void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles);
 

@@ -29,6 +29,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,10 @@ namespace sph {
 
 class Monitors {
  public:
-  /// Chooses the particle of each particle monitor: the one nearest to its point, lowest id on ties.
-  /// Collective. Throws InputError if a scene's id does not exist.
-  explicit Monitors(const Simulation& simulation);
+  /// Chooses the particle of each particle monitor: the one nearest to its point, lowest id on ties; or the one that is
+  /// known already, which may be gone. Collective. Throws InputError if a scene's id does not exist.
+  explicit Monitors(const Simulation& simulation,
+                    const std::vector<std::optional<std::uint64_t>>& known = {});
   /// Goes on with particles chosen before, one for each particle monitor of the scene.
   Monitors(const Simulation& simulation, std::vector<std::uint64_t> ids);
 

@@ -310,7 +310,7 @@ struct ContactPass {
       return;
     for (Part part{g, 0}; part.at < lanes; part.at += part_lanes) {
       Contact<V> contact;
-      V rel[3], surface[3];
+      V rel[3], surface[3], lightness;
       std::uint32_t pair[part_lanes];
       std::size_t number[part_lanes];
       for (std::size_t l = 0; l < part_lanes; ++l) {
@@ -328,10 +328,12 @@ struct ContactPass {
         contact.overlap.set(k, side.touchable ? rows.radius(r) - side.distance : 0.0);
         contact.radius.set(k, rows.radius(r));
         contact.mass.set(k, rows.mass(r));
+        lightness.set(k, side.lightness);
         pair[l] = rows.group(r) * c.materials.groups + side.group;
         number[l] = side.number;
       }
       if (positive_lanes(contact.overlap) == 0 && part.of_group(list.touching[g]) == 0) continue;
+      contact.mass = contact.mass / (V(1.0) + contact.mass * lightness);
       set_motion<spins>(contact, rel, surface);
       contact.dt = V(c.dt);
       const Answer answer = respond(contact, constants_of(c, pair), list, part, sweep);

@@ -1,7 +1,8 @@
 // Where a grain touches a mesh: at points nearer to its centre than all of the surface around them. A face has one where the
 // centre is above it; an edge or vertex, if it is the nearest of all facets that have it. Of such points that a
-// grain sees in nearly the same direction (facets of a drum, say) it touches the nearest alone: potential energy is
-// continuous, and a smooth surface is one contact. What a contact remembers passes from facet to facet, to one that shares a
+// grain sees in nearly the same direction (facets of a drum, say) it touches the nearest alone: a smooth surface is one contact.
+// Potential energy is continuous but where the angle between two points, of which one at least is of an edge or vertex, passes that
+// of smoothness while both are overlapped. What a contact remembers passes from facet to facet, to one that shares a
 // vertex or lies nearly in the same plane.
 #pragma once
 

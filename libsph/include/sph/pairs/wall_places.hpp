@@ -48,7 +48,8 @@ struct MeshNow {
   Point3 way;                          ///< [m]
   std::array<Point3, 3> rotation;      ///< rows of R
   Point3 velocity, spin;               ///< of the centre [m/s], about it [rad/s]
-  double smooth_cosine;                ///< of the angle between facets that a grain touches as one
+  Point3 lightness;  ///< its square along a normal is 1 / mass of a mesh that a contact there moves [kg^-1/2]
+  double smooth_cosine;  ///< of the angle between facets that a grain touches as one
   std::uint32_t group;
   bool present;  ///< grains touch it
   bool listed;   ///< ... or may before the lists are made anew

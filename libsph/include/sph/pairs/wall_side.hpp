@@ -15,6 +15,7 @@ struct WallSide {
   std::uint32_t group;
   std::size_t number;  ///< of the plane, or after them all of the mesh
   bool touchable;
+  double lightness;  ///< 1 / mass of what the contact moves, 0 of a wall that does as it is told [1/kg]
 };
 
 /// `entry` of the list of walls; `line` of the grain's motion.
@@ -30,17 +31,17 @@ struct WallSide {
             plane.velocity.data(),
             plane.group,
             wall,
-            plane.present};
+            plane.present,
+            0};
   }
   static constexpr double none[3] = {};
   const FacetContact* f = c.walls.facets->any() ? c.walls.facets->at(entry) : nullptr;
-  if (f == nullptr) return {0, none, none, 0, 0, false};
-  return {f->distance,
-          f->away.data(),
-          f->velocity.data(),
-          c.walls.facets->meshes()[f->mesh].group,
-          c.walls.planes.size() + f->mesh,
-          true};
+  if (f == nullptr) return {0, none, none, 0, 0, false, 0};
+  const MeshNow& mesh = c.walls.facets->meshes()[f->mesh];
+  double along = 0;
+  for (std::size_t a = 0; a < 3; ++a) along += f->away[a] * mesh.lightness[a];
+  return {f->distance, f->away.data(), f->velocity.data(), mesh.group, c.walls.planes.size() + f->mesh,
+          true,        along * along};
 }
 
 }  // namespace sph

@@ -80,9 +80,11 @@ struct Scene {
 /// Throws InputError "file:line:column: key: what is wrong; what would be right" for the first problem found.
 [[nodiscard]] Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
                                const End& end = {});
-/// The same from text already in memory (`name` stands for the file in messages).
+/// The same from text already in memory (`name` stands for the file in messages). `begins`: looks at the files that it names too,
+/// which a run that goes on needs no more.
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& name,
-                                const std::vector<std::string>& overrides, const End& end = {});
+                                const std::vector<std::string>& overrides, const End& end = {},
+                                bool begins = false);
 /// The resolved scene as TOML: reading it back gives the same scene. Stored in every file.
 [[nodiscard]] std::string to_toml(const Scene& scene);
 
