@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "accuracy/mesh_balls.hpp"
+#include "sph/core/error.hpp"
 
 namespace {
 
@@ -119,6 +120,26 @@ TEST(DrivenMeshes, MassesAreHitAsGrainsAre) {
       EXPECT_NEAR(lossy.restitution, 0.6, 6e-3) << share;
       EXPECT_NEAR(askew.restitution, 0.6, 6e-3) << share;
     }
+}
+
+std::string said_of(const std::string& text) {
+  try {
+    run(text, 1e-4);
+  } catch (const sph::InputError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+// As fast as what is farthest from the axis, wherever on it the centre is.
+TEST(DrivenMeshes, MayNotTurnPastGrains) {
+  const Files files;
+  const auto told = [&](const char* spin) {
+    return said_of(pressed(files, 0) + "axis = [1, 0, 0]\ncentre = [1000, 0, 0.203]\nspin = " + spin +
+                   "\n[time]\ndt = 1e-4\n");
+  };
+  EXPECT_EQ(told("300"), "nothing");  // 1.5 m from the axis: 45 mm a step
+  EXPECT_NE(told("900").find("mesh.spin: mesh \"plate\" at 1350 m/s"), std::string::npos) << told("900");
 }
 
 }  // namespace

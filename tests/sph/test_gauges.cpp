@@ -101,7 +101,13 @@ TEST(Gauges, find_the_surface) {
                         "tank", {}));
   EXPECT_NEAR(value_of(s, "wall_h"), 2.5, 0.03);
   EXPECT_NEAR(value_of(s, "corner_h"), 3, 0.03);
-  EXPECT_EQ(value_of(s, "behind_h"), 0);
+  EXPECT_TRUE(std::isnan(value_of(s, "behind_h")));
+  // A slot of one particle, of whose kernels most are walls.
+  Simulation slot(
+      comm, parse_scene(tank("h_over_dx = 1.5", level + "[2.05, 0.5]\nname = \"in\"\n"), "tank",
+                        {"start.region.1.lower=[2, 0]", "start.region.1.upper=[2.1, 5]",
+                         "start.region.2.lower=[2, 0]", "start.region.2.upper=[2.1, 3]", "start.jitter=0"}));
+  EXPECT_NEAR(value_of(slot, "in_h"), 2.5, 0.05);
   EXPECT_NEAR(value_of(s, "in_h"), 2.5, 0.02);
   EXPECT_EQ(value_of(s, "above_h"), 0);
 }

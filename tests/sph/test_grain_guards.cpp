@@ -106,6 +106,20 @@ TEST(GrainGuards, WallSpeedsAreRefused) {
   EXPECT_NO_THROW(check_time_step(parse_scene(bare, "bare", {"wall.floor.velocity=[1e5, 0, -1]"})));
 }
 
+// A contact with what is lighter than a grain wants shorter steps than one between grains.
+TEST(GrainGuards, StepsBearLightMeshes) {
+  const auto check = [](const char* mass) {
+    check_time_step(parse_scene(bare +
+                                    "[[mesh]]\nname = \"lid\"\nmaterial = \"sand\"\nfile = "
+                                    "\"none.stl\"\ndirection = [0, 0, -1]\nlargest_speed = 1\nmass = " +
+                                    mass,
+                                "bare", {}));
+  };
+  EXPECT_NO_THROW(check("1e-5\n"));
+  EXPECT_SAYS(message_of<InputError>([&] { check("1e-9\n"); }),
+              "bare: time.dt: 5e-06 s is above the limit of a stable contact");
+}
+
 TEST(GrainGuards, SpeedIsStoppedInItsStep) {
   std::vector<StartGrain> grains;
   for (int k = 0; k < 20; ++k)

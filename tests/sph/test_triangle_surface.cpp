@@ -170,6 +170,8 @@ TEST(MeshFile, SaysWhichFacetIsBroken) {
   EXPECT_NE(said_of("v 0 0 0\nv 1 0 0\nl 1 2\n", ".obj").find("mesh.one"), std::string::npos);
   EXPECT_EQ(said_of("v 0 0 0\nv 1 x 0\nv 1 1 0\nv 0 1 0\nf 1 3 4\n", ".obj"),
             "mesh.one: line 2 is of a vertex and has no three numbers; repair the mesh");
+  EXPECT_EQ(said_of("v 0 0 0\n \tv 1 x 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nf 1 3 4\n", ".obj"),
+            "mesh.one: line 2 is of a vertex and has no three numbers; repair the mesh");
   // Cut off anywhere, in a number of the second facet too.
   const std::string whole = "solid x\n" + good + beside;
   for (std::size_t end = 9; end < whole.size(); ++end)

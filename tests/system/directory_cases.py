@@ -101,6 +101,7 @@ class Cases:
         kinetic = [float(row.split(",")[2]) for row in (stiff / "series.csv").read_text().splitlines()[1:]]
         assert len(kinetic) > 2 and max(kinetic) <= 1.001 * kinetic[0], kinetic
         self.run.refused(1, *words, "", says="--branch: is empty")
+        self.run.refused(1, "peperite", "resume", "", says="dir: is empty")
         grains, sand = self.folder("grains"), self.scene.parents[2] / "tests/scenes/grains_pour.toml"
         self.run.run(2, "peperite", "run", sand, "--out", grains, "--steps", 60)
         self.run.refused(2, "peperite", "resume", grains, "--branch", self.folder("rolling"), "--set", "group.sand.rolling_friction=0.1",

@@ -135,10 +135,10 @@ void refuse_broken_vertex(const std::string& path, const std::string& what) {
   std::ifstream in(path, std::ios::binary);
   std::string text;
   for (std::size_t line = 1; std::getline(in, text); ++line) {
-    if (!text.starts_with("v ") && !text.starts_with("v\t")) continue;
-    std::istringstream numbers(text.substr(1));
+    std::istringstream words(text);
+    std::string first;
     double x = 0, y = 0, z = 0;
-    if (!(numbers >> x >> y >> z))
+    if (words >> first && first == "v" && !(words >> x >> y >> z))
       throw InputError(
           fmt::format("{}: line {} is of a vertex and has no three numbers; repair the mesh", what, line));
   }

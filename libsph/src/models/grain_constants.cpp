@@ -98,9 +98,9 @@ GrainTimeSteps grain_time_steps(const Scene& scene) {
     steps.limit =
         std::min(steps.limit, linear_stable_step(2.25 * rolling * rolling * stiffness, 0.4 * mass,
                                                  std::sqrt(3.5) * scene.grains.contact.rolling_damping));
-  const LawSteps wanted = law.steps({scene.groups, stiffness, mass});
+  const LawSteps wanted = law.steps({scene.groups, stiffness, 2 * on.normal});
   steps.recommended = std::min(wanted.recommended, 0.5 * steps.limit);
-  steps.advised = wanted.advised;
+  steps.advised = std::min(wanted.advised, steps.limit);
   return steps;
 }
 

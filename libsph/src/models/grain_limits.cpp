@@ -65,14 +65,14 @@ std::string grain_move_text(const Scene& scene, double way) {
 double grain_step(const Scene& scene) { return scene.time.dt.value_or(grain_time_steps(scene).recommended); }
 
 // What turns is as fast as its farthest point. Of grains in melts there is no step that could be too long.
-void check_mesh_speed(const Scene& scene, const MeshWall& mesh, double radius) {
+void check_mesh_speed(const Scene& scene, const MeshWall& mesh, double arm) {
   if (!any_grain_moves(scene) || scene.has_melt()) return;
   const double dt = step_of_scene(scene);
   double told = mesh.drive.largest_speed, spin = 0;
   for (const auto& [t, v] : mesh.motion.speed) told = std::max(told, std::fabs(v));
   for (const auto& [t, w] : mesh.motion.spin) spin = std::max(spin, std::fabs(w));
   const double swings = 2 * std::numbers::pi * mesh.motion.frequency * speed_of(mesh.motion.amplitude),
-               turns = spin * radius, speed = told + swings + turns;
+               turns = spin * arm, speed = told + swings + turns;
   if (speed * dt <= longest_grain_move(scene)) return;
   const char* key = mesh.drive.any()        ? "largest_speed"
                     : turns > told + swings ? "spin"

@@ -19,12 +19,30 @@ std::array<Point3, 3> rotation_of(const Point3& n, double angle) {
            {rest * n[2] * n[0] - s * n[1], rest * n[2] * n[1] + s * n[0], c + rest * n[2] * n[2]}}};
 }
 
+/// Of its points from an axis through its centre [m].
+double longest_arm(const TriangleSurface& surface, const Point3& axis) {
+  double longest = 0;
+  for (const Point3& x : surface.vertices()) {
+    const double along = x[0] * axis[0] + x[1] * axis[1] + x[2] * axis[2];
+    double square = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double away = x[a] - along * axis[a];
+      square += away * away;
+    }
+    longest = std::max(longest, square);
+  }
+  return std::sqrt(longest);
+}
+
 }  // namespace
 
 MeshWalls::MeshWalls(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale)
     : scene_(&scene), scale_(scale), surfaces_(read_surfaces(comm, scene)) {
-  for (std::size_t m = 0; m < count(); ++m)
-    check_mesh_speed(scene, scene.grains.meshes[m], surfaces_[m].radius());
+  for (std::size_t m = 0; m < count(); ++m) {
+    const PrescribedMotion& motion = scene.grains.meshes[m].motion;
+    arms_.push_back(motion.spin.empty() ? 0.0 : longest_arm(surfaces_[m], motion.axis));
+    check_mesh_speed(scene, scene.grains.meshes[m], arms_[m]);
+  }
 }
 
 std::size_t MeshWalls::bytes() const {
@@ -67,8 +85,7 @@ bool MeshWalls::present(std::size_t mesh, double time) const {
 double MeshWalls::longest_way(double from, double to) const {
   double longest = 0;
   for (std::size_t m = 0; m < count(); ++m)
-    longest =
-        std::max(longest, longest_path(scene_->grains.meshes[m].motion, from, to, surfaces_[m].radius()));
+    longest = std::max(longest, longest_path(scene_->grains.meshes[m].motion, from, to, arms_[m]));
   return 1.0001 * longest;
 }
 

@@ -23,7 +23,11 @@ Flux::Flux(const Simulation& s, const Monitor& monitor)
   find_clear_way(*monitor.lower, *monitor.upper);
 }
 
-void Flux::keep_from(double place) { clear_ = std::min(clear_, std::fabs(place - place_)); }
+void Flux::keep_from(double place) {
+  const double way = std::fabs(place - place_),
+               period = static_cast<double>(wrap_.period[normal_]) * quantum_;
+  clear_ = std::min({clear_, way, period > 0 ? std::fabs(period - way) : way});
+}
 
 // What is led through a box comes or goes at one end of it, anything else anywhere in its box.
 void Flux::find_clear_way(const Double3& one, const Double3& other) {

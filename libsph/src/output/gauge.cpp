@@ -154,11 +154,19 @@ void Gauge::append_point(std::span<const double> sums, std::vector<double>& to) 
   to.push_back(cover);
 }
 
+// What stands beside all of the line, but near the end of the domain, says nothing; on a plane it is 1/2 and what particles leave
+// of that. Where it is more, the line ends in something.
 double Gauge::level(std::span<const double> covers) const {
-  constexpr double most = 0.6;  // of what stands: 1/2 on a plane of it, and what particles leave of that
+  constexpr double rough = 0.1, most = 0.9;
+  double beside = 1;
+  const auto of_end = static_cast<std::size_t>(std::ceil(scene_->support() / apart_));
+  const std::size_t seen = points_.size() > of_end ? points_.size() - of_end : points_.size();
+  for (std::size_t k = 0; k < seen; ++k) beside = std::min(beside, covers[2 * k + 1]);
+  if (beside > most) return std::numeric_limits<double>::quiet_NaN();
+  beside = std::max(beside, 0.5);
   const auto excess = [&](std::size_t point) {
     const double fluid = covers[2 * point], stands = covers[2 * point + 1];
-    return std::min(fluid - 0.5 * (1 - stands), most - stands);
+    return std::min(fluid - 0.5 * (1 - stands), beside + rough - stands);
   };
   for (std::size_t k = points_.size(); k-- > 0;) {
     const double here = excess(k);

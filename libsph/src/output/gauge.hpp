@@ -4,7 +4,7 @@
 // wall reads the pressure there, not half a kernel before it. Where particles do not tell a slope it is their mean.
 //   cover = sum w is 1 inside, 1/2 at a plane face. Below `least_cover` there is nothing to read: nan.
 //   A level is how far above its point, against gravity, the fluid last covers half of what walls, bodies and solids leave of a
-//   kernel; 0 where there is none. A point on a wall may say it, one in it cannot.
+//   kernel; 0 where there is none, nan where the line is in a wall. On walls, in corners and slots it may be.
 // Sums are exact: the same bits on any number of ranks.
 #pragma once
 

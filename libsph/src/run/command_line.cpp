@@ -102,6 +102,12 @@ struct Arguments {
                run.out = text;
              });
   }
+  void add_resume(CLI::App& app) {
+    add_text(app, "dir", "the directory of the run", "DIR", [this](const std::string& text) {
+      if (text.empty()) throw InputError("dir: is empty; name the directory of a run");
+      run.resume = text;
+    })->required();
+  }
   void add_branch(CLI::App& app) {
     add_text(app, "--branch", "begin another run in this directory with the state of the last checkpoint",
              "DIR", [this](const std::string& text) {
@@ -227,7 +233,7 @@ int tool_main(int argc, char** argv) {
     check.add_flag("--plan", arguments.run.plan,
                    "print the stages of a step: what they read, send and write");
     CLI::App& resume = *app.add_subcommand("resume", "go on from the last checkpoint of a run");
-    resume.add_option("dir", arguments.run.resume, "the directory of the run")->required()->type_name("DIR");
+    arguments.add_resume(resume);
     arguments.add_set(resume,
                       "change when files are written, or how the domain is cut: --set "
                       "output.snapshot_interval=0.1; of a branch "

@@ -28,7 +28,7 @@ struct GrainTimeSteps {
 [[nodiscard]] double least_mesh_mass(const Scene& scene, const MeshWall& mesh,
                                      const TriangleSurface& surface);
 /// Throw InputError.
-void check_mesh_speed(const Scene& scene, const MeshWall& mesh, double radius);  ///< its farthest point [m]
+void check_mesh_speed(const Scene& scene, const MeshWall& mesh, double arm);  ///< about its axis [m]
 void check_wall_speeds(const Scene& scene);
 void check_start_speeds(const decomp::Comm& comm, const Scene& scene, const Particles& particles);
 

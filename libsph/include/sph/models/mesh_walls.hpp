@@ -30,6 +30,7 @@ class MeshWalls {
   const Scene* scene_;
   PositionScale scale_;
   std::vector<TriangleSurface> surfaces_;
+  std::vector<double> arms_;  ///< of each that turns: of its farthest point, from the axis [m]
 };
 
 }  // namespace sph
