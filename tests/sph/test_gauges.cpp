@@ -2,6 +2,7 @@
 // of ranks.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "sph/output/monitors.hpp"
@@ -166,14 +167,17 @@ TEST(Gauges, say_what_passes) {
 // Where it is deleted, too: fewer particles say it then, in the mean over two of their distances the same.
 TEST(Gauges, say_what_passes_beside_openings) {
   const decomp::Comm comm(MPI_COMM_WORLD);
-  for (const auto& [opening, place] :
-       {std::pair{"domain.leaves=\"delete\"", "1.9"}, {"outlet=[{lower=[1.9,0,0], upper=[2,2,2]}]", "1.8"}}) {
-    const std::string at = place;
-    Simulation s(comm, parse_scene(box + flux("inside", "[1.03, 0, 0]", "[1.03, 2, 2]") +
-                                       flux("beside", "[" + at + ", 0, 0]", "[" + at + ", 2, 2]"),
-                                   "box",
-                                   {"domain.periodic=[false, true, true]", "start.velocity=[0.5, 0, 0]",
-                                    "time.dt=0.004", "time.steps=125", opening}));
+  const std::string open = "domain.periodic=[false, true, true]";
+  for (const auto& [along, opening, at] :
+       {std::array{open, std::string("domain.leaves=\"delete\""), std::string("1.9")},
+        {open, "outlet=[{lower=[1.9,0,0], upper=[2,2,2]}]", "1.8"},
+        // The same across a period.
+        {"domain.periodic=[true, true, true]", "outlet=[{lower=[0,0,0], upper=[0.1,2,2]}]", "1.9"}}) {
+    Simulation s(
+        comm, parse_scene(box + flux("inside", "[1.03, 0, 0]", "[1.03, 2, 2]") +
+                              flux("beside", "[" + at + ", 0, 0]", "[" + at + ", 2, 2]"),
+                          "box",
+                          {along, opening, "start.velocity=[0.5, 0, 0]", "time.dt=0.004", "time.steps=125"}));
     double inside = 0, beside = 0;
     for (int k = 0; k < 125; ++k) {
       s.step();

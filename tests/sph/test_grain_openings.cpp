@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -39,7 +40,8 @@ const std::string rain =
     "rate = [[0, 0.02], [0.1, 0.04]]\nvelocity = [0.3, 0, -1]\n";
 
 double column(Simulation& s, const std::string& name) {
-  const sph::Monitors monitors(s, std::vector<std::uint64_t>(s.scene().output.monitors.size() - 1));
+  const sph::Monitors monitors(
+      s, std::vector<std::optional<std::uint64_t>>(s.scene().output.monitors.size() - 1, 0));
   const std::vector<double> row = monitors.values(s);
   const auto at = std::ranges::find(monitors.names(), "budget_" + name);
   return row.at(static_cast<std::size_t>(at - monitors.names().begin()));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -42,7 +43,8 @@ const std::string outlet =
     "[[outlet]]\nlower = [20, 0]\nupper = [24, 12]\ndirection = \"+x\"\npressure = \"1 kPa\"\n";
 
 double column(Simulation& s, const std::string& name) {
-  const sph::Monitors monitors(s, std::vector<std::uint64_t>(s.scene().output.monitors.size() - 1));
+  const sph::Monitors monitors(
+      s, std::vector<std::optional<std::uint64_t>>(s.scene().output.monitors.size() - 1, 0));
   const std::vector<double> row = monitors.values(s);
   const auto at = std::ranges::find(monitors.names(), "budget_" + name);
   return row.at(static_cast<std::size_t>(at - monitors.names().begin()));
@@ -120,7 +122,7 @@ TEST(Openings, FacesDeleteWhatLeaves) {
       EXPECT_LT(s.scale().metres(p.data<Field::position>()[2 * i]), 26);
       EXPECT_GE(s.scale().metres(p.data<Field::position>()[2 * i]), 0);
     }
-    const std::vector<double> row = sph::Monitors(s, seen).values(s);
+    const std::vector<double> row = sph::Monitors(s, {seen.begin(), seen.end()}).values(s);
     EXPECT_EQ(std::isnan(row.back()), !ids(s).contains(seen.front()));
     gone = gone || std::isnan(row.back());
   }

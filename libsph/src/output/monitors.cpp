@@ -198,10 +198,6 @@ Monitors::Monitors(const Simulation& s, const std::vector<std::optional<std::uin
   make_names(s);
 }
 
-Monitors::Monitors(const Simulation& s, std::vector<std::uint64_t> ids) : ids_(std::move(ids)) {
-  make_names(s);
-}
-
 void Monitors::make_names(const Simulation& s) {
   for (const Monitor& m : s.scene().output.monitors) {
     std::vector<std::string> quantities = ParticleValues::names(s.particles());

@@ -97,7 +97,7 @@ RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_sce
 RunFiles::RunFiles(const Simulation& s, fs::path dir, const std::string& old_scene, const RunMemory& memory,
                    std::int64_t first_snapshot)
     : dir_(std::move(dir)),
-      monitors_(s, memory.monitor_ids),
+      monitors_(s, {memory.monitor_ids.begin(), memory.monitor_ids.end()}),
       series_bytes_(memory.series_bytes),
       snapshots_(memory.snapshots) {
   const std::vector<ExtraColumn> extra = extra_columns(s.scene());

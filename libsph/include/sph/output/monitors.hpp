@@ -41,11 +41,10 @@ namespace sph {
 class Monitors {
  public:
   /// Chooses the particle of each particle monitor: the one nearest to its point, lowest id on ties; or the one that is
-  /// known already, which may be gone. Collective. Throws InputError if a scene's id does not exist.
+  /// known from before, by number of such monitors, which may be gone. Collective. Throws InputError if a scene's id does
+  /// not exist.
   explicit Monitors(const Simulation& simulation,
                     const std::vector<std::optional<std::uint64_t>>& known = {});
-  /// Goes on with particles chosen before, one for each particle monitor of the scene.
-  Monitors(const Simulation& simulation, std::vector<std::uint64_t> ids);
 
   [[nodiscard]] const std::vector<std::uint64_t>& ids() const { return ids_; }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
