@@ -1,6 +1,5 @@
 // Fixed-width vectors: 16 floats or 8 doubles in 64 bytes, whatever the machine has. The lane count is in the
-// source, so SSE2, AVX2 and AVX-512 builds do the same operations on the same lanes and give the same bits. Where
-// lanes never meet, as in a contact, they may come a register at a time instead: OneRegister.
+// source, so SSE2, AVX2 and AVX-512 builds do the same operations on the same lanes and give the same bits.
 // Never passed across a translation unit.
 #pragma once
 
@@ -218,8 +217,5 @@ inline Simd<double> stored_difference(Simd<double> a, Simd<double> b) {
 }
 
 using Int64x8 = Simd<std::int64_t>;
-/// As many lanes as a register has.
-template <class T>
-using OneRegister = Simd<T, register_bytes>;
 
 }  // namespace sph

@@ -83,16 +83,16 @@ namespace simd_detail {
 }
 
 [[gnu::always_inline]] inline void load4(const double* base, std::size_t stride, const std::uint32_t* index,
-                                         OneRegister<double>* out) {
+                                         Simd<double, register_bytes>* out) {
   __m256d r[4];
   for (int k = 0; k < 4; ++k) r[k] = _mm256_loadu_pd(base + index[k] * stride);
   transpose(r);
-  for (int k = 0; k < 4; ++k) out[k] = OneRegister<double>::of(r[k]);
+  for (int k = 0; k < 4; ++k) out[k] = Simd<double, register_bytes>::of(r[k]);
 }
 
 [[gnu::always_inline]] inline void load4(const double* base, std::size_t stride, const std::uint32_t* index,
                                          Simd<double>* out) {
-  OneRegister<double> half[2][4];
+  Simd<double, register_bytes> half[2][4];
   for (int h = 0; h < 2; ++h) load4(base, stride, index + 4 * h, half[h]);
   for (int k = 0; k < 4; ++k)
     out[k] = Simd<double>::of(half[0][k].template as<__m256d>(), half[1][k].template as<__m256d>());

@@ -1,6 +1,6 @@
-// The only loop over contacts: one SIMD lane each, as many at a time as a register has (of more, registers of AVX2 could not hold
-// half). Forces and torques are rounded to quanta and added as integers, so their sums depend on no order; the pair's two
-// sides get exact opposites.
+// The only loop over contacts, one SIMD lane each, eight at a time: where a register has four of them their two chains of
+// square roots and divisions overlap, which is worth more than what is spilled. Forces and torques are rounded to quanta and
+// added as integers, so their sums depend on no order; the pair's two sides get exact opposites.
 // Once the pairs and walls of a block of rows are summed its grains are kicked and drift at once, while they
 // are still in the cache: nothing that comes later in the sweep reads them.
 #pragma once
@@ -37,7 +37,7 @@ struct ContactPass {
     return all;
   }();
   static constexpr int stride = spins ? 8 : 4;
-  using V = OneRegister<double>;
+  using V = Simd<double>;
   static constexpr std::size_t lanes = ContactGroups::lanes, part_lanes = V::lanes;
   static constexpr std::size_t ahead = 8;  // groups whose rows are fetched before they are read
   using Sum = typename Sums::Sum;
@@ -89,7 +89,7 @@ struct ContactPass {
     return ContactConstants<V>::of_row(k, V(c.materials.least_force));
   }
 
-  /// Lanes at, at + 1, ... of a group, which fill a register.
+  /// Lanes at, at + 1, ... of a group, which fill a V.
   struct Part {
     std::size_t group, at;
     [[nodiscard]] std::size_t first() const { return group * lanes + at; }
