@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "models/clamps.hpp"
 #include "sph/laws/neo_hooke.hpp"
@@ -91,12 +92,25 @@ void check_contact(const SphConstants& k, const FaultView& p, std::size_t i, dou
                "softer side; raise its bulk_modulus or sound_speed, of a wall too");
 }
 
+/// By group: whether its body loses bonds as others of it, or itself, fail.
+std::vector<bool> bodies_crack(const SphConstants& k) {
+  const std::vector<Group>& groups = k.scene->groups;
+  const auto& number = k.groups.bodies.number;
+  std::vector<bool> cracks(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t of = 0; of < groups.size(); ++of)
+      cracks[g] = cracks[g] || (number[of] == number[g] &&
+                                std::ranges::any_of(groups[of].becomes, &Transition::of_failure));
+  return cracks;
+}
+
 struct Stresses {
   static constexpr FieldSet reads =
-      RangeView::reads | FieldSet{Field::contact_energy, Field::deformation, Field::prestress, Field::crack};
+      RangeView::reads | FieldSet{Field::contact_energy, Field::deformation, Field::prestress};
   static constexpr FieldSet writes{Field::bond_stress, Field::stress,  Field::strain_energy,
                                    Field::bonds,       Field::density, Field::pressure};
   const SphConstants* constants;
+  std::vector<bool> cracks;  ///< by group
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
     for (const RowRange& r : step.ranges)
@@ -110,7 +124,6 @@ struct Stresses {
     const double* mass = p.get<Field::mass>();
     const double* contact = p.get<Field::contact_energy>();
     const double* prestress = p.get<Field::prestress>();
-    const double* crack = p.get<Field::crack>();
     for (std::size_t i = first; i < last; ++i) {
       Eigen::Map<Tensor<D>> bond_stress(p.get<Field::bond_stress>() + i * D * D);
       double* stress = p.get<Field::stress>() + i * n;
@@ -124,10 +137,10 @@ struct Stresses {
         continue;
       }
       BondSums<D> bonds(p.get<Field::deformation>() + i * sums, constants->bond_factor);
-      if (crack == nullptr || std::ranges::none_of(own.becomes, &Transition::of_failure))
-        check(p, i, bonds.count, bonds.shape, step);
-      else
+      if (cracks[group[i]])
         check_cracked(p, i, bonds, step);
+      else
+        check(p, i, bonds.count, bonds.shape, step);
       const double before = prestress != nullptr ? prestress[i] : 0.0;
       const ElasticState<D> state =
           neo_hooke<D>(bonds.gradient, own.eos.bulk_modulus, own.solid.shear_modulus, before);
@@ -282,7 +295,7 @@ void add_bodies(Builder& b) {
   if (clamps) clamps->add_shifts(b);
   // Of walls only how contacts strain them.
   b.add_sums("deformation", deformation, contact ? Builder::Rows::all : Builder::Rows::movers);
-  b.add_update("stress", Stresses{&k});
+  b.add_update("stress", Stresses{&k, bodies_crack(k)});
   b.begin_with_these();  // what bonds there are is known only from the start, and output wants the stress
   b.add_sums(has_wet_bodies(s) ? "bond forces" : "forces", forces);
   if (clamps) clamps->add_reactions(b);
