@@ -182,4 +182,35 @@ TEST(Cracks, FollowNoRowsOfTheLattice) {
   }
 }
 
+// A plate is pulled apart; a bar across it is a part of its body but of a rock that does not fail. All else does: the bar goes on
+// with its own bonds.
+TEST(Cracks, EndAtAPartThatDoesNotFail) {
+  const decomp::Comm comm(MPI_COMM_SELF);
+  Bodies body(1);
+  for (int j = -6; j <= 6; ++j)
+    for (int i = -10; i <= 10; ++i) body.add(i, j, 0.01 * i, 0, std::abs(i) <= 1 ? 2 : 0);
+  const std::string bar_of_rock = R"(
+[[group]]
+name = "bar"
+kind = "solid"
+lagrangian = "total"
+density = 1
+bulk_modulus = 0.6666666666666667
+shear_modulus = 0.4
+part_of = "rock"
+)";
+  sph::Simulation s = body.start(comm, slab + bar_of_rock, 1,
+                                 {"domain={lower=[-60, -60], upper=[60, 60]}", "reset=[]",
+                                  "group.0.becomes.0.toughness=1e-4", "time.until=20"});
+  run_until(s, 20, [] {});
+  int bar = 0, rock = 0;
+  for (const Sample& q : samples(s)) {
+    bar += q.group == 2 ? 1 : 0;
+    rock += q.group == 0 ? 1 : 0;
+  }
+  std::printf("plate: %d of the rock, %d of the bar left\n", rock, bar);
+  EXPECT_EQ(bar, 3 * 13);
+  EXPECT_LT(rock, 18 * 13);
+}
+
 }  // namespace

@@ -99,8 +99,7 @@ std::vector<bool> bodies_crack(const SphConstants& k) {
   std::vector<bool> cracks(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (std::size_t of = 0; of < groups.size(); ++of)
-      cracks[g] = cracks[g] || (number[of] == number[g] &&
-                                std::ranges::any_of(groups[of].becomes, &Transition::of_failure));
+      cracks[g] = cracks[g] || (number[of] == number[g] && can_fail(groups[of]));
   return cracks;
 }
 

@@ -104,11 +104,7 @@ std::vector<int> rigid_bodies_of(const Scene& scene) {
       bodies[g] = bodies[static_cast<std::size_t>(whole)];
   return bodies;
 }
-bool has_failure(const Scene& scene) {
-  return std::ranges::any_of(scene.groups, [](const Group& g) {
-    return std::ranges::any_of(g.becomes, [](const Transition& t) { return t.of_failure(); });
-  });
-}
+bool has_failure(const Scene& scene) { return std::ranges::any_of(scene.groups, can_fail); }
 
 int Scene::group_index(const std::string& group_name) const {
   for (std::size_t k = 0; k < groups.size(); ++k)

@@ -38,7 +38,8 @@ struct ContactPass {
   }();
   static constexpr int stride = spins ? 8 : 4;
   using V = Simd<double>;
-  static constexpr std::size_t lanes = ContactGroups::lanes, part_lanes = V::lanes;
+  static constexpr std::size_t lanes = ContactGroups::lanes;
+  static_assert(V::lanes == lanes);
   static constexpr std::size_t ahead = 8;  // groups whose rows are fetched before they are read
   using Sum = typename Sums::Sum;
 
@@ -89,22 +90,13 @@ struct ContactPass {
     return ContactConstants<V>::of_row(k, V(c.materials.least_force));
   }
 
-  /// Lanes at, at + 1, ... of a group, which fill a V.
-  struct Part {
-    std::size_t group, at;
-    [[nodiscard]] std::size_t first() const { return group * lanes + at; }
-    [[nodiscard]] unsigned in_group(unsigned bits) const { return bits << at; }
-    /// Those of a group's bits.
-    [[nodiscard]] unsigned of_group(unsigned bits) const { return bits >> at & ((1u << part_lanes) - 1); }
-  };
-
   /// The laws, with the histories before and after. Lanes that do not touch answer zero and lose theirs.
   [[gnu::always_inline]] static Answer respond(Contact<V>& contact, const ContactConstants<V>& k,
-                                               ContactGroups& list, Part part, ContactSweep& sweep) {
+                                               ContactGroups& list, std::size_t g, ContactSweep& sweep) {
     const V gone = V::zero();
     const auto touching = [&](V x) { return where_less(gone, contact.overlap, x); };
     Answer out;
-    double* stored = list.history.data() + part.group * history * lanes + part.at;
+    double* stored = list.history.data() + g * history * lanes;
     V memory[memories > 0 ? memories : 1];
     for (int m = 0; m < memories; ++m) memory[m] = V::load(stored + (springs + m) * lanes);
     const NormalForce<V> normal = normal_force<NormalLaw>(contact, k, memory);
@@ -141,14 +133,14 @@ struct ContactPass {
         out.roll[a] = touching(out.roll[a]);
       }
     }
-    std::uint8_t& touched = list.touching[part.group];
-    const unsigned now = positive_lanes(contact.overlap), before = part.of_group(touched);
+    std::uint8_t& touched = list.touching[g];
+    const unsigned now = positive_lanes(contact.overlap), before = touched;
     if (now != before) {
       if constexpr (history > 0) {  // without history nobody remembers at a rebuild who touched
         sweep.created += std::popcount(now & ~before);
         sweep.ended += std::popcount(before & ~now);
       }
-      touched = static_cast<std::uint8_t>(touched ^ part.in_group(now ^ before));
+      touched = static_cast<std::uint8_t>(now);
     }
     return out;
   }
@@ -186,14 +178,15 @@ struct ContactPass {
     ContactGroups& list = c.lists->pairs();
     const bool may_sleep = list.touching[g] == 0 && c.path < std::numeric_limits<double>::infinity();
     double gap = std::numeric_limits<double>::infinity();
-    for (Part part{g, 0}; part.at < lanes; part.at += part_lanes) {
-      Partners two(list, part.first());
+    // One turn: g++ 12 keeps more in registers with it.
+    for (std::size_t at = 0; at < lanes; at += lanes) {
+      Partners two(list, g * lanes + at);
       Contact<V> contact;
       V d[3];
       const V distance2 = look_at_places(c, rows, two, d), distance = sqrt(distance2);
       // Unused lanes hold a row twice: distance 0 does not touch.
       contact.overlap = where_less(V::zero(), distance2, two.ri + two.rj - distance);
-      if (positive_lanes(contact.overlap) == 0 && part.of_group(list.touching[g]) == 0) {
+      if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) {
         if (may_sleep) gap = std::min(gap, gap_of(contact.overlap, distance2, two));
         continue;
       }
@@ -202,12 +195,12 @@ struct ContactPass {
       look_at_motion(rows, two, contact);
       contact.radius = two.ri * two.rj / (two.ri + two.rj);
       contact.dt = V(c.dt);
-      std::uint32_t pair[part_lanes];
+      std::uint32_t pair[lanes];
       if constexpr (!one_material)
-        for (std::size_t l = 0; l < part_lanes; ++l)
+        for (std::size_t l = 0; l < lanes; ++l)
           pair[l] = static_cast<std::uint32_t>(two.group_i[static_cast<int>(l)]) * c.materials.groups +
                     static_cast<std::uint32_t>(two.group_j[static_cast<int>(l)]);
-      const Answer answer = respond(contact, constants_of(c, pair), list, part, sweep);
+      const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
       const V excess = contact.overlap - V(c.largest_overlap) * min(two.ri, two.rj);
       if (positive_lanes(excess) != 0) note_pairs(c, two.i, two.j, excess, contact.overlap, sweep.deep);
       add_answer(c, rows, two, answer, sweep);
@@ -308,39 +301,37 @@ struct ContactPass {
     if (list.touching[g] == 0 && c.walls.facets->any() && !c.walls.facets->any_in(g) &&
         *std::min_element(walls, walls + lanes) >= c.walls.planes.size())
       return;
-    for (Part part{g, 0}; part.at < lanes; part.at += part_lanes) {
-      Contact<V> contact;
-      V rel[3], surface[3], lightness;
-      std::uint32_t pair[part_lanes];
-      std::size_t number[part_lanes];
-      for (std::size_t l = 0; l < part_lanes; ++l) {
-        const std::size_t entry = part.first() + l, r = list.i[entry];
-        const int k = static_cast<int>(l);
-        const WallSide side = wall_side(c, list.j[entry], entry, rows.x(r));
-        for (std::size_t a = 0; a < 3; ++a) {
-          contact.normal[a].set(k, -side.away[a]);
-          rel[a].set(k, side.velocity[a] - rows.v(r)[a]);
-          if constexpr (spins) {
-            surface[a].set(k, rows.radius(r) * rows.w(r)[a]);
-            contact.roll[a].set(k, -rows.w(r)[a]);
-          }
+    Contact<V> contact;
+    V rel[3], surface[3], lightness;
+    std::uint32_t pair[lanes];
+    std::size_t number[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::size_t entry = g * lanes + l, r = list.i[entry];
+      const int k = static_cast<int>(l);
+      const WallSide side = wall_side(c, list.j[entry], entry, rows.x(r));
+      for (std::size_t a = 0; a < 3; ++a) {
+        contact.normal[a].set(k, -side.away[a]);
+        rel[a].set(k, side.velocity[a] - rows.v(r)[a]);
+        if constexpr (spins) {
+          surface[a].set(k, rows.radius(r) * rows.w(r)[a]);
+          contact.roll[a].set(k, -rows.w(r)[a]);
         }
-        contact.overlap.set(k, side.touchable ? rows.radius(r) - side.distance : 0.0);
-        contact.radius.set(k, rows.radius(r));
-        contact.mass.set(k, rows.mass(r));
-        lightness.set(k, side.lightness);
-        pair[l] = rows.group(r) * c.materials.groups + side.group;
-        number[l] = side.number;
       }
-      if (positive_lanes(contact.overlap) == 0 && part.of_group(list.touching[g]) == 0) continue;
-      contact.mass = contact.mass / (V(1.0) + contact.mass * lightness);
-      set_motion<spins>(contact, rel, surface);
-      contact.dt = V(c.dt);
-      const Answer answer = respond(contact, constants_of(c, pair), list, part, sweep);
-      for (std::size_t l = 0; l < part_lanes; ++l)
-        if (contact.overlap[static_cast<int>(l)] > 0)
-          add_wall_answer(c, rows, part.first() + l, number[l], contact, answer, static_cast<int>(l), sweep);
+      contact.overlap.set(k, side.touchable ? rows.radius(r) - side.distance : 0.0);
+      contact.radius.set(k, rows.radius(r));
+      contact.mass.set(k, rows.mass(r));
+      lightness.set(k, side.lightness);
+      pair[l] = rows.group(r) * c.materials.groups + side.group;
+      number[l] = side.number;
     }
+    if (positive_lanes(contact.overlap) == 0 && list.touching[g] == 0) return;
+    contact.mass = contact.mass / (V(1.0) + contact.mass * lightness);
+    set_motion<spins>(contact, rel, surface);
+    contact.dt = V(c.dt);
+    const Answer answer = respond(contact, constants_of(c, pair), list, g, sweep);
+    for (std::size_t l = 0; l < lanes; ++l)
+      if (contact.overlap[static_cast<int>(l)] > 0)
+        add_wall_answer(c, rows, g * lanes + l, number[l], contact, answer, static_cast<int>(l), sweep);
   }
 
   /// That of lane k.

@@ -1,6 +1,7 @@
 // A material of a scene, and what is one only for some kinds of matter.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +59,11 @@ struct Group {
       grain;  ///< besides it grains have name, density and wall.velocity; melts name, density, viscosity
   friend bool operator==(const Group&, const Group&) = default;
 };
+
+/// Loses bonds as it becomes something else.
+[[nodiscard]] inline bool can_fail(const Group& g) {
+  return std::ranges::any_of(g.becomes, &Transition::of_failure);
+}
 
 /// `to` is the group `from`, an index or -1, or what that turns into by and by.
 [[nodiscard]] bool can_become(const std::vector<Group>& groups, int from, int to);
