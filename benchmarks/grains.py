@@ -136,7 +136,7 @@ def run_ours(build, files, law, ranks, steps, out, *settings):
                *[word for s in sets for word in ("--set", s)])[1]
 
 
-def peperite(build):
+def our_code(build):
     def measure(files, law, ranks, skin, steps):
         seconds, rebuilds = [], []
         for end in (WARM, WARM + steps):  # the difference is steps alone, as the peers' second run
@@ -259,7 +259,7 @@ def main():
     if options.check:
         pushed = bed.pushed(bed.repeated(tile, 4, 2), PUSH)
         sys.exit(not check(build, lmp, files_of(work, "pushed", pushed, drift=DT), options.laws))
-    codes = {} if options.peers_only else {"Peperite": peperite(build)}
+    codes = {} if options.peers_only else {"Peperite": our_code(build)}
     codes["LAMMPS"] = lammps(lmp)
     if options.native:
         codes["LAMMPS native"] = lammps(program(options.native))

@@ -40,15 +40,18 @@ struct ContactPass {
   using V = Simd<double>;
   static constexpr std::size_t lanes = ContactGroups::lanes;
   static_assert(V::lanes == lanes);
-  static constexpr std::size_t ahead = 8;  // groups whose rows are fetched before they are read
+  static constexpr std::size_t ahead = 16;             // groups whose rows are fetched before they are read
+  static constexpr std::size_t rows_in_cache = 20000;  // some 400 bytes each with their contacts
   using Sum = typename Sums::Sum;
 
   static void run(const ContactContext& c, std::span<const ContactBlock> blocks, const RowRanges& ranges,
                   ContactSweep& sweep) {
     const Rows rows(c);
+    const bool far = c.particles->rows() > rows_in_cache;  // fetching what is near costs more than it saves
     for (const ContactBlock& block : blocks) {
       for (std::size_t g = block.pairs.first; g < block.pairs.last; ++g) {
         prefetch(rows, c.lists->pairs(), g + ahead);
+        if (far) prefetch_own(rows, c.lists->pairs(), g + ahead);
         add_pairs(c, rows, g, sweep);
       }
       add_candidates(c, rows, block.candidates, sweep);
@@ -363,17 +366,24 @@ struct ContactPass {
     }
   }
 
-  /// What group g reads of its partners and adds to. Inlined by force: g++ takes a function that only prefetches for one
-  /// without effect and drops the call.
+  // Inlined by force: g++ takes a function that only prefetches for one without effect and drops the call.
+  [[gnu::always_inline]] static void prefetch_row(const Rows& rows, std::size_t r) {
+    __builtin_prefetch(rows.x(r));
+    if constexpr (spins || !one_material) __builtin_prefetch(rows.w(r));
+    __builtin_prefetch(rows.sums + r * stride, 1);
+  }
+  /// What group g reads of its partners and adds to.
   [[gnu::always_inline]] static void prefetch(const Rows& rows, const ContactGroups& list, std::size_t g) {
     if (g >= list.groups()) return;
-    const std::uint32_t* j = list.j.data() + g * lanes;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const std::size_t r = j[l];
-      __builtin_prefetch(rows.x(r));
-      if constexpr (spins || !one_material) __builtin_prefetch(rows.w(r));
-      __builtin_prefetch(rows.sums + r * stride, 1);
-    }
+    for (std::size_t l = 0; l < lanes; ++l) prefetch_row(rows, list.j[g * lanes + l]);
+  }
+  /// ... and the rest. Rows i follow each other, each for some pairs.
+  [[gnu::always_inline]] static void prefetch_own(const Rows& rows, const ContactGroups& list,
+                                                  std::size_t g) {
+    if (g >= list.groups()) return;
+    for (std::size_t l = 0; l < lanes; l += 4) prefetch_row(rows, list.i[g * lanes + l]);
+    for (std::size_t component = 0; component < history; ++component)
+      __builtin_prefetch(list.history.data() + (g * history + component) * lanes, 1);
   }
 };
 
