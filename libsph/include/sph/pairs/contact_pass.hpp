@@ -17,6 +17,7 @@
 #include "sph/core/simd_rows.hpp"
 #include "sph/pairs/contact.hpp"
 #include "sph/pairs/contact_context.hpp"
+#include "sph/pairs/contact_prefetch.hpp"
 #include "sph/pairs/friction.hpp"
 #include "sph/pairs/grain_motion.hpp"
 #include "sph/pairs/rolling.hpp"
@@ -40,18 +41,18 @@ struct ContactPass {
   using V = Simd<double>;
   static constexpr std::size_t lanes = ContactGroups::lanes;
   static_assert(V::lanes == lanes);
-  static constexpr std::size_t ahead = 16;             // groups whose rows are fetched before they are read
-  static constexpr std::size_t rows_in_cache = 20000;  // some 400 bytes each with their contacts
   using Sum = typename Sums::Sum;
 
   static void run(const ContactContext& c, std::span<const ContactBlock> blocks, const RowRanges& ranges,
                   ContactSweep& sweep) {
     const Rows rows(c);
-    const bool far = c.particles->rows() > rows_in_cache;  // fetching what is near costs more than it saves
+    const Prefetch<Rows> prefetch(c, rows);
     for (const ContactBlock& block : blocks) {
+      if (&block != &blocks.back()) prefetch.block(*(&block + 1));
+      for (std::size_t g = block.candidates.first; g < block.candidates.last; ++g)
+        if (!sleeps(c, g)) prefetch.partners(g);
       for (std::size_t g = block.pairs.first; g < block.pairs.last; ++g) {
-        prefetch(rows, c.lists->pairs(), g + ahead);
-        if (far) prefetch_own(rows, c.lists->pairs(), g + ahead);
+        prefetch.coming(g);
         add_pairs(c, rows, g, sweep);
       }
       add_candidates(c, rows, block.candidates, sweep);
@@ -77,6 +78,8 @@ struct ContactPass {
  private:
   using Rows = ContactRows<Sum>;
   using Motion = GrainMotion<spins, stride, Sums>;
+  template <class Of>
+  using Prefetch = ContactPrefetch<Of, stride, history, spins || !one_material>;
 
   /// Forces and torques of eight contacts. Torque on j: roll - r_j couple, on i: -roll - r_i couple.
   struct Answer {
@@ -237,15 +240,14 @@ struct ContactPass {
     return gap;
   }
 
+  [[gnu::always_inline]] static bool sleeps(const ContactContext& c, std::size_t g) {
+    return c.path < c.lists->pairs().asleep[g];
+  }
   /// Those that are not asleep. Sums are in whole quanta: whoever has nothing to add need not be asked.
   [[gnu::always_inline]] static void add_candidates(const ContactContext& c, const Rows& rows,
                                                     ContactBlock::Groups groups, ContactSweep& sweep) {
-    const ContactGroups& list = c.lists->pairs();
-    const auto sleeps = [&](std::size_t g) { return c.path < list.asleep[g]; };
     for (std::size_t g = groups.first; g < groups.last; ++g)
-      if (!sleeps(g)) prefetch(rows, list, g);
-    for (std::size_t g = groups.first; g < groups.last; ++g)
-      if (!sleeps(g)) add_pairs(c, rows, g, sweep);
+      if (!sleeps(c, g)) add_pairs(c, rows, g, sweep);
   }
 
   /// Velocities of two grains, as their contact sees them, and what stands beside them in their lines.
@@ -364,26 +366,6 @@ struct ContactPass {
             Sums::scalar(torque * (1 / c.quantum.torque));
       }
     }
-  }
-
-  // Inlined by force: g++ takes a function that only prefetches for one without effect and drops the call.
-  [[gnu::always_inline]] static void prefetch_row(const Rows& rows, std::size_t r) {
-    __builtin_prefetch(rows.x(r));
-    if constexpr (spins || !one_material) __builtin_prefetch(rows.w(r));
-    __builtin_prefetch(rows.sums + r * stride, 1);
-  }
-  /// What group g reads of its partners and adds to.
-  [[gnu::always_inline]] static void prefetch(const Rows& rows, const ContactGroups& list, std::size_t g) {
-    if (g >= list.groups()) return;
-    for (std::size_t l = 0; l < lanes; ++l) prefetch_row(rows, list.j[g * lanes + l]);
-  }
-  /// ... and the rest. Rows i follow each other, each for some pairs.
-  [[gnu::always_inline]] static void prefetch_own(const Rows& rows, const ContactGroups& list,
-                                                  std::size_t g) {
-    if (g >= list.groups()) return;
-    for (std::size_t l = 0; l < lanes; l += 4) prefetch_row(rows, list.i[g * lanes + l]);
-    for (std::size_t component = 0; component < history; ++component)
-      __builtin_prefetch(list.history.data() + (g * history + component) * lanes, 1);
   }
 };
 
