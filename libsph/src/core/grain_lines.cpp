@@ -30,7 +30,6 @@ GrainLines& Particles::lines() {
   auto lines = std::make_unique<GrainLines>();
   lines->motion.resize(rows() * motion_width);
   lines->spin.resize(rows() * spin_width);
-  lines->inverse.resize(owned() * GrainLines::inverse_width);
   for (std::size_t i = 0; i < rows(); ++i) {
     double *m = lines->motion.data() + i * motion_width, *s = lines->spin.data() + i * spin_width;
     std::memcpy(m, x + i * 3, 3 * sizeof(double));
@@ -39,11 +38,6 @@ GrainLines& Particles::lines() {
     m[7] = mass[i];
     if (w != nullptr) std::memcpy(s, w + i * 3, 3 * sizeof(double));
     s[3] = group[i];
-  }
-  for (std::size_t i = 0; i < owned(); ++i) {
-    const double inverse_mass = 1 / mass[i];
-    lines->inverse[i * 2] = inverse_mass;
-    lines->inverse[i * 2 + 1] = 2.5 * inverse_mass / (radius[i] * radius[i]);
   }
   lines_ = std::move(lines);
   return *lines_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -24,8 +25,17 @@ GrainPairs::GrainPairs(std::size_t set, const Scene& scene, const PositionScale&
   for (const Group& g : scene.groups) fixed_.push_back(g.grain.fixed);
 }
 
-ContactSums& GrainPairs::sums(std::size_t rows) {
-  if (sums_.empty()) sums_.assign(rows * (spins_ ? 8 : 4), 0);
+ContactSums& GrainPairs::sums(const Particles& particles) {
+  if (!sums_.empty()) return sums_;
+  const std::size_t stride = spins_ ? 8 : 4;
+  const auto *radius = particles.data<Field::radius>(), *mass = particles.data<Field::mass>();
+  sums_.assign(particles.rows() * stride, 0);
+  for (std::size_t i = 0; i < particles.owned(); ++i) {
+    const double inverse_mass = 1 / mass[i];
+    sums_[i * stride + 3] = std::bit_cast<std::uint64_t>(inverse_mass);
+    if (spins_)
+      sums_[i * stride + 7] = std::bit_cast<std::uint64_t>(2.5 * inverse_mass / (radius[i] * radius[i]));
+  }
   return sums_;
 }
 

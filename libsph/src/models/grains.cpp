@@ -123,7 +123,7 @@ ContactContext Grains::context(Particles& particles, double dt, const double* gi
           {table_.data(), table_.groups(),
            scene_->grains.contact.pull ? -std::numeric_limits<double>::infinity() : 0.0},
           {now_.walls.planes, &now_.facets, walls_.count(), now_.force.data()},
-          pairs_.sums(particles.rows()).data(),
+          pairs_.sums(particles).data(),
           {scale_.quantum, table_.force_quantum(), table_.torque_quantum()},
           dt,
           {{scene_->domain.gravity[0], scene_->domain.gravity[1], scene_->domain.gravity[2]}, given},

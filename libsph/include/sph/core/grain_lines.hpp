@@ -13,10 +13,9 @@
 namespace sph {
 
 struct GrainLines {
-  static constexpr std::size_t motion_width = 8, spin_width = 4, inverse_width = 2;
-  decomp::LargeVector<double> motion;   ///< position (bits of integers) [quanta], radius | velocity, mass
-  decomp::LargeVector<double> spin;     ///< spin, group
-  decomp::LargeVector<double> inverse;  ///< 1 / m, 5 / (2 m r^2), of owned rows
+  static constexpr std::size_t motion_width = 8, spin_width = 4;
+  decomp::LargeVector<double> motion;  ///< position (bits of integers) [quanta], radius | velocity, mass
+  decomp::LargeVector<double> spin;    ///< spin, group
 
   /// What the halo has of these fields (decomp/poison.hpp).
   void poison(FieldSet fields, std::size_t owned);

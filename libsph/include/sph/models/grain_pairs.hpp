@@ -37,8 +37,7 @@ class GrainPairs final : public SetPair {
   [[nodiscard]] const ContactLists& lists() const { return lists_; }
   /// Fields of the halo that a sweep over them reads and that change with every step.
   [[nodiscard]] FieldSet swept() const;
-  /// Of forces and torques on each of the rows.
-  [[nodiscard]] ContactSums& sums(std::size_t rows);
+  [[nodiscard]] ContactSums& sums(const Particles& particles);
   /// As ContactLists has it; between steps.
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
   /// The longest way of this rank's grains, or of a wall, since the lists were made [m].

@@ -12,7 +12,8 @@
 
 namespace sph {
 
-/// Force and torque sums of every row, halo copies included: 4 integers a row, or 8 where grains spin.
+/// Force and torque sums of every row, halo copies included, between steps 0: 4 integers a row, or 8 where grains spin. Beside
+/// either, in the fourth, stand the bits of what owned rows are moved by, 1 / m and 5 / (2 m r^2); sweeps add nothing to it.
 using ContactSums = decomp::LargeVector<std::uint64_t>;
 
 /// What grains are made of.

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sph/core/grain_lines.hpp"
 #include "sph/pairs/contact_context.hpp"
 
 namespace sph {
@@ -29,20 +28,14 @@ class ContactPrefetch {
   [[gnu::always_inline]] void partners(std::size_t g) const {
     for (std::size_t l = 0; l < lanes; ++l) row(list_.j[g * lanes + l]);
   }
-  /// Of a block, before the one before it: what its candidates are found by, the nearest of them first, and what its rows are
-  /// moved by.
+  /// Of a block, before the one before it: what its candidates are found by, the nearest of them first.
   [[gnu::always_inline]] void block(const ContactBlock& block) const {
-    if (!far_) return;
     const std::size_t g = block.candidates.first;
-    if (g < block.candidates.last) {
-      __builtin_prefetch(&list_.asleep[g]);
-      __builtin_prefetch(&list_.touching[g]);
-      __builtin_prefetch(&list_.i[g * lanes]);
-      __builtin_prefetch(&list_.j[g * lanes]);
-    }
-    constexpr std::size_t width = GrainLines::inverse_width, rows_in_line = 64 / (width * sizeof(double));
-    for (std::size_t r = block.first; r < block.last; r += rows_in_line)
-      __builtin_prefetch(rows_.inverse + r * width);
+    if (!far_ || g == block.candidates.last) return;
+    __builtin_prefetch(&list_.asleep[g]);
+    __builtin_prefetch(&list_.touching[g]);
+    __builtin_prefetch(&list_.i[g * lanes]);
+    __builtin_prefetch(&list_.j[g * lanes]);
   }
 
  private:

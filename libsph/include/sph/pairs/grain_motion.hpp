@@ -1,6 +1,7 @@
 // How grains move once their contacts are summed: with inertia, or where a flow carries them without.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -36,12 +37,10 @@ template <class Sum>
 struct ContactRows {
   static constexpr std::size_t motion_width = GrainLines::motion_width, spin_width = GrainLines::spin_width;
   double *motion, *spin;
-  const double* inverse;
   Sum* sums;
   explicit ContactRows(const ContactContext& c)
       : motion(c.particles->lines().motion.data()),
         spin(c.particles->lines().spin.data()),
-        inverse(c.particles->lines().inverse.data()),
         sums(reinterpret_cast<Sum*>(c.sums)) {}
   [[nodiscard]] double* x(std::size_t row) const { return motion + row * motion_width; }
   [[nodiscard]] double* v(std::size_t row) const { return motion + row * motion_width + 4; }
@@ -68,20 +67,19 @@ struct GrainMotion {
     double speed2 = sweep.speed2, acceleration2 = sweep.acceleration2;
     for (std::size_t r = first; r < last; ++r) {
       Sum* sums = rows.sums + r * stride;
-      const double* inverse = rows.inverse + r * GrainLines::inverse_width;
-      const FourDoubles force = Sums::values(sums) * c.quantum.force;
+      const FourDoubles force = Sums::values(sums) * in_vector(c.quantum.force);
       FourDoubles pull = gravity;
       if (c.pull.given != nullptr)
         for (int a = 0; a < 3; ++a) pull[a] += c.pull.given[r * 3 + static_cast<std::size_t>(a)];
-      const FourDoubles acceleration = force * inverse[0] + pull;
+      const FourDoubles acceleration = force * std::bit_cast<double>(sums[3]) + pull;
       const FourDoubles v = load(rows.v(r)) + acceleration * dt;
       store(v, rows.v(r));
       if constexpr (drifts) drift(rows.x(r), v * quanta);
       if constexpr (spins) {
-        const double turn = inverse[1] * c.quantum.torque * dt;
-        store(load(rows.w(r)) + Sums::values(sums + 4) * turn, rows.w(r));
+        const double turn = std::bit_cast<double>(sums[7]) * c.quantum.torque * dt;
+        store(load(rows.w(r)) + Sums::values(sums + 4) * in_vector(turn), rows.w(r));
       }
-      for (int k = 0; k < stride; ++k) sums[k] = 0;
+      for (int k = 0; k < stride; k += 4) clear(sums + k);
       speed2 = larger_or_nan(square(v), speed2);
       acceleration2 = larger_or_nan(square(acceleration), acceleration2);
     }
@@ -110,13 +108,15 @@ struct GrainMotion {
       }
       store(v, rows.v(r));
       drift(rows.x(r), v * in_vector(quanta));
-      for (int k = 0; k < stride; ++k) sums[k] = 0;
+      for (int k = 0; k < stride; k += 4) clear(sums + k);
       speed2 = larger_or_nan(square(v), speed2);
     }
     sweep.speed2 = speed2;
   }
 
  private:
+  /// All but what stands beside them.
+  [[gnu::always_inline]] static void clear(Sum* sums) { std::fill_n(sums, 3, Sum{}); }
   [[gnu::always_inline]] static FourDoubles load(const double* from) {
     FourDoubles out;
     std::memcpy(&out, from, sizeof out);
