@@ -66,11 +66,11 @@ def drifted(bed, time):
     return Bed(bed.diameter, bed.x + time * bed.v, bed.v, bed.size)
 
 
-def write_data(bed, path, lower=(0, 0, 0)):
+def write_data(bed, path, lower=(0, 0, 0), types=1):
     number = np.arange(1, len(bed) + 1)
     one = np.ones(len(bed))
     with open(path, "w") as out:
-        out.write(f"bed\n\n{len(bed)} atoms\n1 atom types\n\n")
+        out.write(f"bed\n\n{len(bed)} atoms\n{types} atom types\n\n")
         for axis, low, high in zip("xyz", lower, bed.size):
             out.write(f"{low:.17g} {high:.17g} {axis}lo {axis}hi\n")
         out.write("\nAtoms\n\n")
