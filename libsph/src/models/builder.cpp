@@ -14,6 +14,7 @@ Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms,
   const Fusion& fusion =
       find_fusion(scene().dim, precision.value_or(scene().terms.precision), scene().kernel.shape, terms);
   fields_ |= fusion.writes;
+  walls_look_at_movers_ = walls_look_at_movers_ && (rows == Rows::movers || fusion.over_movers);
   const auto work = [&k, &fusion, rows](StepState& s, Side side) {
     SphLists& lists = *s.lists;
     PassContext context = fusion.precision == Precision::double_

@@ -35,7 +35,8 @@ void SphPairs::rebuild(const Particles& p, const ListSetting& s, decomp::Payload
                        std::span<const std::uint32_t>) {
   GasReach* own = physics_->reach();
   if (own == nullptr) {
-    lists_.all.build(p, s.grid, s.own_cells, s.radius, s.ranges, s.timers);
+    lists_.all.build(p, s.grid, s.own_cells, s.radius, s.ranges, s.timers, PartnerOrder::by_id,
+                     physics_->built().walls_look_at_movers() ? &is_wall_ : nullptr);
     if (p.has(Field::wall_share)) lists_.all.mark_walls(p, is_wall_);
     lists_.fluid.forget();
     if (!p.has(Field::displacement)) return;

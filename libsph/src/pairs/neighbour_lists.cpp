@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "pairs/candidates.hpp"
 #include "pairs/id_rank.hpp"
@@ -38,18 +39,51 @@ void make_room(decomp::LargeVector<std::uint32_t>& entries, std::size_t more, st
 
 }  // namespace
 
+/// What rows of walls list where that is not all: the rest has no tag.
+class ListedByWalls {
+ public:
+  ListedByWalls(const Particles& particles, const CellBins& bins, const std::vector<bool>& unlisted,
+                const std::vector<std::uint32_t>& all_tags)
+      : tags(all_tags), before_(particles.rows() + 1, 0) {
+    const auto* group = particles.data<Field::group>();
+    for (std::size_t k = 0; k < particles.rows(); ++k) {
+      const bool listed = !unlisted[group[bins.rows()[k]]];
+      if (!listed) tags[k] = no_partner;
+      before_[k + 1] = before_[k] + (listed ? 1 : 0);
+    }
+  }
+  /// Leaves out the runs in which nothing has a tag: most of a wall that nothing touches.
+  [[nodiscard]] std::span<const CellBins::Run> of(std::span<const CellBins::Run> runs,
+                                                  CellBins::Runs& out) const {
+    std::size_t n = 0;
+    for (const CellBins::Run run : runs)
+      if (before_[run.last] > before_[run.first]) out[n++] = run;
+    return {out, n};
+  }
+
+  std::vector<std::uint32_t> tags;
+
+ private:
+  std::vector<std::uint32_t> before_;
+};
+
 // Entries are tags (ranks by id, or rows) until finish() turns them into rows; short lists end in no_partner.
 template <int D>
-void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>& tags, RowRanges& ranges) {
+void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>& all_tags,
+                          const ListedByWalls* by_walls, RowRanges& ranges) {
   const std::size_t lanes = static_cast<std::size_t>(lanes_);
   begin_.assign(1, 0);
   entries_.clear();
   pairs_ = 0;
-  const CandidateTable candidates{bins, tags.data()};
   std::size_t stride = 0;
   std::vector<std::uint32_t> lists;
   for (RowRange& range : ranges) {
     range.first_block = begin_.size() - 1;
+    const bool walls = &range == &ranges[static_cast<std::size_t>(RowClass::interior_walls)] ||
+                       &range == &ranges[static_cast<std::size_t>(RowClass::boundary_walls)];
+    const ListedByWalls* const some = walls ? by_walls : nullptr;
+    const std::vector<std::uint32_t>& tags = some != nullptr ? some->tags : all_tags;
+    const CandidateTable candidates{bins, tags.data()};
     std::uint32_t cell = no_partner;
     CellBins::Runs all_runs;
     std::span<const CellBins::Run> runs;
@@ -60,6 +94,7 @@ void NeighbourLists::find(const CellBins& bins, const std::vector<std::uint32_t>
         if (bins.bin(first + l) != cell) {
           cell = bins.bin(first + l);
           runs = bins.runs(cell, all_runs);
+          if (some != nullptr) runs = some->of(runs, all_runs);
           if (const std::size_t room = CandidateTable::room(runs) + chunk; room > stride) {
             std::vector<std::uint32_t> wider(lanes * 2 * room);
             for (std::size_t k = 0; k < l; ++k)
@@ -116,7 +151,8 @@ void NeighbourLists::mark_walls(const Particles& particles, const std::vector<bo
 
 void NeighbourLists::build(const Particles& particles, const decomp::CellGrid& grid,
                            const decomp::Box& own_cells, std::int64_t radius, RowRanges& ranges,
-                           decomp::Timers& timers, PartnerOrder order) {
+                           decomp::Timers& timers, PartnerOrder order,
+                           const std::vector<bool>* unlisted_by_walls) {
   const bool by_id = order == PartnerOrder::by_id;
   std::vector<std::uint32_t> row_of_tag, tag_of_row;
   {
@@ -136,7 +172,10 @@ void NeighbourLists::build(const Particles& particles, const decomp::CellGrid& g
     const CellBins bins(particles, grid, own_cells, radius);
     std::vector<std::uint32_t> tags(bins.rows().size(), no_partner);
     for (std::size_t k = 0; k < particles.rows(); ++k) tags[k] = tag_of_row[bins.rows()[k]];
-    particles.dim() == 2 ? find<2>(bins, tags, ranges) : find<3>(bins, tags, ranges);
+    std::optional<ListedByWalls> by_walls;
+    if (unlisted_by_walls != nullptr) by_walls.emplace(particles, bins, *unlisted_by_walls, tags);
+    const ListedByWalls* const some = by_walls ? &*by_walls : nullptr;
+    particles.dim() == 2 ? find<2>(bins, tags, some, ranges) : find<3>(bins, tags, some, ranges);
   }
   const auto timing = timers.time(by_id ? decomp::Region::order : decomp::Region::lists);
   finish(row_of_tag, ranges, by_id);

@@ -28,6 +28,8 @@ class Builder {
   [[nodiscard]] bool has_walls() const { return scene().has_kind(GroupKind::wall); }
   [[nodiscard]] FieldSet fields() const { return fields_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
+  /// No sum of rows of walls wants walls as partners.
+  [[nodiscard]] bool walls_look_at_movers() const { return walls_look_at_movers_; }
 
   void add_fields(FieldSet fields) { fields_ |= fields; }
   /// In the precision of the scene, or another.
@@ -68,6 +70,7 @@ class Builder {
   const Materials* materials_;
   const BodyForces* body_forces_;
   FieldSet fields_;
+  bool walls_look_at_movers_ = true;
   Plan plan_;
 };
 

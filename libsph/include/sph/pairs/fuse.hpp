@@ -25,6 +25,7 @@ Fusion fusion_of() {
           Pass::writes,
           static_cast<int>(Pass::Layout::stride * sizeof(T)),
           Pass::asks_for_fluid,
+          Pass::over_movers,
           Pass::pack,
           Pass::repack,
           Pass::run};

@@ -19,6 +19,7 @@ struct Fusion {
   FieldSet writes;  ///< sums
   int row_bytes;
   bool asks_for_fluid;  ///< in which blocks it is (fluid_blocks.hpp)
+  bool over_movers;     ///< walls add 0
   void (*pack)(const PassContext&, std::size_t first, std::size_t last);
   void (*repack)(const PassContext&, std::size_t first, std::size_t last);  ///< what is solved for alone
   void (*run)(const PassContext&, const RowRange&);

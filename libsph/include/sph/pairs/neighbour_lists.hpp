@@ -16,6 +16,7 @@
 namespace sph {
 
 class CellBins;
+class ListedByWalls;
 
 /// Consecutive owned rows that a pass can run over, and the first block of their lists.
 struct RowRange {
@@ -39,10 +40,11 @@ class NeighbourLists {
 
   /// Builds the lists of the owned rows, which `ranges` (first, last) tiles; fills in first_block.
   /// `own_cells` is this rank's box; halo rows lie at most one cell outside of it. `radius` in quanta, at
-  /// most a cell edge.
+  /// most a cell edge. Where sums of walls are over what moves alone, rows of walls need not list what is of the groups
+  /// `unlisted_by_walls`.
   void build(const Particles& particles, const decomp::CellGrid& grid, const decomp::Box& own_cells,
              std::int64_t radius, RowRanges& ranges, decomp::Timers& timers,
-             PartnerOrder order = PartnerOrder::by_id);
+             PartnerOrder order = PartnerOrder::by_id, const std::vector<bool>* unlisted_by_walls = nullptr);
 
   /// Of particles with reaches of their own (in quanta, of every row): j is listed for i if it lies within
   /// the reach of either.
@@ -67,7 +69,7 @@ class NeighbourLists {
 
  private:
   template <int D>
-  void find(const CellBins&, const std::vector<std::uint32_t>& tags, RowRanges&);
+  void find(const CellBins&, const std::vector<std::uint32_t>& tags, const ListedByWalls*, RowRanges&);
   template <int D>
   void find(const Particles&, std::span<const double> reach, const std::vector<std::uint32_t>& tag_of_row,
             RowRanges&);

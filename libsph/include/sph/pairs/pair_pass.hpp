@@ -130,6 +130,12 @@ inline constexpr bool looks_across_cracks = requires {
   Term::across_cracks;
 };
 
+/// To its sums walls add 0.
+template <class Term>
+inline constexpr bool is_over_movers = requires {
+  Term::over_movers;
+};
+
 /// In double precision whatever that of the scene, whose lists may then have blocks of several of its own.
 template <class Term>
 inline constexpr bool is_always_double = requires {
@@ -152,6 +158,7 @@ struct PairPass {
   static constexpr bool asks_for_fluid = only_beside_fluid || of_fluids;
   static constexpr bool of_bonds = (is_of_bonds<Terms> && ...);
   static constexpr bool across_cracks = (looks_across_cracks<Terms> || ...);
+  static constexpr bool over_movers = (is_over_movers<Terms> && ...);
   static constexpr bool finer = (is_always_double<Terms> && ...);
   static constexpr int velocity = half_step_back ? Layout::offset(Value::velocity) : 0;
 

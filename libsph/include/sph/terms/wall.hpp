@@ -36,6 +36,7 @@ void extrapolate_by_density(const P& p, typename P::V rise, S& sums) {
 
 struct WallExtrapolation {
   static constexpr std::string_view name = "WallExtrapolation";
+  static constexpr bool over_movers = true;
   static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::weight, Value::mover};
   static constexpr Field writes = Field::wall_sums;
   template <class Kernel, class P, class C, class S>
@@ -48,6 +49,7 @@ struct WallExtrapolation {
 /// heavier fluid would throw the lighter away. Lighter and heavier ones each have their own.
 struct WallExtrapolationByDensity {
   static constexpr std::string_view name = "WallExtrapolationByDensity";
+  static constexpr bool over_movers = true;
   static constexpr ValueSet reads{Value::pressure, Value::weight, Value::mover, Value::heavy};
   static constexpr Field writes = Field::wall_sums_by_density;
   template <class Kernel, class P, class C, class S>
@@ -59,6 +61,7 @@ struct WallExtrapolationByDensity {
 /// The same of a fluid with grains in it, whose pressure carries their weight and drag.
 struct MixtureWallExtrapolation {
   static constexpr std::string_view name = "MixtureWallExtrapolation";
+  static constexpr bool over_movers = true;
   static constexpr ValueSet reads{Value::velocity, Value::pressure, Value::mover, Value::rest_gradient};
   static constexpr Field writes = Field::wall_sums;
   template <class Kernel, class P, class C, class S>
@@ -68,6 +71,7 @@ struct MixtureWallExtrapolation {
 };
 struct MixtureWallExtrapolationByDensity {
   static constexpr std::string_view name = "MixtureWallExtrapolationByDensity";
+  static constexpr bool over_movers = true;
   static constexpr ValueSet reads{Value::pressure, Value::mover, Value::heavy, Value::rest_gradient};
   static constexpr Field writes = Field::wall_sums_by_density;
   template <class Kernel, class P, class C, class S>
@@ -79,6 +83,7 @@ struct MixtureWallExtrapolationByDensity {
 /// How viscous the fluid beside a wall is, where that differs from particle to particle.
 struct WallViscosity {
   static constexpr std::string_view name = "WallViscosity";
+  static constexpr bool over_movers = true;
   static constexpr ValueSet reads{Value::volume, Value::viscosity, Value::mover};
   static constexpr Field writes = Field::wall_viscosity;
   template <class Kernel, class P, class C, class S>
