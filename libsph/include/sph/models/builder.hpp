@@ -28,8 +28,10 @@ class Builder {
   [[nodiscard]] bool has_walls() const { return scene().has_kind(GroupKind::wall); }
   [[nodiscard]] FieldSet fields() const { return fields_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
-  /// No sum of rows of walls wants walls as partners.
-  [[nodiscard]] bool walls_look_at_movers() const { return walls_look_at_movers_; }
+  /// No sum of rows of walls wants walls as partners, nor do averages in snapshots.
+  [[nodiscard]] bool walls_look_at_movers() const {
+    return walls_look_at_movers_ && !scene().output.average_space;
+  }
 
   void add_fields(FieldSet fields) { fields_ |= fields; }
   /// In the precision of the scene, or another.

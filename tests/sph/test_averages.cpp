@@ -1,0 +1,80 @@
+// Averages in snapshots beside brute force, of walls too, which look at other walls in no sum.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "output/averages.hpp"
+#include "sph/scene/with_kernel.hpp"
+#include "sph/step/simulation.hpp"
+
+namespace sph {
+namespace {
+
+constexpr const char* channel = R"(
+[domain]
+lower = [0, 0]
+upper = [12, 12]
+periodic = [true, false]
+gravity = [0, -1]
+[kernel]
+h_over_dx = 1
+[[group]]
+name = "melt"
+kind = "fluid"
+density = 1000
+sound_speed = 20
+viscosity = 100
+[[group]]
+name = "floor"
+kind = "wall"
+[start]
+spacing = 1
+jitter = 0.2
+[[start.region]]
+group = "melt"
+[[start.region]]
+group = "floor"
+shape = "box"
+lower = [0, 0]
+upper = [12, 4]
+[[start.region]]
+group = "none"
+shape = "box"
+lower = [0, 10]
+upper = [12, 12]
+[time]
+steps = 5
+[output]
+average_space = true
+)";
+
+TEST(Averages, are_over_all_neighbours_of_a_group) {
+  const decomp::Comm self(MPI_COMM_SELF);
+  Simulation s(self, parse_scene(channel, "channel", {}));
+  for (int k = 0; k < 5; ++k) s.step();
+  const std::vector<ExtraColumn> found = averages(s);
+  const Particles& p = s.particles();
+  const auto* x = p.data<Field::position>();
+  const auto* group = p.data<Field::group>();
+  const double quanta_per_h = s.scene().kernel.smoothing_length / s.scale().quantum;
+  std::size_t walls = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    double shares = 0, pressure = 0;
+    for (std::size_t j = 0; j < p.rows(); ++j) {
+      if (group[j] != group[i]) continue;
+      const double r = std::hypot(static_cast<double>(x[2 * j] - x[2 * i]),
+                                  static_cast<double>(x[2 * j + 1] - x[2 * i + 1]));
+      const double share = kernel_value(s.scene().kernel.shape, 2, r / quanta_per_h) *
+                           p.data<Field::mass>()[j] / p.data<Field::density>()[j];
+      shares += share;
+      pressure += share * p.data<Field::pressure>()[j];
+    }
+    EXPECT_NEAR(found[1].values[i], pressure / shares, 1e-9 * std::fabs(pressure / shares)) << i;
+    walls += group[i] == 1 ? 1 : 0;
+  }
+  EXPECT_EQ(walls, 48u);
+}
+
+}  // namespace
+}  // namespace sph
