@@ -1,10 +1,12 @@
 // Lid-driven cavity, Re = 100, 25 x 25: within 2 % of U of Ghia et al. (1982) on the centre lines
 // (accuracy.md A4 asks that at 50 x 50, which benchmarks/accuracy runs), no particle through the walls, no
-// drift of the mean pressure.
+// drift of the mean pressure. A flow of so few particles is chaotic: the largest errors of ten starts alone are 1.2 to
+// 1.9 %, so the mean is over four.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <array>
+#include <string>
 
 #include "accuracy/measure.hpp"
 #include "accuracy/pinned.hpp"
@@ -43,25 +45,29 @@ TEST(LidDrivenCavity, Reynolds100) {
                                        {0.8047, 0.5, 1, -0.24533}}};
   constexpr double dx = 0.04;
   const decomp::Comm comm(MPI_COMM_SELF);
-  sph::Simulation s(comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/cavity.toml",
-                                          {"start.spacing=0.04", "start.lower=[-0.12, -0.12]",
-                                           "start.upper=[1.12, 1.12]"}));
   std::array<double, ghia.size()> mean{};
-  constexpr int times = 20;
-  for (int k = 0; k < times; ++k) {
-    measure::run_until(s, 15 + 0.25 * k);
-    std::vector<measure::Sample> fluid;
-    double pressure = 0;
-    for (const measure::Sample& q : measure::samples(s)) {
-      if (measure::is_wall(s, q)) continue;
-      fluid.push_back(q);
-      pressure += q.p;
-      EXPECT_TRUE(q.x[0] > 0 && q.x[0] < 1 && q.x[1] > 0 && q.x[1] < 1);
+  constexpr int starts = 4, times = 20;
+  for (int seed = 1; seed <= starts; ++seed) {
+    sph::Simulation s(
+        comm, sph::read_scene(PEPERITE_ACCURACY_DIR "/cavity.toml",
+                              {"start.spacing=0.04", "start.lower=[-0.12, -0.12]", "start.upper=[1.12, 1.12]",
+                               "start.seed=" + std::to_string(seed)}));
+    for (int k = 0; k < times; ++k) {
+      measure::run_until(s, 15 + 0.25 * k);
+      std::vector<measure::Sample> fluid;
+      double pressure = 0;
+      for (const measure::Sample& q : measure::samples(s)) {
+        if (measure::is_wall(s, q)) continue;
+        fluid.push_back(q);
+        pressure += q.p;
+        EXPECT_TRUE(q.x[0] > 0 && q.x[0] < 1 && q.x[1] > 0 && q.x[1] < 1);
+      }
+      EXPECT_EQ(fluid.size(), 625);
+      EXPECT_LE(std::abs(pressure / static_cast<double>(fluid.size())), 0.02);
+      for (std::size_t n = 0; n < ghia.size(); ++n)
+        mean[n] += velocity_at(fluid, ghia[n].x, ghia[n].y, dx)[static_cast<std::size_t>(ghia[n].axis)] /
+                   (starts * times);
     }
-    EXPECT_EQ(fluid.size(), 625);
-    EXPECT_LE(std::abs(pressure / static_cast<double>(fluid.size())), 0.02);
-    for (std::size_t n = 0; n < ghia.size(); ++n)
-      mean[n] += velocity_at(fluid, ghia[n].x, ghia[n].y, dx)[static_cast<std::size_t>(ghia[n].axis)] / times;
   }
   double worst = 0;
   for (std::size_t n = 0; n < ghia.size(); ++n) {

@@ -12,7 +12,8 @@ namespace sph::test {
 namespace {
 
 constexpr double dx = 0.02, h_over_dx = 1.2;
-constexpr double fastest = 1.5;  // of any component of a velocity
+const std::vector<bool> are_walls{false, false, false, true, true};  // light, heavy, solid, wall, clamp
+constexpr double fastest = 1.5;                                      // of any component of a velocity
 
 /// In (-1, 1), by particle, and not the same for two components of a field.
 double uniform(std::uint64_t number, Field field, int k) {
@@ -244,7 +245,7 @@ void PairCase::fill(std::size_t row, std::uint64_t number, const Placed& at) {
 }
 
 // Pairs are taken where they were half a step ago, at most `back` farther apart.
-void PairCase::build_lists(double widened) {
+void PairCase::build_lists(double widened, bool walls_list_walls) {
   leaves_out_ = false;
   const double back = fastest * std::sqrt(3.0) * dt();
   const double range = widened * (scene_.list_range() + back);
@@ -260,9 +261,10 @@ void PairCase::build_lists(double widened) {
       length[a] = constants_.scale.quanta(scene_.domain.upper[a]) - constants_.scale.origin[a];
     const std::int64_t radius = constants_.scale.quanta(range) + 1;
     const decomp::CellGrid grid(fusion_.dim, constants_.scale.origin, length, {}, radius);
-    lists_.all.build(particles_, grid, {{}, grid.cells()}, radius, ranges_, timers_);
+    lists_.all.build(particles_, grid, {{}, grid.cells()}, radius, ranges_, timers_, PartnerOrder::by_id,
+                     walls_list_walls ? nullptr : &are_walls);
   }
-  lists_.all.mark_walls(particles_, {false, false, false, true, true});
+  lists_.all.mark_walls(particles_, are_walls);
 }
 
 void PairCase::leave_out() {

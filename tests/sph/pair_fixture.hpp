@@ -42,7 +42,7 @@ class PairCase {
   PairCase& operator=(const PairCase&) = delete;
 
   /// Lists that reach `widened` times as far as they must.
-  void build_lists(double widened);
+  void build_lists(double widened, bool walls_list_walls = true);
   /// From now on without what bonds and blocks far from fluids leave out, as scenes do.
   void leave_out();
   void pack();

@@ -82,7 +82,7 @@ void PairOracle::add(Term term, const Pair& pair, PairSums& sums) const {
       const Group& fluid = scene_.groups[light];
       return one(
           Field::diffusion, 0,
-          delta * j.volume *
+          (j.mover ? delta : 0.0) * j.volume *
               (i.pressure - j.pressure + (fluid.density - scene_.domain.background.density) * gravity) /
               std::sqrt(fluid.eos.bulk_modulus / fluid.density) * slope / r);
     }

@@ -253,6 +253,26 @@ TEST(Fusions, add_nothing_but_from_bonds_and_beside_fluids) {
   EXPECT_GT(idle, 0);
 }
 
+// Rows of walls then need not list walls.
+TEST(Fusions, over_movers_add_nothing_from_walls) {
+  int shorter = 0;
+  for (const Fusion& fusion : all_fusions()) {
+    if (!fusion.over_movers) continue;
+    const auto placed = jittered_lattice(fusion.dim);
+    PairCase c(fusion, placed, {});
+    const std::vector<bool> wanted = where_defined(c, placed.size());
+    sum(c);
+    const auto bits = c.bits(wanted);
+    const std::size_t pairs = c.pairs();
+    c.build_lists(1, false);
+    sum(c);
+    EXPECT_LT(c.pairs(), pairs) << title_of(fusion);
+    EXPECT_EQ(c.bits(wanted), bits) << title_of(fusion);
+    ++shorter;
+  }
+  EXPECT_GT(shorter, 0);
+}
+
 TEST(Fusions, do_not_care_where_rows_are_in_memory) {
   for (const Fusion& fusion : all_fusions()) {
     const auto placed = jittered_lattice(fusion.dim);

@@ -181,7 +181,7 @@ void add_gas(Builder& b) {
   // A gas may start with a jump of its pressure, and accelerations are never larger than then: the error of a
   // first step that takes velocities as those of half a step later would stay in its energy.
   b.begin_with_half_a_kick();
-  if (b.has_walls()) add_walls(b, false);
+  if (b.scene().has_kind(GroupKind::wall)) add_walls(b, false);
   b.add_sums("forces", {term<GasPressure>, term<Viscosity>, term<ShockViscosity>, term<ShockHeating>});
 }
 

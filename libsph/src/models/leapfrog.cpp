@@ -141,7 +141,7 @@ void add_drift(Builder& b) { b.add_drift("drift", Drift{b.constants().scale}, lo
 
 void add_kick(Builder& b) {
   b.add_kick("kick", Kick{&b.constants(), &b.body_forces(), has_rigid_bodies(b.scene())});
-  if (b.has_walls()) b.add_kick("walls' own velocity", WallVelocities{&b.scene()});
+  if (b.scene().has_kind(GroupKind::wall)) b.add_kick("walls' own velocity", WallVelocities{&b.scene()});
 }
 
 void add_pressures(Builder& b) { b.add_kick("pressures", Pressures{&b.materials()}); }

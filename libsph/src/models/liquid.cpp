@@ -120,7 +120,7 @@ void add_kinematics(Builder& b) {
   const Scene& s = b.scene();
   const auto movers = std::ranges::count_if(s.groups, is_matter);
   const bool solid = has_updated(s);
-  const bool single = movers == 1 && !b.has_walls() && !b.fields().has(Field::sound_speed);
+  const bool single = movers == 1 && !b.fields().has(Field::sound_speed);
   std::vector<Term> terms{slips(s)      ? term<SlippingGradient>
                           : solid       ? term<VelocityGradient>
                           : weighted(s) ? term<WeightedDivergence>

@@ -242,7 +242,9 @@ PassContext SphConstants::context(Particles& particles, const NeighbourLists& li
                                   decomp::LargeVector<std::byte>& rows, double dt) const {
   TermConstants<double> now = terms;
   now.half_step = 0.5 * dt / scene->kernel.smoothing_length;
-  return {&particles,      &lists,       &groups,          row_scale, now,
+  RowScale scale_now = row_scale;
+  scale_now.half_step = 0.5 * dt / scale.quantum;
+  return {&particles,      &lists,       &groups,          scale_now, now,
           gradient_factor, force_factor, diffusion_factor, &rows};
 }
 

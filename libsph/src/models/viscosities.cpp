@@ -93,7 +93,7 @@ void add_viscosities(Builder& b) {
   const Scene& s = b.scene();
   b.add_fields({Field::viscosity});
   b.add_update("viscosities", OfMovers{&b.constants(), Viscosities(b.constants())});
-  if (s.terms.viscous.implicit || !b.has_walls()) return;
+  if (s.terms.viscous.implicit || !s.has_kind(GroupKind::wall)) return;
   b.add_sums("viscosities beside walls", {term<WallViscosity>}, Builder::Rows::walls);
   b.add_update("viscosities of walls", OfWalls{s.kernel.smoothing_length});
 }

@@ -153,6 +153,10 @@ struct Simd {
         },
         b);
   }
+  friend Simd abs(Simd a) {
+    constexpr auto sign = std::bit_cast<Bits>(T(-0.0));
+    return (a.template bits<Bits>() & ~Int(sign)).template bits<T>();
+  }
   friend Simd sqrt(Simd a) {
     return a.each([](Piece x) {
 #if defined(__AVX512F__)

@@ -25,7 +25,6 @@ class Builder {
   [[nodiscard]] const Materials& materials() const { return *materials_; }
   [[nodiscard]] const BodyForces& body_forces() const { return *body_forces_; }
   [[nodiscard]] const Scene& scene() const { return *constants_->scene; }
-  [[nodiscard]] bool has_walls() const { return scene().has_kind(GroupKind::wall); }
   [[nodiscard]] FieldSet fields() const { return fields_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
   /// No sum of rows of walls wants walls as partners, nor do averages in snapshots.

@@ -4,39 +4,23 @@
 // length h, volumes by spacing^D; a pass's sums are multiplied by the constant that undoes it, once.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "sph/core/fixed_point.hpp"
 #include "sph/core/particles.hpp"
 #include "sph/core/simd.hpp"
-#include "sph/pairs/pair_values.hpp"
+#include "sph/pairs/row_layout.hpp"
 
 namespace sph {
 
-/// Offsets, in scalars, of the values in a row: position first, then in the order of the enum; the stride is
-/// a multiple of four, the unit of the transposed load.
-template <int D, ValueSet S>
-struct RowLayout {
-  /// A table, so that no offset is counted while a program runs.
-  static constexpr auto offsets = [] {
-    std::array<int, static_cast<std::size_t>(Value::count_) + 1> at{};
-    at[0] = D;
-    for (std::size_t k = 1; k < at.size(); ++k)
-      at[k] = at[k - 1] + (S.has(static_cast<Value>(k - 1)) ? components(static_cast<Value>(k - 1), D) : 0);
-    return at;
-  }();
-  [[nodiscard]] static constexpr int offset(Value v) { return offsets[static_cast<std::size_t>(v)]; }
-  static constexpr int used = offset(Value::count_);
-  static constexpr int stride = (used + 3) / 4 * 4;
-};
-
 /// The row of particle i while it is filled.
-template <class T, int D, ValueSet S>
+template <class T, int D, ValueSet S, bool HalfStepBack>
 struct PackedRow {
   static constexpr int dim = D;
   static constexpr ValueSet values = S;
+  static constexpr bool half_step_back = HalfStepBack;
   using Layout = RowLayout<D, S>;
   const GroupTable& groups;
   const RowScale& scale;
@@ -79,10 +63,16 @@ struct StateColumns {
     const std::size_t i = row.i;
     const GroupTable& groups = row.groups;
     const RowScale& scale = row.scale;
-    for (int k = 0; k < D; ++k) row.put_position(k, x[i * D + k]);
+    for (int k = 0; k < D; ++k)
+      row.put_position(k, Row::half_step_back
+                              ? moved_by(x[i * D + k], -round_to_quanta(v[i * D + k] * scale.half_step))
+                              : x[i * D + k]);
     if constexpr (S.has(Value::velocity))
       for (int k = 0; k < D; ++k) row.put(Value::velocity, k, v[i * D + k]);
-    if constexpr (S.has(Value::volume)) row.put(Value::volume, 0, mass[i] / rho[i] * scale.inverse_volume);
+    if constexpr (S.has(Value::volume)) {
+      const double volume = mass[i] / rho[i] * scale.inverse_volume;
+      row.put(Value::volume, 0, Row::Layout::volume_tells_mover && row.is_wall() ? -volume : volume);
+    }
     if constexpr (S.has(Value::pressure)) row.put(Value::pressure, 0, pressure[i]);
     if constexpr (S.has(Value::density)) row.put(Value::density, 0, rho[i]);
     if constexpr (S.has(Value::weight))
@@ -93,7 +83,8 @@ struct StateColumns {
     if constexpr (S.has(Value::sound_speed))
       row.put(Value::sound_speed, 0, sound != nullptr ? sound[i] : groups.sound_speed[row.group]);
     if constexpr (S.has(Value::phase)) row.put(Value::phase, 0, static_cast<double>(row.group));
-    if constexpr (S.has(Value::mover)) row.put(Value::mover, 0, groups.mover[row.group]);
+    if constexpr (S.has(Value::mover) && !Row::Layout::volume_tells_mover)
+      row.put(Value::mover, 0, groups.mover[row.group]);
     if constexpr (S.has(Value::potential)) {
       double square = 0;
       for (int k = 0; k < D; ++k) {
@@ -367,8 +358,8 @@ struct GasFlowColumns {
   }
 };
 
-/// Fills rows [first, last) of `rows`.
-template <class T, int D, ValueSet S>
+/// Fills rows [first, last) of `rows`, with the places of half a step ago or those of now.
+template <class T, int D, ValueSet S, bool HalfStepBack>
 void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& scale, std::size_t first,
                std::size_t last, T* rows) {
   const StateColumns state(p);
@@ -382,7 +373,8 @@ void pack_rows(const Particles& p, const GroupTable& groups, const RowScale& sca
   const GasFlowColumns gas(p);
   const auto* group = p.data<Field::group>();
   for (std::size_t i = first; i < last; ++i) {
-    const PackedRow<T, D, S> row{groups, scale, rows + i * RowLayout<D, S>::stride, i, group[i]};
+    const PackedRow<T, D, S, HalfStepBack> row{groups, scale, rows + i * RowLayout<D, S>::stride, i,
+                                               group[i]};
     state.pack(row);
     interface.pack(row);
     bonds.pack(row);

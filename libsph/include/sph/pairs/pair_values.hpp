@@ -223,6 +223,7 @@ struct RowScale {
   double inverse_volume;  ///< 1 / spacing^D
   double inverse_h;       ///< 1 / h
   double quantum = 0;     ///< of the positions [m]
+  double half_step = 0;   ///< dt / 2 over it [s/m]
   double pull = 0;        ///< Domain::central_pull [1/s^2]
   double pull_centre[3]{};
   double gravity[3]{};  ///< [m/s^2]

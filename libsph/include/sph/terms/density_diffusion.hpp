@@ -65,10 +65,11 @@ struct MixtureDensityDiffusion {
   }
 };
 
-/// The same in a scene of one linear fluid and nothing else: c and rho_0 are constants, no group in the row.
+/// The same in a scene of one linear fluid: c and, as in Fourtakas et al., the density of the hydrostatic part are
+/// constants, and what is no wall is of one group.
 struct UniformDensityDiffusion {
   static constexpr std::string_view name = "UniformDensityDiffusion";
-  static constexpr ValueSet reads{Value::volume, Value::pressure};
+  static constexpr ValueSet reads{Value::volume, Value::pressure, Value::mover};
   static constexpr Field writes = Field::diffusion;
   template <class Kernel, class P, class C, class S>
   static void add(const P& p, const C& c, S& sums) {
@@ -76,8 +77,8 @@ struct UniformDensityDiffusion {
     V head = V::zero();
     for (int k = 0; k < P::dim; ++k) head += V(c.gravity[k] * c.density) * p.e[k];
     const V excess = p.template i<Value::pressure>() - p.template j<Value::pressure>() + head;
-    sums.template add<Field::diffusion>(
-        0, p.template j<Value::volume>() * p.f * (excess * V(c.inverse_sound_speed)));
+    const V rate = p.template j<Value::volume>() * p.f * (excess * V(c.inverse_sound_speed));
+    sums.template add<Field::diffusion>(0, where_equal(p.template j<Value::mover>(), V(1), rate));
   }
 };
 
