@@ -57,7 +57,7 @@ def main():
     options = arguments.parse_args()
     seen = {name: [] for name in (*CASES, *SOLVED)}
     counts, plain = {name: passes for name, (_, passes) in CASES.items()}, []
-    for _ in range(options.repeats):
+    for _ in tables.turns(options.repeats):
         # So that dt, and with it the number of rebuilds, is the same in all.
         fixed = ("time.dt=1e-4", "time.cfl=")
         beside = {more: ours(options.build, "exchange.toml", 1, STEPS, fixed + more) for more in ((), LAGS)}

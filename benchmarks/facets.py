@@ -11,6 +11,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import tables
 from speed import run
 
 FACETS = (1_000, 30_000, 1_000_000)
@@ -81,7 +82,7 @@ def main():
             scene.write_text(SCENE.format(width=WIDTH, end=WIDTH - 0.005, wall=wall))
             cases[facets] = (scene, f"{count} facets" if facets > 0 else "plane")
         results = {facets: [] for facets in cases}
-        for repeat in range(options.repeats):
+        for repeat in tables.turns(options.repeats):
             for facets, (scene, _) in cases.items():
                 out = Path(work, f"run_{facets}_{repeat}")
                 run(["mpirun", "-np", str(options.ranks), options.build / "bin/peperite", "run", scene, "--steps", str(options.steps),

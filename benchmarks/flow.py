@@ -103,7 +103,7 @@ def main():
     rows = []
     for ranks in given.ranks:
         seconds, places = {name: [] for name in codes}, {}
-        for _ in range(given.repeats):
+        for _ in tables.turns(given.repeats):
             for name, measure in codes.items():
                 spent, end = measure(ranks, work / name)
                 seconds[name].append(spent)

@@ -166,7 +166,7 @@ def best_skin(name, measure, files, steps, law):
 
 def repeat(codes, files, steps, law, ranks, skins, repeats):
     timings = {name: [] for name in codes}
-    for _ in range(repeats):
+    for _ in tables.turns(repeats):
         for name, measure in codes.items():
             timings[name].append(measure(files, law, ranks, skins[name, law], steps))
     return timings

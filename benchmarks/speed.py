@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Speed side by side, alternating, medians of ratios. Run on a quiet machine.
 
-speed.py BUILD                two ranks against one on a balanced scene of 200,000 particles
+speed.py BUILD                two ranks against one on balanced scenes of 200,000 particles
 speed.py BUILD --lammps LMP   also LAMMPS's sph/taitwater on the 3D dam break (peers/build_lammps.sh makes LMP)
 speed.py BUILD ... --page     and writes the table of README.md
 """
@@ -104,30 +104,32 @@ def main():
     options = arguments.parse_args()
     build = options.build.resolve()
 
-    rows, ratios = [], []
+    rows = []
 
-    def report(what, speeds):
+    def report(what, speeds, ratios):
         spread = f"{min(ratios):.2f} to {max(ratios):.2f}"
         rows.append((what, speeds, f"{statistics.median(ratios):.2f}x", spread))
         print(f"{what}: {speeds} {statistics.median(ratios):.2f}x, {spread} in {options.repeats}")
 
-    for _ in range(options.repeats):
-        one = loop_seconds(ours(build, "vortices_200k.toml", 1, 300))
-        two = loop_seconds(ours(build, "vortices_200k.toml", 2, 300))
-        ratios.append(one / two)
-    report("two ranks over one, 200,704 particles", "")
+    for scene, dim, steps in (("vortices_200k.toml", "2D", 300), ("vortices_3d.toml", "3D", 100)):
+        ratios = []
+        for _ in tables.turns(options.repeats):
+            one = loop_seconds(ours(build, scene, 1, steps))
+            two = loop_seconds(ours(build, scene, 2, steps))
+            ratios.append(one / two)
+        report(f"two ranks over one, {dim}, 200,704 particles", "", ratios)
 
     if options.lammps:
         for precision in ("mixed", "double"):
             ratios, speeds = [], []
-            for _ in range(options.repeats):
+            for _ in tables.turns(options.repeats):
                 perf = ours(build, "dam_break.toml", 1, 100, [f"precision={precision}"])
                 pairs, seconds = lammps(options.lammps.resolve(), 100)  # the same lattice: the same pairs
                 mine, theirs = pairs * perf["steps"] / loop_seconds(perf), pairs / seconds
                 speeds.append((mine, theirs))
                 ratios.append(mine / theirs)
             mine, theirs = (statistics.median(column) / 1e6 for column in zip(*speeds))
-            report(f"3D dam break over LAMMPS's sph/taitwater, {precision}", f"{mine:.0f}, {theirs:.0f} M directed pairs/s")
+            report(f"3D dam break over LAMMPS's sph/taitwater, {precision}", f"{mine:.0f}, {theirs:.0f} M directed pairs/s", ratios)
     if options.page:
         tables.write(here / "README.md", "speed", tables.origin(tables.commit_of(build)),
                      tables.markdown(("", "speeds", "median of ratios", "all"), rows))

@@ -88,7 +88,7 @@ class Case:
                    "-stokes_fieldsplit_u_pc_mg_levels", str(levels(self.cells))]
         commands = {"ours": [ours, "--dimension", str(self.dim), "--cells", str(self.cells), "--repeats", "1"],
                     **{name: [*of_peer, *options] for name, options in SMOOTHERS.items()}}
-        for _ in range(repeats):
+        for _ in tables.turns(repeats):
             for name, command in commands.items():
                 self.timings.setdefault(name, []).append(numbers(command, self.ranks))
         speeds = {name: timings[0]["speed"] for name, timings in self.timings.items()}

@@ -51,6 +51,26 @@ def machine():
     return f"{found[1].strip() if found else 'unknown processor'}, {os.cpu_count()} cores"
 
 
+def cores_in_use(seconds=0.5):
+    def ticks():
+        user, nice, system, idle, waiting, *rest = map(int, Path("/proc/stat").read_text().split("\n")[0].split()[1:])
+        busy = user + nice + system + sum(rest[:3])
+        return busy, busy + idle + waiting
+
+    before = ticks()
+    time.sleep(seconds)
+    busy, total = (after - b for after, b in zip(ticks(), before))
+    return os.cpu_count() * busy / max(total, 1)
+
+
+def turns(count):
+    """Numbers of as many alternations; ends the script before one that other processes would disturb."""
+    for turn in range(count):
+        if (used := cores_in_use()) > 0.3:
+            raise SystemExit(f"{used:.1f} cores are busy with something else: times would mean nothing")
+        yield turn
+
+
 def git(*words):
     return subprocess.run(["git", *words], cwd=root, check=True, capture_output=True, text=True).stdout.strip()
 

@@ -4,6 +4,7 @@ import dam_break
 from dam_break import ERROR, SCENE  # noqa: F401
 
 SIZES = (10, 15, 20)  # particles across the column
+LAYERS = 14  # of particles along the period
 
 FORMULATIONS = {
     "default": (),
@@ -15,7 +16,7 @@ FORMULATIONS = {
 
 def settings(n):
     """A column 1 m wide and 2 m high."""
-    layers, depth = 4 / n, 14 / n
+    layers, depth = 4 / n, LAYERS / n
     return (f"start.spacing={1 / n}", "dimension=3", "domain.lower=[-0.5, -0.5, 0]", f"domain.upper=[13, 8, {depth}]",
             "domain.periodic=[false, false, true]", "domain.gravity=[0, -9.81, 0]", "start.origin=[0, 0, 0]",
             f"start.lower=[{-layers}, {-layers}, 0]", f"start.upper=[{12 + layers}, 4, {depth}]",
@@ -25,4 +26,4 @@ def settings(n):
 
 
 def measure(run):
-    return dam_break.measure(run, 14)
+    return dam_break.measure(run, LAYERS)
