@@ -264,11 +264,11 @@ void PairCase::build_lists(double widened, bool walls_list_walls) {
     lists_.all.build(particles_, grid, {{}, grid.cells()}, radius, ranges_, timers_, PartnerOrder::by_id,
                      walls_list_walls ? nullptr : &are_walls);
   }
-  lists_.all.mark_walls(particles_, are_walls);
 }
 
 void PairCase::leave_out() {
   leaves_out_ = true;
+  lists_.walls.build(particles_, lists_.all, ranges_, are_walls);
   if (particles_.has(Field::displacement))
     lists_.bonds.build(particles_, lists_.all, ranges_, constants_.longest_bond(),
                        constants_.groups.bodies.number);
@@ -280,6 +280,7 @@ void PairCase::leave_out() {
 PassContext PairCase::context() {
   PassContext c = constants_.context(particles_, lists_.all, rows_, dt());
   if (leaves_out_ && lists_.bonds.blocks() > 0) c.bonds = &lists_.bonds;
+  if (leaves_out_) c.walls = &lists_.walls;
   if (leaves_out_) c.fluid = &lists_.fluid;
   return c;
 }

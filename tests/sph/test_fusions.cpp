@@ -224,10 +224,10 @@ int sums_of_others(const PairCase& c) {
 }
 
 // Scenes have shorter lists for bonds, and no sums where no fluid is near.
-TEST(Fusions, add_nothing_but_from_bonds_and_beside_fluids) {
+TEST(Fusions, add_nothing_but_from_bonds_and_walls_and_beside_fluids) {
   int shorter = 0, idle = 0;
   for (const Fusion& fusion : all_fusions()) {
-    if (!fusion.asks_for_fluid && !fusion.values.has(Value::reference)) continue;
+    if (!fusion.asks_for_fluid && !fusion.over_walls && !fusion.values.has(Value::reference)) continue;
     std::size_t dry = 0;
     const auto placed = with_dry_solid(fusion.dim, dry);
     PairCase c(fusion, placed, {});
@@ -246,6 +246,7 @@ TEST(Fusions, add_nothing_but_from_bonds_and_beside_fluids) {
     }
     const PassContext context = c.context();
     if (context.bonds != nullptr && context.bonds->pairs() < context.lists->pairs()) ++shorter;
+    EXPECT_LT(context.walls->pairs(), context.lists->pairs()) << title_of(fusion);
     for (std::size_t block = 0; block < context.lists->blocks(); ++block)
       if (!context.fluid->is_beside(block)) ++idle;
   }

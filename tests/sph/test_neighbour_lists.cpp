@@ -141,10 +141,12 @@ class Part {
     const std::int64_t radius = distribution_.list_radius();
     lists.build(particles_, distribution_.grid(), distribution_.own_cells(), radius, set_.ranges, timers_,
                 PartnerOrder::by_id, walls_list_walls ? nullptr : &is_wall_);
-    lists.mark_walls(particles_, is_wall_);
+    NeighbourLists walls(lists.lanes());
+    walls.build(particles_, lists, set_.ranges, is_wall_);
+    if (const std::string fault = fault_of_walls(walls, lists); !fault.empty()) return fault;
     // Beside the slack there is the rounding that it makes up for, less than a quarter of it.
     const double slack = 1.25 * list_slack(distribution_.grid(), distribution_.own_cells(), radius);
-    return fault_of(lists, walls_list_walls, [&](std::size_t i, std::size_t j, long double r) {
+    return fault_of(lists, [&](std::size_t i, std::size_t j, long double r) {
       if (!walls_list_walls && crowd_.group[i] == 1 && crowd_.group[j] == 1) return Place::outside;
       const auto far = static_cast<long double>(radius);
       return r <= far ? Place::inside : r > far * (1 + slack) ? Place::outside : Place::either;
@@ -157,7 +159,7 @@ class Part {
     lists.build(particles_, reach, set_.ranges, timers_);
     // Coordinates of 2^61 quanta, and squares of distances, are rounded to 53 bits.
     constexpr long double rounding = 1e-12L;
-    return fault_of(lists, false, [&](std::size_t i, std::size_t j, long double r) {
+    return fault_of(lists, [&](std::size_t i, std::size_t j, long double r) {
       const long double most = std::max(crowd_.reach[i], crowd_.reach[j]);
       return r < most * (1 - rounding)   ? Place::inside
              : r > most * (1 + rounding) ? Place::outside
@@ -183,8 +185,32 @@ class Part {
     return out;
   }
 
+  /// Lists between what moves and walls are what of all lists is, in the same order.
+  [[nodiscard]] std::string fault_of_walls(const NeighbourLists& walls, const NeighbourLists& all) const {
+    const auto lanes = static_cast<std::size_t>(all.lanes());
+    const auto* group = particles_.data<Field::group>();
+    std::size_t pairs = 0;
+    for (const RowRange& range : set_.ranges)
+      for (std::size_t row = range.first; row < range.last; ++row) {
+        const std::size_t block = range.first_block + (row - range.first) / lanes,
+                          lane = (row - range.first) % lanes;
+        std::size_t next = lane;
+        const auto found = walls.block(block);
+        for (std::size_t k = lane; k < all.block(block).size(); k += lanes) {
+          const std::uint32_t j = all.block(block)[k];
+          if (group[row] != 0 || group[j] != 1) continue;
+          if (next >= found.size() || found[next] != j) return "a list of walls lacks one";
+          next += lanes;
+          ++pairs;
+        }
+        for (; next < found.size(); next += lanes)
+          if (found[next] != row) return "a list of walls is not padded with the particle itself";
+      }
+    return pairs == walls.pairs() ? "" : "pairs with walls are not counted right";
+  }
+
   template <class Promise>
-  [[nodiscard]] std::string fault_of(const NeighbourLists& lists, bool marked, const Promise& promise) const {
+  [[nodiscard]] std::string fault_of(const NeighbourLists& lists, const Promise& promise) const {
     const auto lanes = static_cast<std::size_t>(lists.lanes());
     std::size_t row = 0, block = 0, pairs = 0;
     for (std::size_t c = 0; c < 4; ++c) {
@@ -194,7 +220,7 @@ class Part {
       for (; row < range.last; ++row) {
         block = range.first_block + (row - range.first) / lanes;
         const std::string fault =
-            fault_of_row(lists, block, (row - range.first) % lanes, row, c < 2, marked, promise, pairs);
+            fault_of_row(lists, block, (row - range.first) % lanes, row, c < 2, promise, pairs);
         if (!fault.empty()) return "row " + std::to_string(row) + ": " + fault;
       }
       for (std::size_t lane = range.rows() % lanes; lane != 0 && lane < lanes; ++lane)
@@ -208,7 +234,7 @@ class Part {
 
   template <class Promise>
   [[nodiscard]] std::string fault_of_row(const NeighbourLists& lists, std::size_t block, std::size_t lane,
-                                         std::size_t row, bool interior, bool marked, const Promise& promise,
+                                         std::size_t row, bool interior, const Promise& promise,
                                          std::size_t& pairs) const {
     const auto d = static_cast<std::size_t>(particles_.dim()),
                lanes = static_cast<std::size_t>(lists.lanes());
@@ -242,8 +268,6 @@ class Part {
       const std::string which = std::to_string(crowd_.id[j]) + " of " + std::to_string(crowd_.id[i]);
       if (place == Place::inside && !listed[j]) return "lacks partner " + which;
       if (place == Place::outside && listed[j]) return "has a partner too far away, " + which;
-      if (marked && place == Place::inside && crowd_.group[j] == 1 && !lists.beside_walls(block))
-        return "is beside a wall, but its block is not marked";
     }
     return "";
   }

@@ -21,6 +21,7 @@ Stage Builder::sums_over_pairs(std::string name, const std::vector<Term>& terms,
                               ? k.double_context(s.particles, lists.all, s.rows, s.global.dt)
                               : k.context(s.particles, lists.all, s.rows, s.global.dt);
     if (lists.bonds.blocks() > 0) context.bonds = &lists.bonds;
+    if (lists.walls.blocks() > 0) context.walls = &lists.walls;
     context.fluid = &lists.fluid;
     const std::size_t owned = s.particles.owned();
     // Interior particles have no partner in the halo, so rows of the halo are packed only afterwards.

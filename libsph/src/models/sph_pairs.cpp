@@ -37,10 +37,10 @@ void SphPairs::rebuild(const Particles& p, const ListSetting& s, decomp::Payload
   if (own == nullptr) {
     lists_.all.build(p, s.grid, s.own_cells, s.radius, s.ranges, s.timers, PartnerOrder::by_id,
                      physics_->built().walls_look_at_movers() ? &is_wall_ : nullptr);
-    if (p.has(Field::wall_share)) lists_.all.mark_walls(p, is_wall_);
     lists_.fluid.forget();
-    if (!p.has(Field::displacement)) return;
     const auto timing = s.timers.time(decomp::Region::lists);
+    if (p.has(Field::wall_share)) lists_.walls.build(p, lists_.all, s.ranges, is_wall_);
+    if (!p.has(Field::displacement)) return;
     const SphConstants& k = physics_->constants();
     lists_.bonds.build(p, lists_.all, s.ranges, k.longest_bond(), k.groups.bodies.number);
     return;

@@ -139,16 +139,6 @@ void NeighbourLists::finish(const std::vector<std::uint32_t>& row_of_tag, const 
     }
 }
 
-void NeighbourLists::mark_walls(const Particles& particles, const std::vector<bool>& is_wall_group) {
-  const auto* group = particles.data<Field::group>();
-  beside_walls_.assign(begin_.size() - 1, false);
-  for (std::size_t b = 0; b < beside_walls_.size(); ++b) {
-    const std::span<const std::uint32_t> rows = block(b);
-    beside_walls_[b] =
-        std::any_of(rows.begin(), rows.end(), [&](std::uint32_t j) { return is_wall_group[group[j]]; });
-  }
-}
-
 void NeighbourLists::build(const Particles& particles, const decomp::CellGrid& grid,
                            const decomp::Box& own_cells, std::int64_t radius, RowRanges& ranges,
                            decomp::Timers& timers, PartnerOrder order,

@@ -26,6 +26,7 @@ Fusion fusion_of() {
           static_cast<int>(Pass::Layout::stride * sizeof(T)),
           Pass::asks_for_fluid,
           Pass::over_movers,
+          Pass::over_walls,
           Pass::pack,
           Pass::repack,
           Pass::run};

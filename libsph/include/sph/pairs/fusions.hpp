@@ -20,6 +20,7 @@ struct Fusion {
   int row_bytes;
   bool asks_for_fluid;  ///< in which blocks it is (fluid_blocks.hpp)
   bool over_movers;     ///< walls add 0
+  bool over_walls;      ///< ... or all else does, to what moves
   void (*pack)(const PassContext&, std::size_t first, std::size_t last);
   void (*repack)(const PassContext&, std::size_t first, std::size_t last);  ///< what is solved for alone
   void (*run)(const PassContext&, const RowRange&);

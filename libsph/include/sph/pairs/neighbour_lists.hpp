@@ -56,9 +56,9 @@ class NeighbourLists {
   void build(const Particles& particles, const NeighbourLists& all, const RowRanges& ranges, double reach,
              const std::vector<double>& body);
 
-  /// Finds the blocks with a wall in a list; `is_wall_group` by group, the groups of halo rows being fresh.
-  void mark_walls(const Particles& particles, const std::vector<bool>& is_wall_group);
-  [[nodiscard]] bool beside_walls(std::size_t b) const { return beside_walls_[b]; }
+  /// Those of `all` between what moves and walls, by group.
+  void build(const Particles& particles, const NeighbourLists& all, const RowRanges& ranges,
+             const std::vector<bool>& is_wall_group);
 
   [[nodiscard]] int lanes() const { return lanes_; }
   [[nodiscard]] std::size_t blocks() const { return begin_.size() - 1; }
@@ -73,12 +73,13 @@ class NeighbourLists {
   template <int D>
   void find(const Particles&, std::span<const double> reach, const std::vector<std::uint32_t>& tag_of_row,
             RowRanges&);
+  template <class Possible, class Wanted>
+  void keep(const NeighbourLists& all, const RowRanges&, Possible possible, Wanted wanted);
   void finish(const std::vector<std::uint32_t>& row_of_tag, const RowRanges&, bool sort);
 
   int lanes_;
   std::vector<std::uint64_t> begin_{0};  ///< entries before each block, then their number
   decomp::LargeVector<std::uint32_t> entries_;
-  std::vector<bool> beside_walls_;  ///< by block; empty until marked
   std::size_t pairs_ = 0;
 };
 

@@ -26,10 +26,10 @@ inline constexpr bool goes_half_a_step_back = requires {
   Term::half_step_back;
 };
 
-/// Sums of a pass of such terms are 0 in blocks that no wall is near, and not looked for.
+/// To its sums, of what moves, walls alone add other than 0.
 template <class Term>
-inline constexpr bool looks_only_beside_walls = requires {
-  Term::only_beside_walls;
+inline constexpr bool is_over_walls = requires {
+  Term::over_walls;
 };
 
 /// Of a block of particles that all have 0 for that value the sums are not needed: they are 0.
@@ -83,7 +83,7 @@ struct PairPass {
   // Velocities are those of half a step ago. With them a density would grow thinner in every rotation, by
   // (omega dt)^2 a step, were the pairs not taken where they were then.
   static constexpr bool half_step_back = (goes_half_a_step_back<Terms> || ...);
-  static constexpr bool only_beside_walls = (looks_only_beside_walls<Terms> && ...);
+  static constexpr bool over_walls = (is_over_walls<Terms> && ...);
   static constexpr bool can_be_idle = (is_idle_without_a_value<Terms> && ...);
   static constexpr bool only_beside_fluid = (looks_only_beside_fluid<Terms> && ...);
   static constexpr bool of_fluids = (is_of_fluids<Terms> || ...);
@@ -135,10 +135,6 @@ struct PairPass {
          first += lanes, ++block) {
       Sums<T, D, writes> sums;
       for (V& s : sums.v) s = V::zero();
-      if (only_beside_walls && !c.lists->beside_walls(block)) {
-        store(c, first, std::min(range.last - first, static_cast<std::size_t>(V::lanes)), sums);
-        continue;
-      }
       std::uint32_t own_rows[V::lanes];
       for (std::size_t l = 0; l < V::lanes; ++l)
         own_rows[l] = static_cast<std::uint32_t>(std::min(first + l, range.last - 1));
@@ -192,6 +188,8 @@ struct PairPass {
   }
 
   static const NeighbourLists& lists_of(const PassContext& c, const V* own) {
+    if constexpr (over_walls)
+      if (c.walls != nullptr) return *c.walls;
     if constexpr (of_bonds)
       if (c.bonds != nullptr && !(across_cracks && is_cracked(own))) return *c.bonds;
     return *c.lists;

@@ -73,7 +73,7 @@ void add_heat_of_wall(const P& p, const C& c, const WallProfile<typename P::V>& 
 
 struct WallConduction {
   static constexpr std::string_view name = "WallConduction";
-  static constexpr bool always_double = true, only_beside_walls = true;
+  static constexpr bool always_double = true, over_walls = true;
   static constexpr ValueSet reads{Value::volume,     Value::temperature, Value::conductivity,
                                   Value::wall_slope, Value::wall_warmth, Value::wall_heat_flux};
   static constexpr Field writes = Field::wall_heat;
@@ -87,7 +87,7 @@ struct WallConduction {
 /// The same of walls some of which have a coefficient or radiate.
 struct WallTransferConduction {
   static constexpr std::string_view name = "WallTransferConduction";
-  static constexpr bool always_double = true, only_beside_walls = true;
+  static constexpr bool always_double = true, over_walls = true;
   static constexpr ValueSet reads = WallConduction::reads | ValueSet{Value::wall_transfer, Value::wall_glow};
   static constexpr Field writes = Field::wall_heat;
   template <class Kernel, class P, class C, class S>

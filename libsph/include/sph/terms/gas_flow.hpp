@@ -116,7 +116,7 @@ struct GasSlope {
 /// From walls that let gas pass, along a straight profile between the particle and the face (wall_profile.hpp).
 struct WallGas {
   static constexpr std::string_view name = "WallGas";
-  static constexpr bool always_double = true, only_beside_walls = true;
+  static constexpr bool always_double = true, over_walls = true;
   static constexpr ValueSet reads{Value::volume,       Value::permeability, Value::gas_mobility,
                                   Value::gas_pressure, Value::gas_density,  Value::wall_slope,
                                   Value::wall_open};

@@ -100,7 +100,7 @@ struct WallViscosity {
 /// direction of a flat wall follow (sph/models/wall_distance.hpp).
 struct WallShare {
   static constexpr std::string_view name = "WallShare";
-  static constexpr bool only_beside_walls = true;
+  static constexpr bool over_walls = true;
   static constexpr ValueSet reads{Value::volume, Value::mover};
   static constexpr Field writes = Field::wall_share;
   template <class Kernel, class P, class C, class S>
