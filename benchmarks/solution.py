@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Time to solution at equal error, side by side: CPU seconds that each code needs to come within a given error. One
-core, alternating, medians. Run on a quiet machine (PySPH takes most of the 20 minutes).
+core, alternating, medians. Run on a quiet machine (PySPH takes most of the time).
 
     solution.py BUILD [--lammps LMP] [--cases taylor_green poiseuille dam_break dam_break_3d] [--repeats 3] [--page]
 

@@ -43,7 +43,7 @@ class PairCase {
 
   /// Lists that reach `widened` times as far as they must.
   void build_lists(double widened, bool walls_list_walls = true);
-  /// From now on without what bonds and blocks far from fluids leave out, as scenes do.
+  /// From now on without what lists of bonds and of walls and blocks far from fluids leave out, as scenes do.
   void leave_out();
   void pack();
   void repack();

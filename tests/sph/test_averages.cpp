@@ -60,7 +60,7 @@ TEST(Averages, are_over_all_neighbours_of_a_group) {
   const double quanta_per_h = s.scene().kernel.smoothing_length / s.scale().quantum;
   std::size_t walls = 0;
   for (std::size_t i = 0; i < p.owned(); ++i) {
-    double shares = 0, pressure = 0;
+    double shares = 0, pressure = 0, velocity[2] = {};
     for (std::size_t j = 0; j < p.rows(); ++j) {
       if (group[j] != group[i]) continue;
       const double r = std::hypot(static_cast<double>(x[2 * j] - x[2 * i]),
@@ -69,8 +69,11 @@ TEST(Averages, are_over_all_neighbours_of_a_group) {
                            p.data<Field::mass>()[j] / p.data<Field::density>()[j];
       shares += share;
       pressure += share * p.data<Field::pressure>()[j];
+      for (std::size_t a = 0; a < 2; ++a) velocity[a] += share * p.data<Field::velocity>()[2 * j + a];
     }
     EXPECT_NEAR(found[1].values[i], pressure / shares, 1e-9 * std::fabs(pressure / shares)) << i;
+    for (std::size_t a = 0; a < 2; ++a)
+      EXPECT_NEAR(found[0].values[2 * i + a], velocity[a] / shares, 1e-9) << i;
     walls += group[i] == 1 ? 1 : 0;
   }
   EXPECT_EQ(walls, 48u);

@@ -223,7 +223,7 @@ int sums_of_others(const PairCase& c) {
   return found;
 }
 
-// Scenes have shorter lists for bonds, and no sums where no fluid is near.
+// Scenes have shorter lists for bonds and for walls, and no sums where no fluid is near.
 TEST(Fusions, add_nothing_but_from_bonds_and_walls_and_beside_fluids) {
   int shorter = 0, idle = 0;
   for (const Fusion& fusion : all_fusions()) {

@@ -1,6 +1,6 @@
 // Lists of a part of the pairs of others, for sums to which all else would add 0. A list holds all that may come near before
-// the next one is made: bonds are those of the reference state, a quarter of them where they reach as far as 1.9 spacings,
-// and of the partners of what moves beside a wall one in four is a wall's.
+// the next one is made: bonds are those of the reference state, a quarter of them where they reach as far as 1.9 spacings;
+// of the partners of what moves only those beside a wall have any that are a wall's.
 #include <algorithm>
 
 #include "sph/pairs/neighbour_lists.hpp"
