@@ -121,7 +121,7 @@ TEST(ListReach, no_interior_row_lists_the_halo) {
       }
   }
   comm.barrier();
-  const Simulation s(comm, parse_scene(text_with(path), "edge", {}));
+  const Simulation s(comm, parse_scene(text_with(path), "edge", {"decomposition.skin=0.2"}));
   const auto& ranges = s.sets().front().ranges;
   const auto lanes = static_cast<std::size_t>(s.lists().lanes());
   std::int64_t interior = 0;

@@ -82,7 +82,9 @@ TEST(Scene, Defaults) {
   EXPECT_EQ(s.start.lattice.upper, s.domain.upper);
   EXPECT_EQ(s.start.lattice.origin, s.domain.lower);
   EXPECT_EQ(s.terms, sph::Terms{});
-  EXPECT_EQ(s.decomposition, sph::Decomposition{});
+  sph::Decomposition usual;
+  usual.skin = 0.1;
+  EXPECT_EQ(s.decomposition, usual);
   EXPECT_EQ(s.output, sph::OutputControl{});
   EXPECT_FALSE(s.time.dt.has_value());
   EXPECT_EQ(s.time.cfl, 0.8);

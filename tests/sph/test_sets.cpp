@@ -111,11 +111,19 @@ std::map<std::uint64_t, std::vector<field_type<F>>> values(const Particles& p) {
   return out;
 }
 
+/// Of the first set, in the domain: rows are brought back into it with new lists, and these come when they must.
+std::map<std::uint64_t, std::vector<std::int64_t>> places(const Simulation& s) {
+  auto all = values<Field::position>(s.particles(0));
+  for (auto& [id, place] : all)
+    for (std::size_t a = 0; a < place.size(); ++a) place[a] = s.wrap()(static_cast<int>(a), place[a]);
+  return all;
+}
+
 TEST(Sets, FluidBesideGrainsIsThatAlone) {
   Simulation alone(self(), parse_scene(water, "water", {})), beside(self(), both());
   ASSERT_EQ(beside.sets().size(), 2U);
   for (int k = 0; k < steps; ++k) alone.step(), beside.step();
-  EXPECT_EQ(values<Field::position>(alone.particles()), values<Field::position>(beside.particles(0)));
+  EXPECT_EQ(places(alone), places(beside));
   EXPECT_EQ(values<Field::velocity>(alone.particles()), values<Field::velocity>(beside.particles(0)));
   EXPECT_EQ(values<Field::density>(alone.particles()), values<Field::density>(beside.particles(0)));
 }

@@ -134,11 +134,19 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
   return monitor;
 }
 
+// Where neighbours look how far they have gone apart, short lists last long enough; with others the fastest particle of all
+// decides, and sand that moves wants wide ones.
+double usual_skin(const Scene& scene) {
+  const bool look = scene.has_matter() && !scene.has_grains() && !has_eos(scene, EosKind::ideal_gas);
+  return look ? 0.1 : 0.2;
+}
+
 }  // namespace
 
 Decomposition read_decomposition(const DecompositionReader& table, const Scene& scene) {
   Decomposition d;
   d.cut_axes = read_cut_axes(table, scene);
+  d.skin = usual_skin(scene);
   table.read(d);
   if (d.cuts == CutRule::replay && d.replay.empty())
     table.fail_missing("replay", "balance = \"replay\" needs the file of recorded cuts");

@@ -11,6 +11,16 @@ BodyForces::BodyForces(const SphConstants& constants)
       expands_(std::ranges::any_of(constants.scene->groups,
                                    [](const Group& g) { return g.heat.material.expansion > 0; })) {}
 
+std::optional<Double3> BodyForces::common(const Particles& p, const Step& step) const {
+  const Scene& scene = *constants_->scene;
+  const bool weighed = expands_ || scene.domain.background.density > 0,
+             pulled = scene.domain.central_pull != 0;
+  const bool controlled = scene.terms.shifting && scene.open();
+  if (weighed || pulled || controlled || step.given != nullptr || p.get<Field::grain_pull>() != nullptr)
+    return std::nullopt;
+  return scene.domain.gravity;
+}
+
 Double3 BodyForces::operator()(const Particles& p, std::size_t i, const Step& step) const {
   const auto d = static_cast<std::size_t>(p.dim());
   const Scene& scene = *constants_->scene;

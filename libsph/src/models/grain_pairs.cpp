@@ -118,7 +118,10 @@ FieldSet GrainPairs::swept() const {
   return fields;
 }
 
-double GrainPairs::longest_way(const Particles& particles, const GlobalState& global) const {
+// Any two may have gone apart by twice the longest way. Another step of the fastest grain must fit after the next, or this
+// look was for nothing.
+std::optional<SetPair::Look> GrainPairs::look_at_ways(const Particles& particles,
+                                                      const GlobalState& global) const {
   const std::int64_t* x = particles.data<Field::position>();
   double way2 = 0;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
@@ -137,8 +140,10 @@ double GrainPairs::longest_way(const Particles& particles, const GlobalState& gl
     }
     way2 = std::max(way2, w2);
   }
-  return std::max(1.0001 * std::sqrt(way2) * scale_.quantum,
-                  walls_->meshes().longest_way(listed_.time, global.time));
+  const double longest = std::max(1.0001 * std::sqrt(way2) * scale_.quantum,
+                                  walls_->meshes().longest_way(listed_.time, global.time));
+  const double then = longest + 2 * global.max_speed * global.dt;
+  return Look{{longest, 2 * longest}, {then, 2 * then}};
 }
 
 void GrainPairs::forget_parted(const Particles& particles) {

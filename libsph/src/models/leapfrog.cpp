@@ -1,6 +1,7 @@
 // What moves particles: positions drift with the velocities of half a step ago, velocities are kicked by the
 // sums of the forces; what changes a particle at the end of a step.
 #include <cmath>
+#include <optional>
 
 #include "pairs/for_rows.hpp"
 #include "sph/core/fixed_point.hpp"
@@ -42,6 +43,47 @@ struct Kick {
   bool rigid;  ///< there are rigid bodies, which move as a whole
 
   void operator()(const View<reads, writes>& p, const Step& step) const {
+    const std::optional<Double3> common = body_forces->common(p, step);
+    const bool alike =
+        common && !rigid && p.get<Field::buffer>() == nullptr && p.get<Field::smoothing_length>() == nullptr;
+    const Squares most = !alike         ? kick_each(p, step)
+                         : p.dim() == 2 ? kick_alike<2>(p, step, *common)
+                                        : kick_alike<3>(p, step, *common);
+    if (!std::isfinite(most.speed)) find_infinite(p, step);
+    step.maxima.speed = larger(std::sqrt(most.speed), step.maxima.speed);
+    step.maxima.acceleration = larger(std::sqrt(most.acceleration), step.maxima.acceleration);
+  }
+
+ private:
+  /// The largest.
+  struct Squares {
+    double speed = 0, acceleration = 0;
+  };
+
+  /// Of particles on which nothing acts but their neighbours and `body`.
+  template <std::size_t D>
+  static Squares kick_alike(const View<reads, writes>& p, const Step& step, const Double3& body) {
+    const double dt = step.global.dt;
+    double* v = p.get<Field::velocity>();
+    const double* force = p.get<Field::force>();
+    const double* mass = p.get<Field::mass>();
+    Squares most;
+    for_movers(step.ranges, [&](std::size_t i) {
+      const double inverse_mass = 1 / mass[i];
+      double v2 = 0, a2 = 0;
+      for (std::size_t a = 0; a < D; ++a) {
+        const double acceleration = force[i * D + a] * inverse_mass + body[a];
+        const double now = v[i * D + a] + acceleration * dt;
+        v[i * D + a] = now;
+        a2 += acceleration * acceleration;
+        v2 += now * now;
+      }
+      most = {larger(v2, most.speed), larger(a2, most.acceleration)};
+    });
+    return most;
+  }
+
+  Squares kick_each(const View<reads, writes>& p, const Step& step) const {
     const std::size_t d = static_cast<std::size_t>(p.dim());
     const double dt = step.global.dt;
     double* v = p.get<Field::velocity>();
@@ -49,8 +91,8 @@ struct Kick {
     const double* mass = p.get<Field::mass>();
     const double* h = p.get<Field::smoothing_length>();
     const std::uint32_t* buffer = p.get<Field::buffer>();
-    double speed2 = 0, acceleration2 = 0;
     const auto* group = p.get<Field::group>();
+    Squares most;
     for_movers(step.ranges, [&](std::size_t i) {
       if (rigid && is_rigid(constants->scene->groups[group[i]])) return;
       if (buffer != nullptr && buffer[i] != 0) return;  // led by openings
@@ -63,15 +105,23 @@ struct Kick {
         a2 += acceleration * acceleration;
         v2 += v[i * d + a] * v[i * d + a];
       }
-      if (!std::isfinite(v2))  // too fast to be squared is too fast
-        find_fault(*constants, p, i, step, "has no finite speed; reduce time.dt or time.cfl");
       // How far it takes a particle is counted in its own h.
       const double finer = h != nullptr ? constants->scene->kernel.smoothing_length / h[i] : 1.0;
-      speed2 = larger(v2, speed2);
-      acceleration2 = larger(a2 * (finer * finer), acceleration2);
+      most = {larger(v2, most.speed), larger(a2 * (finer * finer), most.acceleration)};
     });
-    step.maxima.speed = larger(std::sqrt(speed2), step.maxima.speed);
-    step.maxima.acceleration = larger(std::sqrt(acceleration2), step.maxima.acceleration);
+    return most;
+  }
+
+  /// What is too fast to be squared is too fast.
+  void find_infinite(const View<reads, writes>& p, const Step& step) const {
+    const std::size_t d = static_cast<std::size_t>(p.dim());
+    const double* v = p.get<Field::velocity>();
+    for_movers(step.ranges, [&](std::size_t i) {
+      double v2 = 0;
+      for (std::size_t a = 0; a < d; ++a) v2 += v[i * d + a] * v[i * d + a];
+      if (!std::isfinite(v2))
+        find_fault(*constants, p, i, step, "has no finite speed; reduce time.dt or time.cfl");
+    });
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sph/models/models.hpp"
 #include "sph/pairs/fusions.hpp"
 
 namespace sph {
@@ -21,7 +22,11 @@ SphPairs::SphPairs(std::size_t set, Physics& physics)
       physics_(&physics),
       lists_(lanes_of(physics.constants().scene->terms.precision),
              groups_of(*physics.constants().scene, GroupKind::fluid)),
-      is_wall_(groups_of(*physics.constants().scene, GroupKind::wall)) {}
+      is_wall_(groups_of(*physics.constants().scene, GroupKind::wall)),
+      ahead_(!physics.models().rigid &&
+             std::ranges::none_of(physics.constants().scene->groups, [](const Group& g) {
+               return std::ranges::any_of(g.wall.velocity, [](double v) { return v != 0; });
+             })) {}
 
 // Stages take pairs where they were half a step ago, and shifting moves particles after the sums.
 double SphPairs::least_skin(const GlobalState& global) const {
@@ -39,6 +44,7 @@ void SphPairs::rebuild(const Particles& p, const ListSetting& s, decomp::Payload
                      physics_->built().walls_look_at_movers() ? &is_wall_ : nullptr);
     lists_.fluid.forget();
     const auto timing = s.timers.time(decomp::Region::lists);
+    ways_.begin(p, s.radius);
     if (p.has(Field::wall_share)) lists_.walls.build(p, lists_.all, s.ranges, is_wall_);
     if (!p.has(Field::displacement)) return;
     const SphConstants& k = physics_->constants();
@@ -50,6 +56,17 @@ void SphPairs::rebuild(const Particles& p, const ListSetting& s, decomp::Payload
   for (std::size_t i = 0; i < quanta.size(); ++i)
     quanta[i] = (reaches[i] + s.skin) / physics_->constants().scale.quantum + 1;
   lists_.all.build(p, quanta, s.ranges, s.timers);
+}
+
+// Lists of a gas reach further where a particle's kernel is wider. Rigid bodies turn, and particles of walls are taken to
+// have come from where their velocity says though they have not: of these it is not known where they will be.
+std::optional<SetPair::Look> SphPairs::look_at_ways(const Particles& p, const GlobalState& global) const {
+  if (physics_->reach() != nullptr) return std::nullopt;
+  const double quantum = physics_->constants().scale.quantum, drift = longest_drift(global);
+  const WaysApart::Ways found = ways_.look(p, is_wall_, ahead_ ? global.dt / quantum : 0.0);
+  const Ways seen{1.0001 * found.alone * quantum, 1.0001 * found.together * quantum};
+  const Ways later{seen.alone + drift, seen.together + 2 * drift};
+  return ahead_ ? Look{later, seen} : Look{seen, later};
 }
 
 // Of bodies passes look at bonds, and at all others only where fluid is near.

@@ -1,8 +1,10 @@
 #include "sph/step/list_age.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
+#include "sph/models/models.hpp"
 #include "step/guards.hpp"
 
 namespace sph {
@@ -11,7 +13,7 @@ void ListAge::add_paths(double speed) {
   for (const Model* m : state_.models()) add(m->set(), m->path(state_.global(), speed));
 }
 
-double ListAge::longest() const { return *std::ranges::max_element(moved_); }
+double ListAge::longest() const { return std::ranges::max_element(ways_, {}, &SetPair::Ways::alone)->alone; }
 
 // A particle that leaves the domain does so in this step, wherever a rebuild would next look at it. Few ranks
 // have to look: how far particles were from the faces is known from the last rebuild, and so is a bound on
@@ -33,37 +35,77 @@ double ListAge::look_back() const {
 
 void ListAge::guard() const {
   double next = look_back();
-  for (std::size_t set = 0; set < moved_.size(); ++set)
+  for (std::size_t set = 0; set < ways_.size(); ++set)
     next = std::max(next, longest_move(state_.plan(), set, state_.global()));
   guard_motion(state_, next);
 }
 
+// Two particles that are not in each other's lists were further apart than these reach, and come within the range of
+// interaction only after they have gone apart by the skin. Who knows both of them? If they were not twice as far apart as
+// lists reach, the rank in whose box the middle between them was: its halo holds what is within that reach of the box. From
+// further they cannot come before one of them has gone half of what lies between. Pairs that look at neighbours of now
+// see all that may come near by the next look, since that comes before anything has gone half a skin.
+bool ListAge::serve(std::span<const SetPair::Ways> ways) const {
+  const Distribution& d = state_.distribution();
+  const double furthest = 0.5 * state_.scene().list_range() + d.skin();
+  return std::ranges::all_of(
+      ways, [&](const SetPair::Ways& w) { return w.together <= d.skin() && w.alone <= furthest; });
+}
+
+std::vector<SetPair::Ways> ListAge::next() const {
+  std::vector<SetPair::Ways> out = ways_;
+  for (std::size_t set = 0; set < out.size(); ++set) {
+    const double way = std::max(longest_move(state_.plan(), set, state_.global()), 2 * look_back());
+    out[set] = {out[set].alone + way, out[set].together + 2 * way};
+  }
+  return out;
+}
+
+std::optional<std::vector<SetPair::Ways>> ListAge::measure(std::span<ParticleSet> sets,
+                                                           decomp::Timers& timers) {
+  const auto of_two_sets = [](const SetPair* pair) { return pair->set() != pair->other(); };
+  if (pairs_.empty() || std::ranges::any_of(pairs_, of_two_sets)) return std::nullopt;
+  std::vector<double> all(4 * ways_.size(), 0);
+  for (const SetPair* pair : pairs_) {
+    ParticleSet& set = sets[pair->set()];
+    set.refresh(pair->looked_at(), timers);
+    const auto timing = timers.time(decomp::Region::lists);
+    const std::optional<SetPair::Look> own = pair->look_at_ways(set.particles, state_.global());
+    if (!own) return std::nullopt;
+    const std::array seen{own->now.alone, own->now.together, own->next.alone, own->next.together};
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      all[4 * pair->set() + k] = std::max(all[4 * pair->set() + k], seen[k]);
+  }
+  {
+    const auto timing = timers.time(decomp::Region::reduce);
+    state_.comm().max(all);
+  }
+  // What the next step adds to the ways of its drift is there already in those that were seen ahead.
+  const double drift = longest_drift(state_.global());
+  std::vector<SetPair::Ways> ahead(ways_.size());
+  for (std::size_t set = 0; set < ways_.size(); ++set) {
+    const double* of = all.data() + 4 * set;
+    ways_[set] = {std::min(of[0], of[2] - drift), std::min(of[1], of[3] - 2 * drift)};
+    ahead[set] = {of[2], of[3]};
+  }
+  return ahead;
+}
+
 // Lists must hold every pair that a pass of the next step takes, wherever it takes its particles to be: after
 // they have moved in it, or half a step before that. A rebuild in that step finds lists that are wide enough
-// for it, however small the scene's skin (Simulation::rebuild). Grains are looked at again when the bound runs
-// out: one that flies through the sparse part of a scene must not cost rebuilds of the rest.
-bool ListAge::look(const Reduction& reduction, decomp::Timers& timers) {
+// for it, however small the scene's skin (Simulation::rebuild). One particle that flies through the sparse part of
+// a scene must not cost rebuilds of the rest.
+bool ListAge::look(const Reduction& reduction, std::span<ParticleSet> sets, decomp::Timers& timers) {
   const GlobalState& global = state_.global();
   guard();
-  double way = 0, growth = 0;
-  for (std::size_t set = 0; set < moved_.size(); ++set)
-    way = std::max(way, moved_[set] + longest_move(state_.plan(), set, global));
+  double growth = 0;
   for (const Model* m : state_.models()) growth = std::max(growth, m->growth(reduction));
   const int every = state_.scene().decomposition.rebuild_every;
   if (growth > 1 || (every > 0 && global.step % every == 0)) return true;
-  const double half_skin = 0.5 * state_.distribution().skin();
-  if (std::max(way, look_back()) <= half_skin) return false;
-  std::vector<double> looked(moved_.size(), 0);
-  for (const Model* m : state_.models()) {
-    const std::optional<double> by_model = m->longest_way(state_.particles(m->set()), global);
-    if (!by_model) return true;
-    looked[m->set()] = std::max(looked[m->set()], *by_model);
-  }
-  const auto timing = timers.time(decomp::Region::reduce);
-  state_.comm().max(looked);
-  moved_ = looked;
-  // Another step of the fastest grain must fit, or this look was for nothing.
-  return longest() + 2 * global.max_speed * global.dt > half_skin;
+  if (2 * look_back() > state_.distribution().skin()) return true;
+  if (serve(next())) return false;
+  const std::optional<std::vector<SetPair::Ways>> ahead = measure(sets, timers);
+  return !ahead || !serve(*ahead) || !serve(next());
 }
 
 }  // namespace sph

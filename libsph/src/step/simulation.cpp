@@ -58,7 +58,7 @@ void Simulation::kick_half_a_step(const Accelerate& accelerate) {
   };
   global_.dt = kick(0);  // how large a step may be follows from the accelerations
   (void)kick(0.5);
-  stale_ = age_.look(parts_.reduction, timers_);
+  stale_ = age_.look(parts_.reduction, sets_, timers_);
 }
 
 // Measured cost -> new cuts -> migrate -> sort by (Hilbert key of cell, id) -> halo plans -> lists of all
@@ -166,7 +166,7 @@ std::int64_t Simulation::finish_step(std::int64_t request) {
     age_.guard();  // or lists could reach further than there are cells to look into
     rebuild();
   }
-  stale_ = age_.look(parts_.reduction, timers_);
+  stale_ = age_.look(parts_.reduction, sets_, timers_);
   return static_cast<std::int64_t>(parts_.reduction[Reduction::request]);
 }
 

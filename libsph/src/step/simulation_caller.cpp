@@ -21,7 +21,7 @@ void Simulation::exchange_grains(std::span<const std::uint64_t> gone, std::span<
   parts_.grain_openings->exchange(distribution_, gone, come, sets_[set], global_);
   rows_changed_ = true;
   rebuild();
-  stale_ = age_.look(parts_.reduction, timers_);
+  stale_ = age_.look(parts_.reduction, sets_, timers_);
 }
 
 }  // namespace sph

@@ -4,6 +4,8 @@
 // are shifted, the control of tension.
 #pragma once
 
+#include <optional>
+
 #include "sph/models/sph_constants.hpp"
 #include "sph/models/surface_gradient.hpp"
 #include "sph/plan/stage.hpp"
@@ -18,6 +20,8 @@ class BodyForces {
 
   explicit BodyForces(const SphConstants& constants);
 
+  /// What accelerates all particles alike, where nothing else does [m/s^2].
+  [[nodiscard]] std::optional<Double3> common(const Particles& particles, const Step& step) const;
   /// [m/s^2]
   [[nodiscard]] Double3 operator()(const Particles& particles, std::size_t row, const Step& step) const;
   /// How much of a particle's gradient of concentration is not that of a free surface near it.

@@ -40,8 +40,8 @@ class GrainPairs final : public SetPair {
   [[nodiscard]] ContactSums& sums(const Particles& particles);
   /// As ContactLists has it; between steps.
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
-  /// The longest way of this rank's grains, or of a wall, since the lists were made [m].
-  [[nodiscard]] double longest_way(const Particles& particles, const GlobalState& global) const;
+  [[nodiscard]] std::optional<Look> look_at_ways(const Particles& particles,
+                                                 const GlobalState& global) const override;
 
   /// Contacts each rank has seen begin, end and come back after rows had moved.
   struct Counters {

@@ -31,10 +31,6 @@ class Grains final : public Model {
   /// Walls drift with the velocity they had, servos answer to the force of this step.
   void act(const Reduction& reduction, GlobalState& global) override;
   [[nodiscard]] double path(const GlobalState& global, double speed) const override;
-  [[nodiscard]] std::optional<double> longest_way(const Particles& particles,
-                                                  const GlobalState& global) const override {
-    return pairs_.longest_way(particles, global);
-  }
   [[nodiscard]] std::vector<Energy> energies() const override;
   void add_energies(const Particles& particles, EnergySums& sums) const override;
 

@@ -67,10 +67,6 @@ class Model {
   /// How much of what lists bear particles' reach will have grown at the end of the next step; above 1 they
   /// must be made anew.
   [[nodiscard]] virtual double growth(const Reduction&) const { return 0; }
-  /// Largest way since the last rebuild [m], of models that would rather look than rely on the bound.
-  [[nodiscard]] virtual std::optional<double> longest_way(const Particles&, const GlobalState&) const {
-    return std::nullopt;
-  }
   /// Faster than that nothing moves that the scene could mean [m/s].
   [[nodiscard]] virtual double speed_limit() const { return std::numeric_limits<double>::infinity(); }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "decomp/comm.hpp"
@@ -52,6 +53,21 @@ class SetPair {
   /// is of empties. Collective; throws GuardError if anything was lost on its way.
   virtual void rebuild(const Particles& particles, const ListSetting& setting, decomp::Payload& carried,
                        std::span<const std::uint32_t> order) = 0;
+  /// Bounds on ways since lists were made, of this rank's particles.
+  struct Ways {
+    double alone = 0;     ///< of any particle [m]
+    double together = 0;  ///< how far two that are near each other have gone apart [m]
+  };
+  struct Look {
+    Ways now;
+    Ways next;  ///< when particles have drifted once more
+  };
+  /// Of pairs that would rather look than rely on what the fastest particle of each step may have done.
+  [[nodiscard]] virtual std::optional<Look> look_at_ways(const Particles&, const GlobalState&) const {
+    return std::nullopt;
+  }
+  /// Fields that must be up to date in the halo for that.
+  [[nodiscard]] virtual FieldSet looked_at() const { return {}; }
   /// How many entries are looked at for each owned row, as far as blocks tell: what it costs.
   virtual void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const = 0;
 

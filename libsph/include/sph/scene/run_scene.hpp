@@ -18,8 +18,8 @@ enum class CostSource { time, counts };
 struct Decomposition {
   std::array<int, 2> cut_axes{0, 1};  ///< row axis, column axis
   double skin = 0.2;                  ///< of the kernel's radius
-  int rebuild_every = 0;              ///< 0: when a particle may leave the skin; n: also every n steps
-  bool overlap = true;                ///< compute the interior while halo messages travel
+  int rebuild_every = 0;  ///< 0: when neighbours may have gone apart by the skin; n: also every n steps
+  bool overlap = true;    ///< compute the interior while halo messages travel
   CutRule cuts = CutRule::quasi_newton;
   CostSource cost = CostSource::time;
   std::uint64_t chaos_seed = 1;

@@ -57,7 +57,7 @@ class Simulation : public State {
   std::int64_t finish_step(std::int64_t request);
 
   decomp::Timers timers_;
-  ListAge age_{*this};
+  ListAge age_{*this, parts_.pairs};
   PlanRunner runner_{comm_, parts_, sets_, age_, timers_};
   decomp::Payload arrived_;  ///< contacts read from a checkpoint, until the first lists are there
   bool stale_ = true;        ///< lists must be made anew before they are looked at

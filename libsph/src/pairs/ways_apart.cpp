@@ -1,0 +1,140 @@
+#include "sph/pairs/ways_apart.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace sph {
+namespace {
+
+constexpr std::int32_t nothing = -(1 << 30);
+
+/// Of the ways in a cell, the largest along each axis and against it.
+template <int D>
+struct Span {
+  std::array<std::int32_t, 2 * D> most;
+
+  void add(const Span& other) {
+    for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::max(most[k], other.most[k]);
+  }
+  /// Between any two of them, squared.
+  [[nodiscard]] double square() const {
+    double sum = 0;
+    for (std::size_t a = 0; a < D; ++a) {
+      const double along = static_cast<double>(most[a]) + static_cast<double>(most[D + a]);
+      sum += along * along;
+    }
+    return sum;
+  }
+};
+
+/// Cells that hold all rows, x fastest, no narrower than `near`, and not many more than rows.
+template <int D>
+class Cells {
+ public:
+  Cells(const std::int64_t* x, std::size_t rows, double near) {
+    std::array<std::int64_t, D> last;
+    first_.fill(std::numeric_limits<std::int64_t>::max());
+    last.fill(std::numeric_limits<std::int64_t>::min());
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t a = 0; a < D; ++a) {
+        first_[a] = std::min(first_[a], x[i * D + a]);
+        last[a] = std::max(last[a], x[i * D + a]);
+      }
+    // Two places nearer than an edge are in cells beside each other, whatever the product below is rounded to.
+    for (double edge = near * (1 + 1e-9);; edge *= 2) {
+      per_quantum_ = 1 / edge;
+      double cells = 1;
+      for (std::size_t a = 0; a < D; ++a) {
+        number_[a] = index(last[a], a) + 1;
+        cells *= static_cast<double>(number_[a]);
+      }
+      if (cells <= 2 * static_cast<double>(rows) + 64) break;
+    }
+  }
+
+  [[nodiscard]] std::size_t all() const {
+    std::size_t n = 1;
+    for (const std::size_t k : number_) n *= k;
+    return n;
+  }
+  [[nodiscard]] std::size_t number(std::size_t axis) const { return number_[axis]; }
+  [[nodiscard]] std::size_t of(const std::int64_t* x) const {
+    std::size_t at = 0;
+    for (std::size_t a = D; a-- > 0;) at = at * number_[a] + index(x[a], a);
+    return at;
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(std::int64_t x, std::size_t axis) const {
+    return static_cast<std::size_t>(
+        static_cast<std::int64_t>(static_cast<double>(x - first_[axis]) * per_quantum_));
+  }
+
+  std::array<std::int64_t, D> first_{};
+  std::array<std::size_t, D> number_{};
+  double per_quantum_ = 0;
+};
+
+}  // namespace
+
+void WaysApart::begin(const Particles& particles, std::int64_t reach) {
+  reach_ = reach;
+  shift_ = std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(reach))) - 28, 0);
+  const std::size_t n = particles.rows() * static_cast<std::size_t>(particles.dim());
+  const std::int64_t* x = particles.data<Field::position>();
+  begin_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) begin_[k] = static_cast<std::uint32_t>(x[k] >> shift_);
+}
+
+WaysApart::Ways WaysApart::look(const Particles& particles, const std::vector<bool>& is_wall,
+                                double time) const {
+  if (particles.rows() == 0) return {};
+  return particles.dim() == 2 ? look_in<2>(particles, is_wall, time) : look_in<3>(particles, is_wall, time);
+}
+
+// Two rows in cells beside each other are together in some block of two cells along each axis.
+template <int D>
+WaysApart::Ways WaysApart::look_in(const Particles& particles, const std::vector<bool>& is_wall,
+                                   double time) const {
+  const std::int64_t* x = particles.data<Field::position>();
+  const double* v = particles.data<Field::velocity>();
+  const auto* group = particles.data<Field::group>();
+  std::vector<double> time_of(is_wall.size());  // [units per m/s]
+  for (std::size_t g = 0; g < is_wall.size(); ++g) time_of[g] = is_wall[g] ? 0.0 : std::ldexp(time, -shift_);
+  const Cells<D> cells(x, particles.rows(), static_cast<double>(reach_));
+  Span<D> none;
+  none.most.fill(nothing);
+  std::vector<Span<D>> spans(cells.all(), none);
+  double longest2 = 0;
+  for (std::size_t i = 0; i < particles.rows(); ++i) {
+    const double to_come = time_of[group[i]];
+    Span<D> way;
+    double way2 = 0;
+    for (std::size_t a = 0; a < D; ++a) {
+      const std::size_t k = i * D + a;
+      const auto gone = static_cast<std::int32_t>(static_cast<std::uint32_t>(x[k] >> shift_) - begin_[k]);
+      const std::int32_t w = gone + static_cast<std::int32_t>(v[k] * to_come);
+      way.most[a] = w;
+      way.most[D + a] = -w;
+      way2 += static_cast<double>(w) * static_cast<double>(w);
+    }
+    spans[cells.of(x + i * D)].add(way);
+    longest2 = std::max(longest2, way2);
+  }
+  std::size_t stride = 1;
+  for (std::size_t a = 0; a < D; stride *= cells.number(a), ++a)
+    for (std::size_t c = 0; c + stride < spans.size(); ++c)
+      if (c / stride % cells.number(a) + 1 < cells.number(a)) spans[c].add(spans[c + stride]);
+  double apart2 = 0;
+  for (const Span<D>& block : spans)
+    if (block.most[0] != nothing) apart2 = std::max(apart2, block.square());
+  // A component is less than two units off, a difference of two of them less than four.
+  const double unit = std::ldexp(1.0, shift_);
+  return {(std::sqrt(longest2) + 4) * unit, (std::sqrt(apart2) + 8) * unit};
+}
+
+}  // namespace sph
