@@ -34,12 +34,13 @@ RC_GTEST_PROP(WaysApart, are_bounds_of_all_pairs_and_not_wide_ones, ()) {
       p.data<Field::position>()[i * d + a] = static_cast<std::int64_t>(size * long_reach * random(i, a));
   WaysApart ways;
   ways.begin(p, reach);
-  std::vector<std::array<double, 3>> gone(n);
+  std::vector<std::array<double, 3>> start(n), gone(n);
   const double time = 0.25 * long_reach;
   for (std::size_t i = 0; i < n; ++i) {
     p.data<Field::group>()[i] = random(i, 12) < 0.5 ? 1 : 0;
     for (std::size_t a = 0; a < d; ++a) {
       const auto way = static_cast<std::int64_t>(0.3 * long_reach * random(i, 4 + a));
+      start[i][a] = static_cast<double>(p.data<Field::position>()[i * d + a]);
       p.data<Field::position>()[i * d + a] += way;
       const double v = p.data<Field::velocity>()[i * d + a] = random(i, 8 + a);
       gone[i][a] = static_cast<double>(way) + (p.data<Field::group>()[i] == 1 ? 0 : time * v);
@@ -54,10 +55,7 @@ RC_GTEST_PROP(WaysApart, are_bounds_of_all_pairs_and_not_wide_ones, ()) {
   for (std::size_t i = 0; i < n; ++i) {
     alone = std::max(alone, size_of([&](std::size_t a) { return gone[i][a]; }));
     for (std::size_t j = 0; j < i; ++j) {
-      const auto way = [&](std::size_t a) {
-        return static_cast<double>(p.data<Field::position>()[i * d + a] -
-                                   p.data<Field::position>()[j * d + a]);
-      };
+      const auto way = [&](std::size_t a) { return start[i][a] + gone[i][a] - start[j][a] - gone[j][a]; };
       const double apart = size_of([&](std::size_t a) { return gone[i][a] - gone[j][a]; });
       if (size_of(way) < long_reach) together = std::max(together, apart);
       double most = 0;
@@ -156,6 +154,34 @@ TEST(WaysApart, lists_hold_every_pair_after_each_step) {
         s.step();
         s.refresh_halo({Field::position});
         ASSERT_EQ(lost(s), 0) << "after step " << k + 1 << ", skin " << skin << ", " << own << " m/s";
+      }
+    }
+}
+
+// Each of two pieces moves as one, so nothing near has gone apart while they approach each other, with the width of a cell
+// between them or more.
+TEST(WaysApart, pieces_that_meet_are_listed_in_time) {
+  const decomp::Comm comm(MPI_COMM_WORLD);
+  const test::ScratchDirectory scratch(comm);
+  for (const char* skin : {"0.1", "0.25", "0.34"})
+    for (int tenths = 36; tenths < 56; ++tenths) {
+      const std::filesystem::path path = scratch.path() / "pieces.csv";
+      comm.barrier();
+      if (comm.rank() == 0) {
+        std::ofstream out(path);
+        out << "id,x,y,vx,vy,group\n";
+        for (int id = 0; id < 240; ++id) {
+          const int column = id / 24;
+          out << id << ',' << 4.3 + column + (column < 5 ? 0 : 0.1 * tenths) << ',' << id % 24 + 0.5 << ','
+              << (column < 5 ? 5 : -5) << ",0,melt\n";
+        }
+      }
+      comm.barrier();
+      Simulation s(comm, scene_of({"start.file=" + path.string(), "start.free_surface=true"}, skin));
+      for (int k = 0; k < 16; ++k) {
+        s.step();
+        s.refresh_halo({Field::position});
+        ASSERT_EQ(lost(s), 0) << "after step " << k + 1 << ", skin " << skin << ", gap " << 0.1 * tenths;
       }
     }
 }

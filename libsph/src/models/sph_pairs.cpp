@@ -45,6 +45,7 @@ void SphPairs::rebuild(const Particles& p, const ListSetting& s, decomp::Payload
     lists_.fluid.forget();
     const auto timing = s.timers.time(decomp::Region::lists);
     ways_.begin(p, s.radius);
+    skin_ = s.skin;
     if (p.has(Field::wall_share)) lists_.walls.build(p, lists_.all, s.ranges, is_wall_);
     if (!p.has(Field::displacement)) return;
     const SphConstants& k = physics_->constants();
@@ -59,14 +60,16 @@ void SphPairs::rebuild(const Particles& p, const ListSetting& s, decomp::Payload
 }
 
 // Lists of a gas reach further where a particle's kernel is wider. Rigid bodies turn, and particles of walls are taken to
-// have come from where their velocity says though they have not: of these it is not known where they will be.
+// have come from where their velocity says though they have not: of these it is not known where they will be. Where nothing
+// drifts further than the skin, what is near half a step back, of two that drift past each other, is near after it.
 std::optional<SetPair::Look> SphPairs::look_at_ways(const Particles& p, const GlobalState& global) const {
   if (physics_->reach() != nullptr) return std::nullopt;
   const double quantum = physics_->constants().scale.quantum, drift = longest_drift(global);
-  const WaysApart::Ways found = ways_.look(p, is_wall_, ahead_ ? global.dt / quantum : 0.0);
+  const bool ahead = ahead_ && drift <= skin_;
+  const WaysApart::Ways found = ways_.look(p, is_wall_, ahead ? global.dt / quantum : 0.0);
   const Ways seen{1.0001 * found.alone * quantum, 1.0001 * found.together * quantum};
   const Ways later{seen.alone + drift, seen.together + 2 * drift};
-  return ahead_ ? Look{later, seen} : Look{seen, later};
+  return ahead ? Look{later, seen} : Look{seen, later};
 }
 
 // Of bodies passes look at bonds, and at all others only where fluid is near.

@@ -31,19 +31,49 @@ struct Span {
   }
 };
 
+template <int D>
+using Place = std::array<std::int64_t, D>;
+
+/// Where rows will be.
+template <int D>
+class Places {
+ public:
+  Places(const Particles& particles, const std::vector<bool>& is_wall, double time)
+      : x_(particles.data<Field::position>()),
+        v_(particles.data<Field::velocity>()),
+        group_(particles.data<Field::group>()) {
+    for (const bool wall : is_wall) time_.push_back(wall ? 0.0 : time);
+  }
+  [[nodiscard]] Place<D> operator()(std::size_t i) const {
+    const double time = time_[group_[i]];
+    Place<D> place;
+    for (std::size_t a = 0; a < D; ++a)
+      place[a] = x_[i * D + a] + static_cast<std::int64_t>(v_[i * D + a] * time);
+    return place;
+  }
+
+ private:
+  const std::int64_t* x_;
+  const double* v_;
+  const std::uint32_t* group_;
+  std::vector<double> time_;  ///< by group [quanta per m/s]
+};
+
 /// Cells that hold all rows, x fastest, no narrower than `near`, and not many more than rows.
 template <int D>
 class Cells {
  public:
-  Cells(const std::int64_t* x, std::size_t rows, double near) {
-    std::array<std::int64_t, D> last;
+  Cells(const Places<D>& places, std::size_t rows, double near) {
+    Place<D> last;
     first_.fill(std::numeric_limits<std::int64_t>::max());
     last.fill(std::numeric_limits<std::int64_t>::min());
-    for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t i = 0; i < rows; ++i) {
+      const Place<D> x = places(i);
       for (std::size_t a = 0; a < D; ++a) {
-        first_[a] = std::min(first_[a], x[i * D + a]);
-        last[a] = std::max(last[a], x[i * D + a]);
+        first_[a] = std::min(first_[a], x[a]);
+        last[a] = std::max(last[a], x[a]);
       }
+    }
     // Two places nearer than an edge are in cells beside each other, whatever the product below is rounded to.
     for (double edge = near * (1 + 1e-9);; edge *= 2) {
       per_quantum_ = 1 / edge;
@@ -62,7 +92,7 @@ class Cells {
     return n;
   }
   [[nodiscard]] std::size_t number(std::size_t axis) const { return number_[axis]; }
-  [[nodiscard]] std::size_t of(const std::int64_t* x) const {
+  [[nodiscard]] std::size_t of(const Place<D>& x) const {
     std::size_t at = 0;
     for (std::size_t a = D; a-- > 0;) at = at * number_[a] + index(x[a], a);
     return at;
@@ -74,7 +104,7 @@ class Cells {
         static_cast<std::int64_t>(static_cast<double>(x - first_[axis]) * per_quantum_));
   }
 
-  std::array<std::int64_t, D> first_{};
+  Place<D> first_{};
   std::array<std::size_t, D> number_{};
   double per_quantum_ = 0;
 };
@@ -100,29 +130,24 @@ WaysApart::Ways WaysApart::look(const Particles& particles, const std::vector<bo
 template <int D>
 WaysApart::Ways WaysApart::look_in(const Particles& particles, const std::vector<bool>& is_wall,
                                    double time) const {
-  const std::int64_t* x = particles.data<Field::position>();
-  const double* v = particles.data<Field::velocity>();
-  const auto* group = particles.data<Field::group>();
-  std::vector<double> time_of(is_wall.size());  // [units per m/s]
-  for (std::size_t g = 0; g < is_wall.size(); ++g) time_of[g] = is_wall[g] ? 0.0 : std::ldexp(time, -shift_);
-  const Cells<D> cells(x, particles.rows(), static_cast<double>(reach_));
+  const Places<D> places(particles, is_wall, time);
+  const Cells<D> cells(places, particles.rows(), static_cast<double>(reach_));
   Span<D> none;
   none.most.fill(nothing);
   std::vector<Span<D>> spans(cells.all(), none);
   double longest2 = 0;
   for (std::size_t i = 0; i < particles.rows(); ++i) {
-    const double to_come = time_of[group[i]];
+    const Place<D> x = places(i);
     Span<D> way;
     double way2 = 0;
     for (std::size_t a = 0; a < D; ++a) {
-      const std::size_t k = i * D + a;
-      const auto gone = static_cast<std::int32_t>(static_cast<std::uint32_t>(x[k] >> shift_) - begin_[k]);
-      const std::int32_t w = gone + static_cast<std::int32_t>(v[k] * to_come);
+      const auto w =
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(x[a] >> shift_) - begin_[i * D + a]);
       way.most[a] = w;
       way.most[D + a] = -w;
       way2 += static_cast<double>(w) * static_cast<double>(w);
     }
-    spans[cells.of(x + i * D)].add(way);
+    spans[cells.of(x)].add(way);
     longest2 = std::max(longest2, way2);
   }
   std::size_t stride = 1;

@@ -43,11 +43,14 @@ void ListAge::guard() const {
 // Two particles that are not in each other's lists were further apart than these reach, and come within the range of
 // interaction only after they have gone apart by the skin. Who knows both of them? If they were not twice as far apart as
 // lists reach, the rank in whose box the middle between them was: its halo holds what is within that reach of the box. From
-// further they cannot come before one of them has gone half of what lies between. Pairs that look at neighbours of now
-// see all that may come near by the next look, since that comes before anything has gone half a skin.
+// further they cannot come before one of them has gone half of what lies between. A look bounds the ways of all that are
+// then no further apart than lists reach; others have yet to go towards each other by the skin. Where it looks ahead to
+// the end of the next drift, `together` may be less than nothing until then.
 bool ListAge::serve(std::span<const SetPair::Ways> ways) const {
   const Distribution& d = state_.distribution();
-  const double furthest = 0.5 * state_.scene().list_range() + d.skin();
+  const double range = state_.scene().list_range(), reach = range + d.skin();
+  // In single precision a difference of places is right up to seven times the support, however far listed pairs fly apart.
+  const double furthest = std::min(0.5 * range + d.skin(), 0.5 * (6 * state_.scene().support() - reach));
   return std::ranges::all_of(
       ways, [&](const SetPair::Ways& w) { return w.together <= d.skin() && w.alone <= furthest; });
 }

@@ -37,6 +37,7 @@ class SphPairs final : public SetPair {
   std::vector<bool> is_wall_;  ///< by group
   bool ahead_;                 ///< it is known where velocities will have taken particles
   WaysApart ways_;
+  double skin_ = 0;  ///< of the lists [m]
 };
 
 }  // namespace sph
