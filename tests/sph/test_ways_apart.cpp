@@ -18,7 +18,7 @@ namespace sph {
 namespace {
 
 /// Of rows that start in a box of some reaches, go any way, and drift on.
-RC_GTEST_PROP(WaysApart, are_bounds_of_all_pairs, ()) {
+RC_GTEST_PROP(WaysApart, are_bounds_of_all_pairs_and_not_wide_ones, ()) {
   const int dim = *rc::gen::inRange(2, 4), rows = *rc::gen::inRange(1, 60), size = *rc::gen::inRange(1, 8);
   const auto reach = std::int64_t{1} << *rc::gen::inRange(8, 52);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
@@ -51,13 +51,16 @@ RC_GTEST_PROP(WaysApart, are_bounds_of_all_pairs, ()) {
     for (std::size_t a = 0; a < d; ++a) square += component(a) * component(a);
     return std::sqrt(square);
   };
-  double alone = 0, together = 0;
+  double alone = 0, together = 0, wide = 0;
   for (std::size_t i = 0; i < n; ++i) {
     alone = std::max(alone, size_of([&](std::size_t a) { return gone[i][a]; }));
     for (std::size_t j = 0; j < i; ++j) {
       const auto way = [&](std::size_t a) { return start[i][a] + gone[i][a] - start[j][a] - gone[j][a]; };
       const double apart = size_of([&](std::size_t a) { return gone[i][a] - gone[j][a]; });
       if (size_of(way) < long_reach) together = std::max(together, apart);
+      double most = 0;
+      for (std::size_t a = 0; a < d; ++a) most = std::max(most, std::abs(way(a)));
+      if (most < 2.001 * long_reach + 2) wide = std::max(wide, apart);
     }
   }
   const WaysApart::Ways found = ways.look(p, {false, true}, time);
@@ -65,6 +68,9 @@ RC_GTEST_PROP(WaysApart, are_bounds_of_all_pairs, ()) {
   RC_ASSERT(found.alone >= alone);
   RC_ASSERT(found.alone <= alone + slack);
   RC_ASSERT(found.together >= together);
+  // Of cells that are no wider than lists reach; few rows in a wide box have wider ones.
+  if (std::pow(2 * size + 1, dim) < 2 * rows + 64)
+    RC_ASSERT(found.together <= std::sqrt(static_cast<double>(dim)) * wide + slack);
 }
 
 constexpr const char* box = R"(
