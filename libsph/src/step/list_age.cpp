@@ -48,9 +48,12 @@ void ListAge::guard() const {
 // the end of the next drift, `together` may be less than nothing until then.
 bool ListAge::serve(std::span<const SetPair::Ways> ways) const {
   const Distribution& d = state_.distribution();
-  const double range = state_.scene().list_range(), reach = range + d.skin();
-  // In single precision a difference of places is right up to seven times the support, however far listed pairs fly apart.
-  const double furthest = std::min(0.5 * range + d.skin(), 0.5 * (6 * state_.scene().support() - reach));
+  const Scene& scene = state_.scene();
+  const double range = scene.list_range(), reach = range + d.skin();
+  // In single precision a difference of places is right up to seven times this (row_position_shift), however far listed
+  // pairs fly apart.
+  const double single = scene.total_lagrangian() ? scene.support() : range;
+  const double furthest = std::min(0.5 * range + d.skin(), 0.5 * (6 * single - reach));
   return std::ranges::all_of(
       ways, [&](const SetPair::Ways& w) { return w.together <= d.skin() && w.alone <= furthest; });
 }
