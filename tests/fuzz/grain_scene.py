@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 import start_rows
+from pieces import Pieces
 
 
 def make(d):
@@ -347,15 +348,17 @@ class Maker:
         speed = self.speed * d.one("speed", [0.1, 0.5, 1.0])
         spins = d.chance("spins", 0.5)
         thin = d.one("thin", [1.0, 1.0, 0.6])
+        pieces = Pieces(d.part("pieces"), 3, speed) if d.chance("in pieces", 0.35) else None
         cells = [(i, j, k) for k in range(n[2]) for j in range(n[1]) for i in range(n[0])]
         for at, cell in enumerate(cells):
-            if not d.chance(f"there/{at}", thin):
+            v = pieces.velocity(cell) if pieces else d.vector(f"v/{at}", speed, 3)
+            if v is None or not d.chance(f"there/{at}", thin):
                 continue
             name = "sand" if d.chance(f"sand/{at}", 0.7) else d.one(f"group/{at}", names)
             low, high = self.sizes[name]
             x = [c + self.dx * (i + 0.5 + 0.05 * d.real(f"x/{at}/{a}", -1, 1))
                  for a, (i, c) in enumerate(zip(cell, lower))]
-            row = {"id": 0} | dict(zip("xyz", x)) | dict(zip(("vx", "vy", "vz"), d.vector(f"v/{at}", speed, 3)))
+            row = {"id": 0} | dict(zip("xyz", x)) | dict(zip(("vx", "vy", "vz"), v))
             row |= {"group": name, "radius": 0.5 * low if low == high else 0.5 * min(high, d.real(f"r/{at}", low, high))}
             if spins:
                 row |= dict(zip(("wx", "wy", "wz"), d.vector(f"w/{at}", speed / self.size, 3)))

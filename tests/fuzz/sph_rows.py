@@ -4,6 +4,7 @@ import math
 
 import boxes
 import start_rows
+from pieces import Pieces
 
 
 class FromFile:
@@ -14,9 +15,10 @@ class FromFile:
         if count > 1200:
             return
         kinds = {g["name"]: g for g in case["scene"]["group"]}
-        way = d.weighted("way", {"all": 3, "streams": 3, "any": 2, "apart": 1})
+        way = d.weighted("way", {"all": 3, "streams": 3, "any": 2, "apart": 1, "pieces": 3})
         speed = self.c * self.mach(d)
         along = d.vector("along", speed, self.dim)
+        pieces = Pieces(d.part("pieces"), self.dim, speed)
         across = d.whole("across", 0, self.dim - 1)
         middle = [0.5 * (a + b) for a, b in zip(start["lower"], start["upper"])]
         thin = 1.0 if self.family == "total" else d.one("thin", [1.0, 1.0, 1.0, 0.7, 0.3])
@@ -26,10 +28,13 @@ class FromFile:
             if group is None or not d.chance(f"there/{k}", thin):
                 continue
             mobile = kinds[group]["kind"] != "wall"
+            own = pieces.velocity([(c - l) / self.dx for c, l in zip(x, start["lower"])])
+            if way == "pieces" and mobile and own is None:
+                continue
             v = [0.0] * self.dim
             if mobile:
                 x = [c + jitter * d.real(f"x/{k}/{a}", -1, 1) for a, c in enumerate(x)]
-                v = {"all": along, "streams": along if x[across] > middle[across] else [-w for w in along],
+                v = {"all": along, "pieces": own, "streams": along if x[across] > middle[across] else [-w for w in along],
                      "any": d.vector(f"v/{k}", speed, self.dim),
                      "apart": [speed * (c - m) / (self.dx * max(self.box.n)) for c, m in zip(x, middle)]}[way]
             row = {"id": 0} | dict(zip("xyz", x)) | dict(zip(("vx", "vy", "vz"), v)) | {"group": group}

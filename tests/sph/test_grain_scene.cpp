@@ -110,7 +110,7 @@ TEST(GrainScene, Defaults) {
   EXPECT_EQ(s.dim, 3);
   EXPECT_EQ(s.support(), 0.02);
   EXPECT_EQ(s.start.spacing, 1.1 * 0.02);
-  EXPECT_EQ(s.decomposition.skin, 0.2);
+  EXPECT_EQ(s.decomposition.skin, 0.3);
   EXPECT_FALSE(s.time.dt.has_value());
   EXPECT_EQ(s.grains.contact.law->word, "linear");
   sph::ContactControl plain;
@@ -125,6 +125,15 @@ TEST(GrainScene, Defaults) {
   EXPECT_EQ(s.start.velocity.kind, sph::InitialVelocity::rest);
   EXPECT_EQ(s.output, sph::OutputControl{});
   EXPECT_EQ(s.start.tile, sph::Tile{});
+}
+
+// Of grains as large as each other lists reach the furthest.
+TEST(GrainScene, SkinFollowsTheSizes) {
+  EXPECT_DOUBLE_EQ(parse(small, {"group.sand.diameter=[0.016, 0.02]"}).decomposition.skin, 0.27);
+  EXPECT_DOUBLE_EQ(parse(small, {"group.glass.diameter=0.012", "group.glass.density=1"}).decomposition.skin,
+                   0.24);
+  EXPECT_EQ(parse(small, {"group.sand.diameter=[0.002, 0.02]"}).decomposition.skin, 0.2);
+  EXPECT_EQ(parse(small, {"decomposition.skin=0.06"}).decomposition.skin, 0.06);
 }
 
 TEST(GrainScene, LargestGrainDecides) {

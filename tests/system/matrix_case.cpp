@@ -28,6 +28,7 @@ sph::Scene reference_scene(const Row& row) {
   const auto axes = scene.decomposition.cut_axes;
   scene.decomposition = {};
   scene.decomposition.cut_axes = axes;
+  scene.decomposition.skin = 0.05;  // or what moves as one is hardly ever listed anew
   return scene;
 }
 

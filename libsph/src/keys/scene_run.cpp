@@ -2,6 +2,7 @@
 // particles.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -135,8 +136,15 @@ Monitor read_monitor(const MonitorReader& table, const Scene& scene, const std::
 }
 
 // Where neighbours look how far they have gone apart, short lists last long enough; with others the fastest particle of all
-// decides, and sand that moves wants wide ones.
+// decides. Sand that moves wants wide ones, and pairs that cannot touch yet cost it little; but small grains beside large
+// ones have many.
 double usual_skin(const Scene& scene) {
+  if (scene.of_grains()) {
+    double least = scene.largest_diameter();
+    for (const Group& g : scene.groups)
+      if (g.grain.largest_radius > 0) least = std::min(least, 2 * g.grain.least_radius);
+    return std::max(0.2, 0.15 * (1 + least / scene.largest_diameter()));
+  }
   const bool look = scene.has_matter() && !scene.has_grains() && !has_eos(scene, EosKind::ideal_gas);
   return look ? 0.1 : 0.2;
 }

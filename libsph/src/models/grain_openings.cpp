@@ -72,8 +72,7 @@ double GrainOpenings::start(const decomp::Comm& comm, Particles& particles, Glob
 
 bool GrainOpenings::report(const StepState& s, Reduction& r) {
   open_outlets(s.global);
-  find_leavers(s.particles, s.particles.has_lines() ? GrainPlaces(s.particles.lines().motion.data())
-                                                    : GrainPlaces(s.particles));
+  find_leavers(s.particles);
   auto events = static_cast<std::int64_t>(leavers_.size());
   for (std::size_t k = 0; k < due_.size(); ++k) {
     due_[k] = insertions_.due(k, s.global);
@@ -91,14 +90,15 @@ void GrainOpenings::open_outlets(const GlobalState& before) {
   }
 }
 
-void GrainOpenings::find_leavers(const Particles& p, const GrainPlaces& places) {
+void GrainOpenings::find_leavers(const Particles& p) {
   leavers_.clear();
   const bool opens = std::ranges::any_of(outlets_, &Box::open);
   if (!opens && std::ranges::none_of(scene_->domain.openings.deletes, std::identity{})) return;
   const std::uint32_t* group = p.data<Field::group>();
+  const RowPlaces places = p.places();
   for (std::size_t i = 0; i < p.owned(); ++i) {
-    std::array<std::int64_t, 3> x = places.x(i);
-    for (std::size_t a = 0; a < 3; ++a) x[a] = wrap_(static_cast<int>(a), x[a]);
+    std::array<std::int64_t, 3> x;
+    for (std::size_t a = 0; a < 3; ++a) x[a] = wrap_(static_cast<int>(a), places(i, a));
     const bool inside = domain_.contains(x);
     if (inside && !opens) continue;
     const Group& g = scene_->groups[group[i]];

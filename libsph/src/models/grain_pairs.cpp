@@ -51,7 +51,6 @@ decomp::Payload GrainPairs::send(const Particles& particles, decomp::Payload arr
     arrived = pack(particles);
   sent_ = ContactLists::census(particles, arrived, lists_.history());
   lists_.forget_histories();
-  listed_ = Places();
   return arrived;
 }
 
@@ -94,12 +93,7 @@ ContactCensus GrainPairs::find_pairs(const Particles& particles, const ListSetti
   counters_.carried += lists_.carried();
   carried = decomp::Payload();
   decomp::release(sums_);  // of the rows that were
-  const std::int64_t* x = particles.data<Field::position>();
-  listed_.grains.assign(x, x + particles.owned() * 3);
-  listed_.walls.clear();
-  for (const WallState& w : s.global.walls) listed_.walls.push_back(w.offset);
-  listed_.time = s.global.time;
-  listed_.path = 0;
+  ways_.begin(particles, walls, s.radius, s.skin, scale_.quantum);
   return found;
 }
 
@@ -118,32 +112,19 @@ FieldSet GrainPairs::swept() const {
   return fields;
 }
 
-// Any two may have gone apart by twice the longest way. Another step of the fastest grain must fit after the next, or this
-// look was for nothing.
+// Grains in melts are looked for on the flow's grid, which relies on it that none has gone further than half the skin. Another
+// step of the fastest grain must fit after the next, or this look was for nothing.
 std::optional<SetPair::Look> GrainPairs::look_at_ways(const Particles& particles,
                                                       const GlobalState& global) const {
-  const std::int64_t* x = particles.data<Field::position>();
-  double way2 = 0;
-  for (std::size_t i = 0; i < particles.owned(); ++i) {
-    double w2 = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double w = static_cast<double>(x[i * 3 + a] - listed_.grains[i * 3 + a]);
-      w2 += w * w;
-    }
-    way2 = std::max(way2, w2);
-  }
-  for (std::size_t w = 0; w < global.walls.size(); ++w) {
-    double w2 = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double d = static_cast<double>(global.walls[w].offset[a] - listed_.walls[w][a]);
-      w2 += d * d;
-    }
-    way2 = std::max(way2, w2);
-  }
-  const double longest = std::max(1.0001 * std::sqrt(way2) * scale_.quantum,
-                                  walls_->meshes().longest_way(listed_.time, global.time));
-  const double then = longest + 2 * global.max_speed * global.dt;
-  return Look{{longest, 2 * longest}, {then, 2 * then}};
+  Ways now = ways_.look(particles, walls_->now(global));
+  if (scene_->is_suspension()) now.together = std::max(now.together, 2 * now.alone);
+  const double step = global.max_speed * global.dt;
+  return Look{now, {now.alone + 2 * step, now.together + 4 * step}};
+}
+
+SetPair::LookedAt GrainPairs::looked_at() const {
+  if (scene_->is_suspension()) return {{Field::position}};
+  return {swept(), true};
 }
 
 void GrainPairs::forget_parted(const Particles& particles) {

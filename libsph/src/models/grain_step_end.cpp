@@ -89,7 +89,7 @@ void Grains::act(const Reduction& r, GlobalState& global) {
   walls_.push(global, walls_.forces(r[in_.halves], global));
   if (alone_) {
     walls_.move(global);
-    pairs_.moved(1.0001 * r[Reduction::speed] * global.dt);
+    pairs_.ways().moved(1.0001 * r[Reduction::speed] * global.dt);
   }
 }
 

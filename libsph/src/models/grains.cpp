@@ -127,7 +127,7 @@ ContactContext Grains::context(Particles& particles, double dt, const double* gi
           {scale_.quantum, table_.force_quantum(), table_.torque_quantum()},
           dt,
           {{scene_->domain.gravity[0], scene_->domain.gravity[1], scene_->domain.gravity[2]}, given},
-          alone_ ? pairs_.path() : std::numeric_limits<double>::infinity(),
+          alone_ ? pairs_.ways().path() : std::numeric_limits<double>::infinity(),
           scene_->grains.contact.largest_overlap,
           alone_,
           {particles.data<Field::free_velocity>(), particles.data<Field::free_spin>(),

@@ -115,7 +115,9 @@ class Enumeration {
   /// Force and energy of the contact at `lane` of group `g`, by the law that moves it.
   void respond(Found& f, const ContactGroups& list, std::size_t g, std::size_t lane) const {
     const std::span<const double, 8> table = grains_.table()(f.groups[0], f.groups[1]);
-    const auto stored = [&](std::size_t c) { return list.history[(g * history_ + c) * lanes + lane]; };
+    const auto stored = [&](std::size_t c) {
+      return list.remembers(g) ? list.history_of(g, history_)[c * lanes + lane] : 0.0;
+    };
     std::array<double, most_history> memory{};
     for (std::size_t m = 0; m < law_.history.size(); ++m)
       memory[m] = (law_.history[m] == Parity::odd ? f.turn : 1.0) * stored(springs_ + m);

@@ -98,12 +98,13 @@ class CellBins {
         occupied_(box_.cells(), particles.rows()) {
     const std::size_t rows = particles.rows(), d = static_cast<std::size_t>(particles.dim());
     const std::int64_t* x = particles.data<Field::position>();
-    for (std::size_t i = 0; i < rows; ++i) occupied_.mark(box_.index(x + i * d));
+    std::vector<std::size_t> cell_of_row(rows);
+    for (std::size_t i = 0; i < rows; ++i) occupied_.mark(cell_of_row[i] = box_.index(x + i * d));
     start_.assign(occupied_.number() + 1, 0);
     cell_.resize(start_.size() - 1);
     bin_.resize(rows);
     for (std::size_t i = 0; i < rows; ++i) {
-      const std::size_t cell = box_.index(x + i * d);
+      const std::size_t cell = cell_of_row[i];
       bin_[i] = occupied_.before(cell);
       cell_[bin_[i]] = cell;
       ++start_[bin_[i] + 1];

@@ -121,7 +121,7 @@ decomp::Payload ContactLists::pack(const Particles& p) const {
     }
   };
   each([&](const ContactGroups& g, std::size_t k, std::size_t lane, std::uint32_t i, std::uint32_t j) {
-    const double* history = g.history.data() + k * history_ * lanes + lane;
+    const double* history = g.history_of(k, history_) + lane;
     put(i, &g == &walls_ ? numbers_.key(j) : id[j], history, true);
     if (&g == &pairs_ && j < owned) put(j, id[i], history, false);
   });
@@ -137,6 +137,8 @@ void ContactLists::forget_histories() {
   for (ContactGroups* g : {&pairs_, &walls_}) {
     decomp::release(g->touching);
     decomp::release(g->history);
+    decomp::release(g->late_history);
+    decomp::release(g->place);
     decomp::release(g->asleep);
   }
 }
@@ -169,7 +171,7 @@ ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& pa
       if (const auto other = entries.find(j, id[i])) entries.fate(*other) = what;
     if (!kept) return;
     g->touching[k / lanes] = static_cast<std::uint8_t>(g->touching[k / lanes] | 1u << (k % lanes));
-    double* history = g->history.data() + k / lanes * history_ * lanes + k % lanes;
+    double* history = g->remember(k / lanes, history_) + k % lanes;
     for (std::size_t c = 0; c < history_; ++c) {
       double value;
       std::memcpy(&value, entries.bytes(*entry) + 8 * (1 + c), sizeof value);
@@ -178,7 +180,7 @@ ContactCensus ContactLists::unpack(const Particles& p, const decomp::Payload& pa
     count(found, id[i], wanted);
     if (both) count(found, wanted, id[i]);
   };
-  const std::size_t candidates = blocks_.empty() ? 0 : blocks_.front().candidates.first * lanes;
+  const std::size_t candidates = pairs_.candidates * lanes;
   for (std::size_t k = 0; k < candidates; ++k) place(&pairs_, k);
   for (std::size_t k = 0; k < walls_.i.size(); ++k) place(&walls_, k);
   // Of what did not touch when lists were made: only few rows have entries that are in no place yet.

@@ -44,11 +44,15 @@ class Writer {
     std::fill_n(partners(rest), rest, j);
     add(i, rest);
   }
-  void finish(std::size_t history) {
+  /// Groups from `candidates` on are such.
+  void finish(std::size_t candidates, std::size_t history) {
     g_.i.resize(n_);
     g_.j.resize(n_);
     g_.touching.assign(groups(), 0);
-    g_.history.assign(n_ * history, 0.0);
+    g_.candidates = candidates;
+    g_.history.assign(candidates * lanes * history, 0.0);
+    g_.place.assign(groups() - candidates, ContactGroups::no_place);
+    g_.late_history.clear();
     g_.asleep.assign(groups(), -1.0);
   }
 
@@ -162,12 +166,15 @@ class WallFinder {
     facets_.runs.clear();
   }
 
+  /// Rows to come are in this box, and reach so far.
+  void look_around(const PlaceBox& box, double reach) {
+    find_near(walls_.planes, box, reach, quantum_, planes_);
+  }
   /// Those closer than `reach`, by their numbers, ascending.
   void add(std::uint32_t row, const std::int64_t* x, double reach) {
     found_.clear();
-    for (std::uint32_t w = 0; w < walls_.planes.size(); ++w)
-      if (walls_.planes[w].present && distance_from(walls_.planes[w], x, quantum_) < reach)
-        found_.push_back(w);
+    for (const std::uint32_t w : planes_)
+      if (distance_from(walls_.planes[w], x, quantum_) < reach) found_.push_back(w);
     for (std::size_t m = 0; m < walls_.meshes.size(); ++m) {
       const MeshNow& mesh = walls_.meshes[m];
       if (!mesh.listed) continue;
@@ -187,16 +194,23 @@ class WallFinder {
   double quantum_;
   Writer& list_;
   FacetRuns& facets_;
-  std::vector<std::uint32_t> found_, near_;
+  std::vector<std::uint32_t> planes_, found_, near_;
 };
 
 }  // namespace
+
+std::uint32_t ContactGroups::add_place(std::size_t components) {
+  const std::size_t size = late_history.size(), more = components * lanes;
+  late_history.resize(size + more, 0.0);
+  return static_cast<std::uint32_t>(components > 0 ? size / more : 0);
+}
 
 void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const decomp::Box& own_cells,
                          std::int64_t reach, double skin, double quantum, const RowRanges& ranges,
                          const std::vector<bool>& fixed, const WallsNow& now) {
   std::optional<PartnerFinder> partners(std::in_place, p, grid, own_cells, reach, skin, quantum);
   const auto* group = p.data<Field::group>();
+  const RowPlaces places = p.places();
   const auto* x = p.data<Field::position>();
   const double* radius = p.data<Field::radius>();
   blocks_.clear();
@@ -215,6 +229,8 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
                          {},
                          {walls.groups(), 0},
                          {walls_.facets.runs.size(), 0}};
+      finder.look_around({places, block.first, block.last},
+                         *std::max_element(radius + block.first, radius + block.last) + skin);
       for (std::uint32_t row = block.first; row < block.last; ++row) {
         const bool is_fixed = fixed[group[row]];
         std::span<std::uint32_t> found = partners->find(row, pairs);
@@ -236,9 +252,10 @@ void ContactLists::build(const Particles& p, const decomp::CellGrid& grid, const
     }
   }
   partners.reset();  // before histories come, as memory is at its peak here
+  const std::size_t candidates = pairs.groups();
   apart.append_to(pairs, blocks_);
-  pairs.finish(history_);
-  walls.finish(history_);
+  pairs.finish(candidates, history_);
+  walls.finish(walls.groups(), history_);
   walls_.facets.near.resize(walls_.facets.runs.empty() ? 0 : walls_.i.size());
 }
 

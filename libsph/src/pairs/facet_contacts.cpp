@@ -146,9 +146,7 @@ void FacetContacts::find_histories(const ContactGroups& list, const MeshNow& mes
 }
 
 void FacetContacts::hand_over(ContactGroups& list, std::size_t history) const {
-  const auto place = [&](std::size_t entry) {
-    return list.history.data() + entry / lanes * history * lanes + entry % lanes;
-  };
+  const auto place = [&](std::size_t entry) { return list.remember(entry / lanes, history) + entry % lanes; };
   for (const FacetContact& f : found_) {
     if (f.from == f.entry) continue;
     double *from = place(f.from), *to = place(f.entry);

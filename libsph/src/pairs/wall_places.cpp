@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace sph {
 
@@ -18,6 +19,27 @@ double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantu
   double d = 0;
   for (std::size_t a = 0; a < 3; ++a) d += static_cast<double>(x[a] - plane.point[a]) * plane.normal[a];
   return d * quantum;
+}
+
+PlaceBox::PlaceBox(const RowPlaces& x, std::size_t first, std::size_t last) {
+  lower.fill(std::numeric_limits<std::int64_t>::max());
+  upper.fill(std::numeric_limits<std::int64_t>::min());
+  for (std::size_t i = first; i < last; ++i)
+    for (std::size_t a = 0; a < 3; ++a) {
+      lower[a] = std::min(lower[a], x(i, a));
+      upper[a] = std::max(upper[a], x(i, a));
+    }
+}
+
+// At the corner that is nearest: what distance_from() computes is monotonic in each coordinate.
+void find_near(std::span<const PlaneNow> planes, const PlaceBox& box, double reach, double quantum,
+               std::vector<std::uint32_t>& out) {
+  out.clear();
+  for (std::uint32_t w = 0; w < planes.size(); ++w) {
+    std::array<std::int64_t, 3> corner;
+    for (std::size_t a = 0; a < 3; ++a) corner[a] = planes[w].normal[a] > 0 ? box.lower[a] : box.upper[a];
+    if (planes[w].present && distance_from(planes[w], corner.data(), quantum) < reach) out.push_back(w);
+  }
 }
 
 Point3 MeshNow::in_frame(const std::int64_t* x, double quantum) const {

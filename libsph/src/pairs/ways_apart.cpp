@@ -36,24 +36,25 @@ using Place = std::array<std::int64_t, D>;
 
 /// Where rows will be.
 template <int D>
-class Places {
+class Drift {
  public:
-  Places(const Particles& particles, const std::vector<bool>& is_wall, double time)
-      : x_(particles.data<Field::position>()),
-        v_(particles.data<Field::velocity>()),
+  Drift(const Particles& particles, const std::vector<bool>& is_wall, double time)
+      : x_(particles.places()),
+        v_(time == 0 ? nullptr : particles.data<Field::velocity>()),
         group_(particles.data<Field::group>()) {
     for (const bool wall : is_wall) time_.push_back(wall ? 0.0 : time);
   }
   [[nodiscard]] Place<D> operator()(std::size_t i) const {
-    const double time = time_[group_[i]];
     Place<D> place;
-    for (std::size_t a = 0; a < D; ++a)
-      place[a] = x_[i * D + a] + static_cast<std::int64_t>(v_[i * D + a] * time);
+    for (std::size_t a = 0; a < D; ++a) place[a] = x_(i, a);
+    if (v_ == nullptr) return place;
+    const double time = time_[group_[i]];
+    for (std::size_t a = 0; a < D; ++a) place[a] += static_cast<std::int64_t>(v_[i * D + a] * time);
     return place;
   }
 
  private:
-  const std::int64_t* x_;
+  RowPlaces x_;
   const double* v_;
   const std::uint32_t* group_;
   std::vector<double> time_;  ///< by group [quanta per m/s]
@@ -63,7 +64,7 @@ class Places {
 template <int D>
 class Cells {
  public:
-  Cells(const Places<D>& places, std::size_t rows, double near) {
+  Cells(const Drift<D>& places, std::size_t rows, double near) {
     Place<D> last;
     first_.fill(std::numeric_limits<std::int64_t>::max());
     last.fill(std::numeric_limits<std::int64_t>::min());
@@ -112,9 +113,10 @@ class Cells {
 }  // namespace
 
 void WaysApart::begin(const Particles& particles, std::int64_t reach) {
+  dim_ = static_cast<std::size_t>(particles.dim());
   reach_ = reach;
   shift_ = std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(reach))) - 28, 0);
-  const std::size_t n = particles.rows() * static_cast<std::size_t>(particles.dim());
+  const std::size_t n = particles.rows() * dim_;
   const std::int64_t* x = particles.data<Field::position>();
   begin_.resize(n);
   for (std::size_t k = 0; k < n; ++k) begin_[k] = static_cast<std::uint32_t>(x[k] >> shift_);
@@ -130,7 +132,7 @@ WaysApart::Ways WaysApart::look(const Particles& particles, const std::vector<bo
 template <int D>
 WaysApart::Ways WaysApart::look_in(const Particles& particles, const std::vector<bool>& is_wall,
                                    double time) const {
-  const Places<D> places(particles, is_wall, time);
+  const Drift<D> places(particles, is_wall, time);
   const Cells<D> cells(places, particles.rows(), static_cast<double>(reach_));
   Span<D> none;
   none.most.fill(nothing);
@@ -141,8 +143,7 @@ WaysApart::Ways WaysApart::look_in(const Particles& particles, const std::vector
     Span<D> way;
     double way2 = 0;
     for (std::size_t a = 0; a < D; ++a) {
-      const auto w =
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(x[a] >> shift_) - begin_[i * D + a]);
+      const std::int32_t w = units(i * D + a, x[a]);
       way.most[a] = w;
       way.most[D + a] = -w;
       way2 += static_cast<double>(w) * static_cast<double>(w);
@@ -158,8 +159,7 @@ WaysApart::Ways WaysApart::look_in(const Particles& particles, const std::vector
   for (const Span<D>& block : spans)
     if (block.most[0] != nothing) apart2 = std::max(apart2, block.square());
   // A component is less than two units off, a difference of two of them less than four.
-  const double unit = std::ldexp(1.0, shift_);
-  return {(std::sqrt(longest2) + 4) * unit, (std::sqrt(apart2) + 8) * unit};
+  return {(std::sqrt(longest2) + 4) * unit(), (std::sqrt(apart2) + 8) * unit()};
 }
 
 }  // namespace sph

@@ -76,11 +76,11 @@ void Distribution::wrap_positions(Particles& particles) const {
 
 Findings Distribution::outside(const Particles& particles) const {
   const std::size_t d = static_cast<std::size_t>(particles.dim());
-  const std::int64_t* x = particles.data<Field::position>();
+  const RowPlaces x = particles.places();
   Findings found;
   for (std::size_t i = 0; i < particles.owned(); ++i) {
     decomp::Int3 p{};
-    for (std::size_t a = 0; a < d; ++a) p[a] = x[i * d + a];
+    for (std::size_t a = 0; a < d; ++a) p[a] = x(i, a);
     if (grid_.inside(p)) continue;
     const Group& group = scene_.groups[particles.data<Field::group>()[i]];
     if (is_deleted(scene_, scale_, group, p.data())) continue;

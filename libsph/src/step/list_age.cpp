@@ -74,7 +74,8 @@ std::optional<std::vector<SetPair::Ways>> ListAge::measure(std::span<ParticleSet
   std::vector<double> all(4 * ways_.size(), 0);
   for (const SetPair* pair : pairs_) {
     ParticleSet& set = sets[pair->set()];
-    set.refresh(pair->looked_at(), timers);
+    const SetPair::LookedAt looked_at = pair->looked_at();
+    set.refresh(looked_at.fields, timers, looked_at.in_lines);
     const auto timing = timers.time(decomp::Region::lists);
     const std::optional<SetPair::Look> own = pair->look_at_ways(set.particles, state_.global());
     if (!own) return std::nullopt;

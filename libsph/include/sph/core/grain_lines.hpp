@@ -21,6 +21,22 @@ struct GrainLines {
   void poison(FieldSet fields, std::size_t owned);
 };
 
+/// Where rows are, in columns or in lines, which stay what they are [quanta].
+class RowPlaces {
+ public:
+  RowPlaces(const void* first, std::size_t bytes_of_row)
+      : first_(static_cast<const std::byte*>(first)), bytes_(bytes_of_row) {}
+  [[nodiscard]] std::int64_t operator()(std::size_t row, std::size_t axis) const {
+    std::int64_t x;
+    std::memcpy(&x, first_ + row * bytes_ + axis * sizeof x, sizeof x);
+    return x;
+  }
+
+ private:
+  const std::byte* first_;
+  std::size_t bytes_;
+};
+
 /// The bits of the coordinates that a row of GrainLines::motion begins with.
 [[nodiscard]] inline std::array<std::int64_t, 3> position_in(const void* line) {
   std::array<std::int64_t, 3> x;

@@ -64,6 +64,10 @@ class Particles {
   static constexpr FieldSet in_lines{Field::position, Field::velocity, Field::spin};
   [[nodiscard]] GrainLines& lines();
   [[nodiscard]] bool has_lines() const { return lines_ != nullptr; }
+  [[nodiscard]] RowPlaces places() const {
+    if (has_lines()) return {lines_->motion.data(), GrainLines::motion_width * sizeof(double)};
+    return {data<Field::position>(), static_cast<std::size_t>(dim_) * sizeof(std::int64_t)};
+  }
 
  private:
   void settle() const {

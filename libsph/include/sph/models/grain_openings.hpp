@@ -46,7 +46,7 @@ class GrainOpenings final : public Model {
 
   [[nodiscard]] std::size_t faces() const { return outlets_.size(); }  ///< their passage
   void open_outlets(const GlobalState& before);
-  void find_leavers(const Particles& particles, const GrainPlaces& places);
+  void find_leavers(const Particles& particles);
   void find_leavers(const decomp::Comm& comm, const Particles& particles, std::span<const std::uint64_t> ids);
   [[nodiscard]] std::vector<bool> staying(const Particles& particles) const;  ///< by row
   [[nodiscard]] std::uint64_t next_id(const GlobalState& global) const;

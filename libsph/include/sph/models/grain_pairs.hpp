@@ -10,6 +10,7 @@
 #include "sph/core/findings.hpp"
 #include "sph/models/grain_walls.hpp"
 #include "sph/pairs/contact_context.hpp"
+#include "sph/pairs/grain_ways.hpp"
 #include "sph/pairs/set_pair.hpp"
 
 namespace sph {
@@ -42,15 +43,14 @@ class GrainPairs final : public SetPair {
   [[nodiscard]] decomp::Payload pack(const Particles& particles) const;
   [[nodiscard]] std::optional<Look> look_at_ways(const Particles& particles,
                                                  const GlobalState& global) const override;
+  [[nodiscard]] LookedAt looked_at() const override;
 
   /// Contacts each rank has seen begin, end and come back after rows had moved.
   struct Counters {
     std::int64_t created = 0, ended = 0, carried = 0;
   };
   [[nodiscard]] const Counters& counters() const { return counters_; }
-  /// Grains have moved by at most `way` [m] and a rounding.
-  void moved(double way) { listed_.path += way + 2 * scale_.quantum; }
-  [[nodiscard]] double path() const { return listed_.path; }
+  [[nodiscard]] GrainWays& ways() { return ways_; }
   void forget_parted(const Particles& particles);
   void add(const ContactSweep& swept);
 
@@ -70,13 +70,7 @@ class GrainPairs final : public SetPair {
       sums_;  ///< zeros between steps; not there while contacts are packed, when memory is at its peak
   std::optional<decomp::Payload> held_;  ///< contacts of rows that are not those of the lists
   ContactCensus sent_;                   ///< of what travels
-  struct Places {
-    std::vector<std::int64_t> grains;
-    std::vector<std::array<std::int64_t, 3>> walls;
-    double time = 0;
-    double path = 0;  ///< no grain has gone further since [m]
-  };
-  Places listed_;  ///< when the lists were made [quanta, s]
+  GrainWays ways_;
   Counters counters_;
 };
 

@@ -26,8 +26,8 @@ class SphPairs final : public SetPair {
                std::span<const std::uint32_t> order) override;
   [[nodiscard]] std::optional<Look> look_at_ways(const Particles& particles,
                                                  const GlobalState& global) const override;
-  [[nodiscard]] FieldSet looked_at() const override {
-    return {Field::position, Field::velocity, Field::group};
+  [[nodiscard]] LookedAt looked_at() const override {
+    return {{Field::position, Field::velocity, Field::group}};
   }
   void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const override;
 

@@ -38,6 +38,7 @@ struct ContactPull {
 
 struct ContactQuanta {
   double length, force, torque;
+  double per_force = 1 / force, per_torque = 1 / torque;
 };
 
 /// How grains move that have no inertia, columns of the grains: v = free + mobility F (models/suspension.hpp). Null

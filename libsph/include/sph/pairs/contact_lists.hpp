@@ -52,11 +52,32 @@ struct ContactGroups {
   static constexpr std::uint32_t no_wall = ~std::uint32_t{0};
   decomp::LargeVector<std::uint32_t> i, j;  ///< [groups * lanes]
   std::vector<std::uint8_t> touching;       ///< [groups] bit l: lane l touched in the last step
-  decomp::LargeVector<double> history;      ///< [groups][components][lanes]
+  decomp::LargeVector<double> history;      ///< [those before `candidates`][components][lanes]
+  std::size_t candidates = 0;               ///< the first of them
+  /// Few candidates ever touch: those that have are in places here, in the order in which they did.
+  static constexpr std::uint32_t no_place = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place;          ///< [candidates]
+  decomp::LargeVector<double> late_history;  ///< [places][components][lanes]
   /// [groups] No pair of the group touches before grains have gone so far since the lists were made [m].
   std::vector<double> asleep;
   FacetRuns facets;  ///< of walls
   [[nodiscard]] std::size_t groups() const { return touching.size(); }
+  /// Of a group that is no candidate, or has been one that touched.
+  [[nodiscard]] const double* history_of(std::size_t group, std::size_t components) const {
+    if (group < candidates) return history.data() + group * components * lanes;
+    return late_history.data() + place[group - candidates] * components * lanes;
+  }
+  [[nodiscard]] bool remembers(std::size_t group) const {
+    return group < candidates || place[group - candidates] != no_place;
+  }
+  /// Of any group, which has one from now on.
+  [[nodiscard, gnu::always_inline]] double* remember(std::size_t group, std::size_t components) {
+    if (group < candidates) return history.data() + group * components * lanes;
+    std::uint32_t& at = place[group - candidates];
+    if (at == no_place) at = add_place(components);
+    return late_history.data() + at * components * lanes;
+  }
+  std::uint32_t add_place(std::size_t components);
   /// Lanes that touched.
   [[nodiscard]] std::int64_t contacts() const {
     std::int64_t n = 0;

@@ -102,7 +102,7 @@ struct ContactPass {
     const V gone = V::zero();
     const auto touching = [&](V x) { return where_less(gone, contact.overlap, x); };
     Answer out;
-    double* stored = list.history.data() + g * history * lanes;
+    double* stored = list.remember(g, history);
     V memory[memories > 0 ? memories : 1];
     for (int m = 0; m < memories; ++m) memory[m] = V::load(stored + (springs + m) * lanes);
     const NormalForce<V> normal = normal_force<NormalLaw>(contact, k, memory);
@@ -276,7 +276,7 @@ struct ContactPass {
   [[gnu::always_inline]] static void add_answer(const ContactContext& c, const Rows& rows,
                                                 const Partners& two, const Answer& answer,
                                                 ContactSweep& sweep) {
-    const V force_scale(1 / c.quantum.force);
+    const V force_scale(c.quantum.per_force);
     decltype(Sums::lanes(V())) on_i[stride] = {}, on_j[stride] = {};
     V worst = V::zero();
     for (int a = 0; a < 3; ++a) {
@@ -286,7 +286,7 @@ struct ContactPass {
       on_i[a] = -on_j[a];
     }
     if constexpr (spins) {
-      const V torque_scale(1 / c.quantum.torque);
+      const V torque_scale(c.quantum.per_torque);
       for (int a = 0; a < 3; ++a) {
         on_i[4 + a] = Sums::lanes((-answer.roll[a] - two.ri * answer.couple[a]) * torque_scale);
         on_j[4 + a] = Sums::lanes((answer.roll[a] - two.rj * answer.couple[a]) * torque_scale);
@@ -350,7 +350,7 @@ struct ContactPass {
     if (contact.overlap[k] > deepest)
       note(c, list.i[entry], of_wall(), contact.overlap[k], deepest, sweep.deep);
     for (int a = 0; a < 3; ++a) {
-      const double f = answer.force[a][k] * (1 / c.quantum.force);
+      const double f = answer.force[a][k] * c.quantum.per_force;
       if (std::fabs(f) > largest_force)
         note(c, list.i[entry], of_wall(), std::fabs(f), largest_force, sweep.strong);
       const Sum sum = Sums::scalar(f);
@@ -363,7 +363,7 @@ struct ContactPass {
       if constexpr (spins) {
         const double torque = -answer.roll[a][k] - contact.radius[k] * answer.couple[a][k];
         rows.sums[i * stride + 4 + static_cast<std::size_t>(a)] +=
-            Sums::scalar(torque * (1 / c.quantum.torque));
+            Sums::scalar(torque * c.quantum.per_torque);
       }
     }
   }

@@ -51,7 +51,7 @@ class ContactPrefetch {
   /// Rows i of a group, which follow each other, each for some pairs, and its histories.
   [[gnu::always_inline]] void own(std::size_t g) const {
     for (std::size_t l = 0; l < lanes; l += 4) row(list_.i[g * lanes + l]);
-    for (std::size_t component = 0; component < history; ++component)
+    for (std::size_t component = 0; component < history && g < list_.candidates; ++component)
       __builtin_prefetch(&list_.history[(g * history + component) * lanes], 1);
   }
 

@@ -66,8 +66,12 @@ class SetPair {
   [[nodiscard]] virtual std::optional<Look> look_at_ways(const Particles&, const GlobalState&) const {
     return std::nullopt;
   }
-  /// Fields that must be up to date in the halo for that.
-  [[nodiscard]] virtual FieldSet looked_at() const { return {}; }
+  struct LookedAt {
+    FieldSet fields;        ///< that must be up to date in the halo ...
+    bool in_lines = false;  ///< ... and are there (core/grain_lines.hpp)
+  };
+  /// For that.
+  [[nodiscard]] virtual LookedAt looked_at() const { return {}; }
   /// How many entries are looked at for each owned row, as far as blocks tell: what it costs.
   virtual void count(const RowRanges& ranges, std::span<std::uint32_t> entries) const = 0;
 

@@ -41,6 +41,16 @@ struct PlaneNow {
 /// Of a point from a plane, along its normal [m].
 [[nodiscard]] double distance_from(const PlaneNow& plane, const std::int64_t* x, double quantum);
 
+/// Bounds of places, each included [quanta].
+struct PlaceBox {
+  std::array<std::int64_t, 3> lower, upper;
+  PlaceBox(const RowPlaces& x, std::size_t first, std::size_t last);
+};
+
+/// The planes that are, and of which distance_from() a place in the box may be less than `reach`, ascending.
+void find_near(std::span<const PlaneNow> planes, const PlaceBox& box, double reach, double quantum,
+               std::vector<std::uint32_t>& out);
+
 /// A surface about its centre, turned and moved: x = centre + way + R x_0.
 struct MeshNow {
   const TriangleSurface* surface;

@@ -27,8 +27,8 @@ struct ParticleSet {
   OwnersOf owners{};        ///< of a set that stays where it is; empty: rows follow the cuts
 
   /// Brings the halo copies of these fields up to date.
-  void refresh(FieldSet fields, decomp::Timers& timers) {
-    exchange.begin(halo, particles, fields, timers);
+  void refresh(FieldSet fields, decomp::Timers& timers, bool in_lines = false) {
+    exchange.begin(halo, particles, fields, timers, in_lines);
     exchange.end(halo, timers);
   }
   /// Its owned particles, over all ranks: what `census` is unless some were lost. Collective.
