@@ -146,9 +146,9 @@ void Grains::sweep(const StepState& s, std::span<const ContactBlock> blocks) {
   pairs_.add(now);
 }
 
-// In company stages say how far grains and walls drift.
+// In company stages say how far grains and walls drift. Each component of a way is rounded to a whole quantum.
 double Grains::path(const GlobalState& global, double speed) const {
-  return alone_ ? std::max(1.0001 * speed * global.dt, walls_.longest_way(global)) : 0.0;
+  return alone_ ? std::max(1.0001 * speed * global.dt, walls_.longest_way(global)) + 2 * scale_.quantum : 0.0;
 }
 
 }  // namespace sph
