@@ -250,41 +250,23 @@ TEST(WallWays, grains_that_fall_together_in_a_drum_that_turns) {
 
 // A way of 0.6 quanta is a whole one; both go it, and a skin of 1000 quanta is used up before 834 steps of it.
 TEST(WallWays, roundings_of_ways_count) {
-  const std::string slow = R"(
-dimension = 3
-[domain]
-lower = [0, 0, 0]
-upper = [0.006, 0.006, 0.006]
-[contact]
-law = "linear"
-largest_overlap = 0.4
-[[group]]
-name = "sand"
-kind = "grain"
-density = 2500
-diameter = 1e-3
-normal_stiffness = 100
-restitution = 0.5
-friction = 0.4
+  const std::string wall = R"(
 [[wall]]
 name = "floor"
 material = "sand"
 point = [0, 0, 1e-3]
 normal = [0, 0, 1]
 velocity = [0, 0, 1.0408340855860841e-13]
-[time]
-dt = 1e-05
-steps = 1
-[decomposition]
-skin = 1.734723475976807e-12
 )";
   const decomp::Comm comm(MPI_COMM_WORLD), self(MPI_COMM_SELF);
   const test::StartFile file(
       comm, {{"sand", {0.003, 0.003, 0.0015000000000017356}, {0, 0, -1.0408340855860841e-13}, {}, 0.0005}});
-  std::vector<std::string> more{"start.file=" + file.path()};
-  Simulation s(self, parse_scene(slow, "slow", more));
+  std::vector<std::string> more{"start.file=" + file.path(), "domain.gravity=[0,0,0]",
+                                "group.sand.diameter=1e-3", "time.dt=1e-5",
+                                "decomposition.skin=1.734723475976807e-12"};
+  Simulation s(self, parse_scene(scene + wall, "slow", more));
   more.emplace_back("decomposition.rebuild_every=1");
-  Simulation often(self, parse_scene(slow, "slow", more));
+  Simulation often(self, parse_scene(scene + wall, "slow", more));
   for (int k = 0; k < 700; ++k) s.step(), often.step();
   EXPECT_EQ(s.fingerprint(), often.fingerprint());
   EXPECT_GT(often.grains()->pairs().counters().created, 0);
