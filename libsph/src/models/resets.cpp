@@ -89,7 +89,9 @@ bool Resets::report(const StepState&, Reduction& r) {
   return true;
 }
 
+// A fault comes first: where particles are then depends on the lists.
 void Resets::guard(const decomp::Comm&, const StepState& s, const Reduction& r) const {
+  if (r[Reduction::bad] > 0) return;
   for (std::size_t k = 0; k < boxes_.size(); ++k)
     if (boxes_[k].inflow && due(boxes_[k], s.global) > 0 && r[in_][*boxes_[k].inflow] == 0)
       throw GuardError(fmt::format(
