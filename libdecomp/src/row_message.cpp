@@ -9,7 +9,7 @@ namespace decomp {
 
 std::vector<std::byte> pack_rows(const Table& table, const Payload* payload,
                                  std::span<const std::uint32_t> rows) {
-  std::size_t bytes = sizeof(RowMessageHead) + rows.size() * table.row_bytes();
+  std::size_t bytes = sizeof(RowMessageHead) + rows.size() * table.kept_bytes();
   if (payload != nullptr) {
     bytes += rows.size() * sizeof(std::uint64_t);
     for (const std::uint32_t r : rows) bytes += payload->offset[r + 1] - payload->offset[r];
@@ -24,6 +24,7 @@ std::vector<std::byte> pack_rows(const Table& table, const Payload* payload,
   const RowMessageHead head{bytes, rows.size()};
   put(&head, sizeof head);
   for (int c = 0; c < table.columns(); ++c) {
+    if (!table.column(c).kept()) continue;
     const std::size_t width = table.column(c).width();
     gather_rows(to, table.column(c).data(), rows, width);
     to += rows.size() * width;
@@ -52,7 +53,7 @@ void append_rows(std::span<const std::vector<std::byte>> messages, Table& table,
     const std::size_t n = head_of(m).rows;
     rows += n;
     if (payload != nullptr)
-      payload_bytes += m.size() - sizeof(RowMessageHead) - n * (table.row_bytes() + sizeof(std::uint64_t));
+      payload_bytes += m.size() - sizeof(RowMessageHead) - n * (table.kept_bytes() + sizeof(std::uint64_t));
   }
   table.resize(rows, 0);
   if (payload != nullptr) {
@@ -64,6 +65,7 @@ void append_rows(std::span<const std::vector<std::byte>> messages, Table& table,
     const std::size_t n = head_of(m).rows;
     const std::byte* from = m.data() + sizeof(RowMessageHead);
     for (int c = 0; c < table.columns(); ++c) {
+      if (!table.column(c).kept()) continue;
       const std::size_t width = table.column(c).width();
       if (n > 0) std::memcpy(table.column(c).data() + row * width, from, n * width);
       from += n * width;

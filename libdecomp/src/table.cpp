@@ -23,11 +23,11 @@ void Column::reserve(std::size_t rows) {
   const std::size_t capacity = std::max(rows, capacity_ + capacity_ / 8);
   const std::size_t bytes = capacity * width_ + padding;
   std::unique_ptr<std::byte[], Free> grown(static_cast<std::byte*>(allocate_large(bytes)));
-  const std::size_t kept = capacity_ * width_;
-  if (kept > 0) std::memcpy(grown.get(), data_.get(), kept);
+  const std::size_t old = kept() ? capacity_ * width_ : 0;
+  if (old > 0) std::memcpy(grown.get(), data_.get(), old);
   // Lanes past the last row are computed and thrown away: zeros keep them from raising traps.
-  std::memset(grown.get() + kept, 0, bytes - kept);
-  poison(grown.get() + kept, bytes - kept);
+  if (kept()) std::memset(grown.get() + old, 0, bytes - old);
+  poison(grown.get() + old, bytes - old);
   data_ = std::move(grown);
   capacity_ = capacity;
 }
@@ -37,17 +37,17 @@ void Column::swap_data(Column& other) noexcept {
   std::swap(capacity_, other.capacity_);
 }
 
-int Table::add_column(std::string name, std::size_t width) {
+int Table::add_column(std::string name, std::size_t width, Values values) {
   if (rows() != 0) throw std::logic_error("column '" + name + "' added to a table that has rows");
   if (width == 0) throw std::logic_error("column '" + name + "' has no width");
-  columns_.emplace_back(std::move(name), width);
+  columns_.emplace_back(std::move(name), width, values);
   columns_.back().reserve(0);
   return columns() - 1;
 }
 
-std::size_t Table::row_bytes() const {
+std::size_t Table::kept_bytes() const {
   std::size_t sum = 0;
-  for (const Column& c : columns_) sum += c.width();
+  for (const Column& c : columns_) sum += c.kept() ? c.width() : 0;
   return sum;
 }
 
@@ -63,6 +63,11 @@ void Table::reorder(std::span<const std::uint32_t> order) {
   std::map<std::size_t, Column> spare;  // one of each width
   for (Column& c : columns_) {
     const std::size_t width = c.width();
+    if (!c.kept()) {
+      c.reserve(order.size());
+      poison(c.data(), order.size() * width);
+      continue;
+    }
     Column& to = spare.try_emplace(width, "spare", width).first->second;
     to.reserve(order.size() + halo_);  // or the next resize would take the column twice for a while
     gather_rows(to.data(), c.data(), order, width);

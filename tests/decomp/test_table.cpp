@@ -74,8 +74,8 @@ TEST(Column, swaps_storage) {
 
 TEST(Table, knows_its_shape) {
   Table table = make_table(2);
-  EXPECT_EQ(table.columns(), 2 + static_cast<int>(value_widths.size()));
-  EXPECT_EQ(table.row_bytes(), 8U + 16U + 1 + 4 + 5 + 8 + 12 + 16 + 24 + 32 + 48);
+  EXPECT_EQ(table.columns(), 3 + static_cast<int>(value_widths.size()));
+  EXPECT_EQ(table.kept_bytes(), 8U + 16U + 1 + 4 + 5 + 8 + 12 + 16 + 24 + 32 + 48);
   EXPECT_EQ(table.rows(), 0U);
   table.resize(5, 3);
   EXPECT_EQ(table.owned(), 5U);
@@ -110,6 +110,22 @@ TEST(Table, reorder_moves_every_column_and_may_drop_rows) {
     EXPECT_EQ(table.halo(), 0U);
     expect_rows(table, moved);
     ids = moved;
+  }
+}
+
+TEST(Table, what_passes_stays_where_rows_move) {
+  Table table;
+  table.add_column("id", sizeof(Gid));
+  table.add_column("sum", sizeof(Gid), decomp::Values::passing);
+  table.resize(100, 0);
+  EXPECT_EQ(table.kept_bytes(), sizeof(Gid));
+  for (std::size_t r = 0; r < 100; ++r) table.as<Gid>(0)[r] = table.as<Gid>(1)[r] = r;
+  std::vector<std::uint32_t> order(100);
+  std::iota(order.rbegin(), order.rend(), 0U);
+  table.reorder(order);
+  for (std::size_t r = 0; r < 100; ++r) {
+    EXPECT_EQ(table.as<Gid>(0)[r], 99 - r);
+    EXPECT_EQ(table.as<Gid>(1)[r], decomp::poisons() ? ~Gid{0} : r);
   }
 }
 

@@ -84,7 +84,7 @@ class Memory(Case):
                     f"start.upper={[2.001 + wall, 0.6105 + wall, 0.7]}", "decomposition.rebuild_every=3",
                     'precision="mixed"')
 
-        self.assert_takes(900, (scene, settings(0.0145)), (scene, settings(0.008)))
+        self.assert_takes(760, (scene, settings(0.0145)), (scene, settings(0.008)))
 
 
 if __name__ == "__main__":

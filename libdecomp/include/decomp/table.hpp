@@ -11,17 +11,23 @@
 
 namespace decomp {
 
+/// What becomes of a column's values where rows move: they go with their rows; or they are written anew before anyone
+/// reads them, so that they take no time, no messages and, in rows that nobody writes, no memory.
+enum class Values : std::uint8_t { kept, passing };
+
 /// One column: `width` bytes a row, contiguous by row, 64-byte aligned, padded so that a SIMD block that
 /// starts at any row may be read past the end without leaving the allocation.
 class Column {
  public:
-  Column(std::string name, std::size_t width) : name_(std::move(name)), width_(width) {}
+  Column(std::string name, std::size_t width, Values values = Values::kept)
+      : name_(std::move(name)), width_(width), values_(values) {}
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] bool kept() const { return values_ == Values::kept; }
   [[nodiscard]] std::byte* data() { return data_.get(); }
   [[nodiscard]] const std::byte* data() const { return data_.get(); }
   [[nodiscard]] std::size_t capacity() const { return capacity_; }  ///< rows
-  void reserve(std::size_t rows);          ///< keeps the contents of the first min(old, new) rows
+  void reserve(std::size_t rows);          ///< keeps what is kept of the first min(old, new) rows
   void swap_data(Column& other) noexcept;  ///< exchanges storage with a column of the same width
 
  private:
@@ -30,6 +36,7 @@ class Column {
   };
   std::string name_;
   std::size_t width_;
+  Values values_;
   std::size_t capacity_ = 0;
   std::unique_ptr<std::byte[], Free> data_;
 };
@@ -37,11 +44,11 @@ class Column {
 class Table {
  public:
   /// Returns the new column's index. Only while the table is empty.
-  int add_column(std::string name, std::size_t width);
+  int add_column(std::string name, std::size_t width, Values values = Values::kept);
   [[nodiscard]] int columns() const { return static_cast<int>(columns_.size()); }
   [[nodiscard]] Column& column(int c) { return columns_[static_cast<std::size_t>(c)]; }
   [[nodiscard]] const Column& column(int c) const { return columns_[static_cast<std::size_t>(c)]; }
-  [[nodiscard]] std::size_t row_bytes() const;  ///< sum of widths
+  [[nodiscard]] std::size_t kept_bytes() const;  ///< of a row: sum of widths of what is kept
 
   [[nodiscard]] std::size_t owned() const { return owned_; }
   [[nodiscard]] std::size_t halo() const { return halo_; }

@@ -156,7 +156,7 @@ EventCounts events_of(const Simulation& s) {
   EventCounts e;
   e.rebuilds = s.rebuilds();
   e.migrated = s.comm().sum(s.distribution().migrated());
-  e.refreshes = s.refreshes();
+  for (const ParticleSet& set : s.sets()) e.refreshes += set.exchange.refreshes();
   e.iterations = s.counters().iterations;
   return e;
 }

@@ -20,15 +20,15 @@
 namespace sph {
 namespace {
 
-// Largest resident memory of runs, less the 28 MB of a program without particles, over their particles: 410
-// bytes in 2D (fields 100, 27 neighbours), 800 in 3D (228, 86), 540 of grains (100, 3.4 contacts). Besides
-// fields and lists that is: rows of the passes, tables for files, contacts that travel.
+// Largest resident memory of runs, less the 28 MB of a program without particles, over their particles: 360
+// bytes in 2D (fields 100, 23 neighbours), 690 in 3D (228, 86), 450 to 590 of grains (100, 3.4 contacts). Besides
+// fields and lists that is: rows of the passes, tables for files, contacts that travel or are written.
 constexpr double field_factor = 1.1;
 constexpr double bytes_of_neighbour = 4;
 constexpr double bytes_of_uneven_neighbour = 8;  ///< lists of a gas are there twice while they are made
 constexpr double sum_factor = 1;
-constexpr double contact_factor = 1.5;
-constexpr double bytes_of_row = 200;  ///< of passes, bins, order, files
+constexpr double contact_factor = 2;
+constexpr double bytes_of_row = 140;  ///< of passes, bins, order, files
 /// A settled bed lists about so many pairs a grain, once each.
 constexpr double contacts_of_grain = 3.4;
 /// Place along the curve, and two bits in each of five tables of what is occupied.

@@ -103,6 +103,7 @@ class Run {
       series_.done(t);
     }
     if (snapshots_.due(t)) {
+      simulation_.make_room();
       files_.add_snapshot(simulation_, true);
       snapshots_.done(t);
       last_snapshot_ = simulation_.global().step;
@@ -112,6 +113,7 @@ class Run {
   void checkpoint() {
     const auto timing = simulation_.timers().time(decomp::Region::output);
     const auto begin = WallClock::now();
+    simulation_.make_room();
     files_.write_checkpoint(simulation_);
     checkpoint_ = simulation_.global().step;
     control_.checkpoint_took(seconds_since(begin));
@@ -121,6 +123,7 @@ class Run {
     if (last_snapshot_ != simulation_.global().step) {
       if (checkpoint_ == simulation_.global().step) simulation_.derive_for_output();
       const auto timing = simulation_.timers().time(decomp::Region::output);
+      simulation_.make_room();
       files_.add_snapshot(simulation_, false);
     }
     if (checkpoint_ != simulation_.global().step) checkpoint();

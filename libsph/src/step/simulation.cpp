@@ -65,6 +65,7 @@ void Simulation::kick_half_a_step(const Accelerate& accelerate) {
 // pairs of sets.
 void Simulation::rebuild() {
   united_.reset();
+  runner_.forget_rows();
   const std::span<ParticleSet> sets = movable(sets_);
   std::vector<Distribution::Carried> carried(sets.size());
   double least_skin = 0;

@@ -148,12 +148,6 @@ void Simulation::scatter() {
   }
 }
 
-std::int64_t Simulation::refreshes() const {
-  std::int64_t n = 0;
-  for (const ParticleSet& set : sets_) n += set.exchange.refreshes();
-  return n;
-}
-
 void Simulation::derive_for_output() {
   const std::vector<Entry>& stages = parts_.plan.output;
   if (stages.empty()) return;

@@ -34,8 +34,8 @@ enum class Type : std::uint8_t { f64, i64, u64, u32 };
 enum class SumScale : std::uint8_t { none, one, gradient, force, diffusion };
 
 /// state: its bits at the start of a step determine the next step, so it is checkpointed and fingerprinted.
-/// derived: computed from state in each step, before it is read; it goes with its row where lists are made in
-/// between. `snapshot`: written to snapshots when the scene allocates it.
+/// derived: computed from state in each step, before it is read; unless it is in `passing_sums` it goes with its row where
+/// lists are made in between. `snapshot`: written to snapshots when the scene allocates it.
 struct FieldInfo {
   Field field;
   std::string_view name;
@@ -380,5 +380,11 @@ class FieldSet {
 /// Running averages for output. They migrate and are checkpointed like state, but no step reads them: the
 /// fingerprint leaves them out, so that it does not depend on what is written.
 inline constexpr FieldSet output_averages{Field::velocity_mean, Field::pressure_mean};
+
+/// Sums that are taken anew before anyone reads them, wherever in a step lists are made: their rows neither move nor
+/// migrate.
+inline constexpr FieldSet passing_sums{Field::divergence,           Field::diffusion,
+                                       Field::velocity_gradient,    Field::wall_sums,
+                                       Field::wall_sums_by_density, Field::wall_share};
 
 }  // namespace sph

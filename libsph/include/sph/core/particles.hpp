@@ -31,7 +31,9 @@ class Particles {
   Particles(int dim, FieldSet fields) : dim_(dim), fields_(fields) {
     column_.fill(-1);
     for (Field f : fields.list())
-      column_[static_cast<std::size_t>(f)] = table_.add_column(std::string(info(f).name), width(f, dim));
+      column_[static_cast<std::size_t>(f)] =
+          table_.add_column(std::string(info(f).name), width(f, dim),
+                            passing_sums.has(f) ? decomp::Values::passing : decomp::Values::kept);
   }
   [[nodiscard]] int dim() const { return dim_; }
   [[nodiscard]] FieldSet fields() const { return fields_; }

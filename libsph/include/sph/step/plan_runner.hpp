@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "decomp/memory.hpp"
 #include "decomp/timer.hpp"
 #include "sph/core/findings.hpp"
 #include "sph/models/parts.hpp"
@@ -32,6 +33,8 @@ class PlanRunner {
       : comm_(comm), parts_(parts), sets_(sets), age_(age), timers_(timers) {}
 
   void run(const std::vector<Entry>& entries, GlobalState& global);
+  /// Before rows move: what sums over pairs have packed of them gives way to what sorting takes.
+  void forget_rows() { decomp::release(rows_); }
 
   /// What a caller gives in the step at hand, if there is one. Rows stay where they are from there to the kick.
   void ask(const Accelerate& accelerate, double time);

@@ -39,10 +39,11 @@ class Simulation : public State {
   /// Of a simulation that has made no step since its checkpoint: computes what a snapshot holds besides the
   /// state, the pressure on walls. Changes no bit of the state.
   void derive_for_output();
+  /// Gives back, before files take memory, what only the step needed.
+  void make_room() { runner_.forget_rows(); }
 
   [[nodiscard]] decomp::Timers& timers() { return timers_; }
   [[nodiscard]] std::int64_t rebuilds() const { return rebuilds_; }
-  [[nodiscard]] std::int64_t refreshes() const;  ///< of the halos
   [[nodiscard]] const PlanRunner::Counters& counters() const { return runner_.counters(); }
 
  private:
