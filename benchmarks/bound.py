@@ -14,6 +14,7 @@ import json
 import re
 import subprocess
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,23 +42,7 @@ class Kernel:
     settings: tuple
     steps: int
     pairs: str  # a particle, in perf.json
-
-
-def fluid(title, precision, *terms):
-    real, lanes = ("float", 16) if precision == "mixed" else ("double", 8)
-    name = f"sph::PairPass<{real}, 3, sph::Quintic, {', '.join('sph::' + term for term in terms)}>::run"
-    return Kernel(f"3D fluid, {precision}, {title}", name, lanes, "vortices_3d.toml", (f'precision="{precision}"', "terms.shifting=false"), 60,
-                  "neighbours_per_particle")
-
-
-def contacts(law):
-    name = f"sph::ContactPass<sph::{law.capitalize()}Normal, sph::Coulomb, sph::NoRolling, true, sph::QuantumSums>::add_pairs"
-    return Kernel(f"contacts, {law}", name, 8, "grain_bed.toml", (law,), 400, "pairs_per_particle")
-
-
-KERNELS = [fluid(title, precision, *terms) for precision in ("mixed", "double")
-           for title, terms in (("density", ("Divergence", "UniformDensityDiffusion")), ("forces", ("Pressure", "UniformViscosity")))]
-KERNELS += [contacts("linear"), contacts("hertz")]
+    part: Callable  # of the function's instructions, that is a round
 
 
 # What the model says
@@ -72,15 +57,18 @@ def instructions(program, symbol):
 
 
 def hot(code):
-    """The shortest loop around a square root; of a function without one, what comes before its first return."""
+    """The shortest loop around a square root."""
     at = {address: k for k, (address, _, _) in enumerate(code)}
     loops = []
     for end, (_, operation, argument) in enumerate(code):
         start = at.get(int(argument, 16), end) if operation.startswith("j") and re.fullmatch("[0-9a-f]+", argument) else end
         if any("sqrt" in o for _, o, _ in code[start:end]):
             loops.append(code[start:end])
-    if loops:
-        return min(loops, key=len)
+    return min(loops, key=len)
+
+
+def called(code):
+    """What a call does up to the first return, where a round is a call."""
     return code[:next(k for k, (_, operation, _) in enumerate(code) if operation.startswith("ret"))]
 
 
@@ -91,6 +79,25 @@ def modelled(code, cpu):
                           check=True)
     said = dict(re.findall(r"^(\w[\w ]+):\s+([\d.]+)", done.stdout, re.M))
     return float(said["Total Cycles"]) / ROUNDS, float(said["Block RThroughput"]), len(straight)
+
+
+# Kernels
+
+def fluid(title, precision, *terms):
+    real, lanes = ("float", 16) if precision == "mixed" else ("double", 8)
+    name = f"sph::PairPass<{real}, 3, sph::Quintic, {', '.join('sph::' + term for term in terms)}>::run"
+    return Kernel(f"3D fluid, {precision}, {title}", name, lanes, "vortices_3d.toml", (f'precision="{precision}"', "terms.shifting=false"), 60,
+                  "neighbours_per_particle", hot)
+
+
+def contacts(law, normal, size, steps):
+    name = f"sph::ContactPass<sph::{normal}, sph::Coulomb, sph::NoRolling, true, sph::QuantumSums>::add_pairs"
+    return Kernel(f"contacts, {law}, {size} grains", name, 8, "grain_bed.toml", (law, size), steps, "pairs_per_particle", called)
+
+
+KERNELS = [fluid(title, precision, *terms) for precision in ("mixed", "double")
+           for title, terms in (("density", ("Divergence", "UniformDensityDiffusion")), ("forces", ("Pressure", "UniformViscosity")))]
+KERNELS += [contacts(*law, *bed) for law in (("linear", "LinearRate"), ("hertz", "HertzNormal")) for bed in (("12k", 4000), ("100k", 500))]
 
 
 # What a run takes
@@ -107,9 +114,10 @@ def words_of(kernel, work):
     """Settings of its scene, on a command line."""
     settings = list(kernel.settings)
     if kernel.scene == "grain_bed.toml":
+        law, size = settings
         tile = grains.settled_tile(work, grains.program("lmp"))
-        files = grains.files_of(work, "100k", grains.bed.repeated(tile, *grains.BEDS["100k"][:2]))
-        settings = [f"start.file={files.start}", f"domain.upper={list(files.size)}", *grains.LAWS[kernel.settings[0]]]
+        files = grains.files_of(work, size, grains.bed.repeated(tile, *grains.BEDS[size][:2]))
+        settings = [f"start.file={files.start}", f"domain.upper={list(files.size)}", *grains.LAWS[law]]
     return [word for setting in settings for word in ("--set", setting)]
 
 
@@ -135,7 +143,7 @@ def main():
     options.work.mkdir(parents=True, exist_ok=True)
     build, rows = options.build.resolve(), []
     for kernel in KERNELS:
-        cycles, port, number = modelled(hot(instructions(build / "bin/peperite", kernel.symbol)), options.cpu)
+        cycles, port, number = modelled(kernel.part(instructions(build / "bin/peperite", kernel.symbol)), options.cpu)
         seconds, rounds = measured(kernel, build, options.work.resolve())
         took = clock() * seconds / rounds
         rows.append((kernel.title, kernel.lanes, number, f"{port:.0f}", f"{cycles:.0f}", f"{took:.0f}", f"{1e9 * seconds / rounds / kernel.lanes:.2f}"))
