@@ -2,7 +2,7 @@
 """Time to solution at equal error, side by side: CPU seconds that each code needs to come within a given error. One
 core, alternating, medians. Run on a quiet machine (PySPH takes most of the time).
 
-    solution.py BUILD [--lammps LMP] [--cases taylor_green poiseuille dam_break dam_break_3d] [--repeats 3] [--page]
+    solution.py BUILD [--lammps LMP] [--cases taylor_green poiseuille dam_break dam_break_3d rising_bubble] [--repeats 3] [--page]
 
 Peers are PySPH (apt-get install python3-pysph) and LAMMPS's package SPH (peers/build_lammps.sh makes LMP). Each code
 runs at a ladder of resolutions; the same function measures the error of all at the particles; CPU seconds to the error
@@ -15,7 +15,7 @@ time steps; quintic kernel, h = dx, c = 10 U; the dam break h = 1.3 dx, Wendland
 sph/taitwater, with /morris where the fluid is viscous, and what served it best of a few supports, viscosities and time
 steps (peers/lmp_*.in). In 3D the dam break is periodic across 14 particles, so its front tends to the same; PySPH takes
 its example in 2D, extruded. With a support of 2 spacings it would be 0.62 % off on Poiseuille at any resolution, since
-nothing leaves its lattice there; 3 is the nearest of those that converge.
+nothing leaves its lattice there; 3 is the nearest of those that converge. Neither has a bubble that rises.
 """
 
 import argparse
@@ -42,6 +42,7 @@ import dam_break  # noqa: E402
 import dam_break_3d  # noqa: E402
 import manifest  # noqa: E402
 import poiseuille  # noqa: E402
+import rising_bubble  # noqa: E402
 import tables  # noqa: E402
 import taylor_green  # noqa: E402
 from accuracy import number, seconds_to  # noqa: E402
@@ -64,7 +65,7 @@ class Case:
     target: float
     ladders: dict  # particles across, by code
     settings: Callable  # (n) -> besides those of the module
-    lammps: Callable  # (n) -> steps, steps between outputs, time at the end
+    lammps: Callable | None  # (n) -> steps, steps between outputs, time at the end
 
 
 def steps_of_taylor_green(n):
@@ -122,6 +123,9 @@ CASES = {
     "dam_break_3d": Case("3D dam break, front at 0.6 s", dam_break_3d, lambda run: front_off(run, dam_break_3d.LAYERS), 0.02, {
         "Peperite": (14, 20, 28), "PySPH edac": (8, 14), "PySPH wcsph": (8, 14), "LAMMPS": (14, 20, 28),
     }, short_floor, steps_of_dam_break),
+    "rising_bubble": Case("Rising bubble 1, largest rise velocity", rising_bubble, error_of(rising_bubble), 0.02, {
+        "Peperite": (16, 20, 24, 32, 40),
+    }, lambda n: (), None),
 }
 
 

@@ -82,14 +82,14 @@ class Running {
 
   [[nodiscard]] std::vector<std::string_view> fields() const {
     std::vector<std::string_view> names;
-    for (const sph::Field f : simulation_.particles().fields().list()) names.push_back(sph::info(f).name);
+    for (const sph::Field f : lasting(simulation_.particles())) names.push_back(sph::info(f).name);
     return names;
   }
 
   /// A copy of the owned rows: the next step may move them.
   [[nodiscard]] py::array field(const std::string& name) const {
     const sph::Particles& p = simulation_.particles();
-    for (const sph::Field f : p.fields().list()) {
+    for (const sph::Field f : lasting(p)) {
       if (sph::info(f).name != name) continue;
       if (f == sph::Field::position) return metres(p);
       switch (sph::info(f).type) {
@@ -107,6 +107,11 @@ class Running {
   }
 
  private:
+  /// What rows have wherever they are.
+  static std::vector<sph::Field> lasting(const sph::Particles& p) {
+    return p.fields().without(sph::passing_sums).list();
+  }
+
   static std::vector<py::ssize_t> shape(const sph::Particles& p, sph::Field f) {
     std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(p.owned())};
     if (sph::info(f).shape != sph::Shape::scalar) shape.push_back(components(sph::info(f).shape, p.dim()));

@@ -196,6 +196,14 @@ class Caller(PythonCase):
                 peperite.Simulation(self.source / melt, force=lambda m: np.zeros((len(m), 3)))
             self.assertIn("slow flow", str(caught.exception))
 
+    def test_sums_that_rows_leave_behind_are_no_fields(self):
+        import peperite
+        s = peperite.Simulation(FLUID)
+        for name in ("divergence", "diffusion", "wall_sums"):
+            self.assertNotIn(name, s.fields)
+            with self.assertRaises(peperite.InputError):
+                s.field(name)
+
     def test_a_failure_on_one_rank_is_one_on_all(self):
         (self.folder / "failing.py").write_text(textwrap.dedent("""
             import json, sys

@@ -54,7 +54,7 @@ def is_snapshot(path):
 
 class Moment:
     """What a force is asked with: `time` [s], and the particles of this rank: `position`, `velocity`, `id`, `group`, `mass`, of grains
-    `radius`, and every other field of the scene, copies in one order. len(moment) of them."""
+    `radius`, and every other field of the scene but sums that last for a part of a step, copies in one order. len(moment) of them."""
 
     def __init__(self, running, time):
         self._running, self.time = running, time
