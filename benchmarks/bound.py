@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The hot loops beside what the processor could do. Run on a quiet machine, from the folder that BUILD was built in.
+"""The hot loops beside what the processor could do. Run on a quiet machine.
 
     bound.py BUILD [--cpu znver4] [--page]
 

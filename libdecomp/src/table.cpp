@@ -64,7 +64,6 @@ void Table::reorder(std::span<const std::uint32_t> order) {
   for (Column& c : columns_) {
     const std::size_t width = c.width();
     if (!c.kept()) {
-      c.reserve(order.size());
       poison(c.data(), order.size() * width);
       continue;
     }

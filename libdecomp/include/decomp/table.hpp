@@ -53,7 +53,7 @@ class Table {
   [[nodiscard]] std::size_t owned() const { return owned_; }
   [[nodiscard]] std::size_t halo() const { return halo_; }
   [[nodiscard]] std::size_t rows() const { return owned_ + halo_; }
-  /// Grows or shrinks; contents of rows that stay are kept, new rows are unspecified.
+  /// Grows or shrinks; rows that stay have what is kept, new rows are unspecified.
   void resize(std::size_t owned, std::size_t halo);
   /// Owned row r becomes old row order[r]; order.size() is the new number of owned rows (may be smaller:
   /// rows not named are dropped). Halo rows are dropped.
