@@ -3,6 +3,7 @@
 
 large.py BUILD               grains (a settled bed, linear law) and the 3D dam break; the largest take 9 GB
 large.py BUILD --largest N   only scenes of at most so many particles
+... --page                   writes the table of README.md, if the machine is idle
 
 Memory is the growth of the peak from the scene before, which leaves out what any run takes.
 A run makes its lists anew at least twice, once in a step, and ends with a snapshot and a checkpoint.
@@ -14,6 +15,7 @@ import time
 from pathlib import Path
 
 import grains
+import tables
 from speed import here, loop_seconds, run
 
 BEDS = {12_800: ((1, 1), 2000), 102_400: ((4, 2), 500), 1_024_000: ((10, 8), 100), 19_968_000: ((40, 39), 20)}
@@ -61,20 +63,24 @@ def main():
     arguments.add_argument("build", type=Path)
     arguments.add_argument("--work", type=Path, default=here.parent / "build/beds")
     arguments.add_argument("--largest", type=int, default=10**9)
+    arguments.add_argument("--page", action="store_true")
     options = arguments.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     build = options.build.resolve()
     scenes = [("grains", n, *bed(options.work.resolve(), tiles, steps), steps) for n, (tiles, steps) in BEDS.items()]
     scenes += [("3D fluid, mixed", n, *pool(spacing), steps) for n, (spacing, steps) in POOLS.items()]
     header = ("", "particles", "start [s]", "ns a step and particle", "rebuilds a step", "bytes a particle", "output [MB/s]")
-    last = {}  # of a kind
-    for kind, particles, scene, settings, steps in scenes:
-        if particles > options.largest:
-            continue
+    scenes = [scene for scene in scenes if scene[1] <= options.largest]
+    last, rows = {}, []  # last of a kind
+    for turn in tables.turns(len(scenes)) if options.page else range(len(scenes)):
+        kind, particles, scene, settings, steps = scenes[turn]
         began = time.monotonic()
         perf, left = measured(build, scene, settings, steps)
-        print(dict(zip(header, row(kind, perf, left, last.get(kind)))), f"{time.monotonic() - began:.0f} s", flush=True)
+        rows.append(row(kind, perf, left, last.get(kind)))
+        print(dict(zip(header, rows[-1])), f"{time.monotonic() - began:.0f} s", flush=True)
         last[kind] = perf
+    if options.page:
+        tables.write(here / "README.md", "large", tables.origin(tables.commit_of(build)), tables.markdown(header, rows))
 
 
 if __name__ == "__main__":
