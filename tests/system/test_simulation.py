@@ -142,6 +142,12 @@ class Simulation(PythonCase):
         self.assertEqual((saved.read_bytes(), letter.read_text()), (before, "dear reader"))
         s.save(saved, overwrite=True)
         self.assertNotEqual(saved.read_bytes(), before)
+        part = self.folder / "saved.h5.tmp"
+        part.write_text("of another program")
+        with self.assertRaises(peperite.OutputError) as caught:
+            s.save(saved, overwrite=True)
+        self.assertIn(f"{part} exists", str(caught.exception))
+        self.assertEqual(part.read_text(), "of another program")
         torn = self.folder / "torn.h5"
         torn.write_bytes(before[:4000])
         with self.assertRaises(peperite.OutputError) as caught:

@@ -262,6 +262,8 @@ class Simulation:
         if "\0" in path:
             raise InputError(f"save: {path!r} is no name of a file")
         self._refuse(OutputError, lambda: os.path.lexists(path) and not (overwrite and is_snapshot(path)), path)
+        part = path + ".tmp"  # what is written before it gets its name
+        self._refuse(OutputError, lambda: os.path.lexists(part), part)
         self._running.save(path)
 
     def _refuse(self, error, exists, path):

@@ -71,7 +71,7 @@ struct PassContext {
   double gradient_factor;                ///< spacing^D alpha_D / h^(D+1): scale of a sum of V_j grad W
   double force_factor;                   ///< spacing^(2D) alpha_D / h^(D+1): scale of a sum of V_i V_j grad W
   double diffusion_factor;               ///< 2 delta h spacing^D alpha_D / h^(D+2)
-  decomp::LargeVector<std::byte>* rows;  ///< scratch, 64-byte aligned use starts at rows_begin()
+  decomp::LargeVector<std::byte>* rows;  ///< scratch, used from aligned_scratch() on
   const NeighbourLists* bonds = nullptr;  ///< those of `lists` that bonds may join; none: all may
   const NeighbourLists* walls = nullptr;  ///< those of `lists` between what moves and walls; none: all may be
   const FluidBlocks* fluid = nullptr;     ///< of `lists`; none: it may be in any
