@@ -1,7 +1,10 @@
 // Averages in snapshots beside brute force, of walls too, which look at other walls in no sum.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "output/averages.hpp"
@@ -77,6 +80,37 @@ TEST(Averages, are_over_all_neighbours_of_a_group) {
     walls += group[i] == 1 ? 1 : 0;
   }
   EXPECT_EQ(walls, 48u);
+}
+
+constexpr const char* cavity = R"(
+domain = { lower = [0, 0], upper = [16, 16], periodic = [true, true] }
+kernel = { h_over_dx = 1.2, largest_growth = 2 }
+time = { cfl = 0.5, steps = 20 }
+output = { average_space = true }
+group = [{ name = "cold", kind = "fluid", eos = "ideal_gas", heat_ratio = 1.4, density = 1, start_pressure = 1 },
+         { name = "hot", kind = "fluid", eos = "ideal_gas", heat_ratio = 1.4, density = 1, start_pressure = 100 }]
+[start]
+spacing = 0.5
+jitter = 0.2
+region = [{ group = "cold" }, { group = "hot", shape = "ball", centre = [8, 8], radius = 2.5 }]
+)";
+
+// Where a gas is squeezed its lists are short.
+TEST(Averages, of_gases_do_not_depend_on_the_reach_of_lists) {
+  const decomp::Comm self(MPI_COMM_SELF);
+  std::map<std::uint64_t, double> wanted;
+  for (const char* skin : {"0.3", "0"}) {
+    Simulation s(self, parse_scene(cavity, "cavity", {fmt::format("decomposition.skin={}", skin)}));
+    for (int k = 0; k < 20; ++k) s.step();
+    const Particles& p = s.particles();
+    const double* h = p.data<Field::smoothing_length>();
+    EXPECT_LT(*std::min_element(h, h + p.owned()), 0.8 * s.scene().kernel.smoothing_length);
+    const std::vector<double> pressure = averages(s)[1].values;
+    for (std::size_t i = 0; i < p.owned(); ++i) {
+      const auto [at, first] = wanted.try_emplace(p.data<Field::id>()[i], pressure[i]);
+      EXPECT_EQ(at->second, pressure[i]) << skin << ' ' << i;
+    }
+  }
 }
 
 }  // namespace

@@ -13,10 +13,12 @@ class Smoother {
       : scene_(s.scene()),
         particles_(s.particles(s.physics()->set())),
         d_(static_cast<std::size_t>(s.scene().dim)),
-        quanta_per_h_(s.scene().kernel.smoothing_length / s.scale().quantum) {}
+        quantum_(s.scale().quantum),
+        widths_(particles_.has(Field::smoothing_length) ? particles_.data<Field::smoothing_length>()
+                                                        : nullptr) {}
 
-  /// Adds particle j's share in the average of particle i. Partners outside the support, which a list may
-  /// hold or not, share nothing.
+  /// Adds particle j's share in the average of particle i, by i's own kernel: its list reaches no further. Partners
+  /// outside the support, which a list may hold or not, share nothing.
   void add(std::size_t i, std::size_t j) {
     if (particles_.data<Field::group>()[j] != particles_.data<Field::group>()[i]) return;
     const std::int64_t* x = particles_.data<Field::position>();
@@ -25,7 +27,8 @@ class Smoother {
       const auto r = static_cast<double>(x[i * d_ + a] - x[j * d_ + a]);
       r2 += r * r;
     }
-    const double w = kernel_value(scene_.kernel.shape, scene_.dim, std::sqrt(r2) / quanta_per_h_);
+    const double h = widths_ != nullptr ? widths_[i] : scene_.kernel.smoothing_length;
+    const double w = kernel_value(scene_.kernel.shape, scene_.dim, std::sqrt(r2) / (h / quantum_));
     if (w == 0) return;
     const double share = w * particles_.data<Field::mass>()[j] / particles_.data<Field::density>()[j];
     shares_ += share;
@@ -45,7 +48,8 @@ class Smoother {
   const Scene& scene_;
   const Particles& particles_;
   std::size_t d_;
-  double quanta_per_h_;
+  double quantum_;
+  const double* widths_;  ///< of kernels that change
   Double3 velocity_{};
   double pressure_ = 0, shares_ = 0;
 };
