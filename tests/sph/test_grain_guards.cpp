@@ -120,6 +120,15 @@ TEST(GrainGuards, StepsBearLightMeshes) {
               "bare: time.dt: 5e-06 s is above the limit of a stable contact");
 }
 
+// Places are numbers of quanta, of which there are 2^63.
+TEST(GrainGuards, WallsStayWhereDistancesAreNumbers) {
+  const std::vector<StartGrain> grains{{"sand", {0.01, 0.01, 0.01}, {0, 0, 0}, {}, 0.0005}};
+  EXPECT_SAYS(end_of<InputError>(grains, {"wall.floor.point=[0, 0, -9]"}),
+              "bare: wall \"floor\": point has a coordinate of -9 m, so far away");
+  EXPECT_SAYS(end_of(grains, {"wall.floor.point=[0, 0, -7.9999]", "wall.floor.velocity=[0, 0, -5]"}),
+              "step 3: wall \"floor\" is at z = -8 m, so far away");
+}
+
 TEST(GrainGuards, SpeedIsStoppedInItsStep) {
   std::vector<StartGrain> grains;
   for (int k = 0; k < 20; ++k)

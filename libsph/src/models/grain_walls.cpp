@@ -10,6 +10,25 @@
 #include "sph/core/fixed_point.hpp"
 
 namespace sph {
+namespace {
+
+/// Grains are within 2^60 quanta of the origin, and their distances from a wall within 2^63 [quanta].
+constexpr double farthest = 0x1p62;
+
+}  // namespace
+
+GrainWalls::GrainWalls(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale,
+                       double force_quantum)
+    : scene_(&scene), scale_(scale), force_quantum_(force_quantum), meshes_(comm, scene, scale) {
+  for (std::size_t w = 0; w < count(); ++w)
+    for (const double x : began(w))
+      if (!(std::fabs(x) / scale_.quantum < farthest))
+        throw InputError(
+            fmt::format("{}: {} \"{}\": {} has a coordinate of {:.6g} m, so far away that distances are no "
+                        "numbers; be nearer than {:.4g} m",
+                        scene.file, w < planes() ? "wall" : "mesh", scene.grains.names()[w],
+                        w < planes() ? "point" : "centre", x, farthest * scale_.quantum));
+}
 
 void GrainWalls::start(GlobalState& global) const {
   global.walls.resize(count());
@@ -67,8 +86,16 @@ void GrainWalls::move(GlobalState& global) const {
         w < planes() ? scene_->grains.walls[w].normal : scene_->grains.meshes[w - planes()].motion.direction;
     double along = 0;
     for (std::size_t a = 0; a < 3; ++a) along += state.velocity[a] * normal[a];
-    for (std::size_t a = 0; a < 3; ++a)
-      state.offset[a] += round_to_quanta(along * normal[a] * global.dt / scale_.quantum);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int64_t way = round_to_quanta(along * normal[a] * global.dt / scale_.quantum);
+      const double place = began(w)[a] / scale_.quantum + static_cast<double>(state.offset[a] + way);
+      if (std::fabs(place) < farthest)
+        state.offset[a] += way;
+      else
+        throw GuardError(fmt::format(
+            "{}wall \"{}\" is at {} = {:.4g} m, so far away that distances are no numbers; stop it before",
+            step_text(global.step), scene_->grains.names()[w], "xyz"[a], place * scale_.quantum));
+    }
   }
 }
 

@@ -17,8 +17,8 @@ namespace sph {
 
 class GrainWalls {
  public:
-  GrainWalls(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale, double force_quantum)
-      : scene_(&scene), scale_(scale), force_quantum_(force_quantum), meshes_(comm, scene, scale) {}
+  /// Throws InputError where one is so far away that its distance from grains is no number.
+  GrainWalls(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale, double force_quantum);
 
   [[nodiscard]] std::size_t count() const { return planes() + meshes_.count(); }
   [[nodiscard]] std::size_t planes() const { return scene_->grains.walls.size(); }
@@ -27,7 +27,7 @@ class GrainWalls {
   void start(GlobalState& global) const;
   /// Takes the changes of the scene's stages that begin at or before the present time.
   void set_stage(GlobalState& global) const;
-  /// A step's drift.
+  /// A step's drift. Throws GuardError where one goes as far.
   void move(GlobalState& global) const;
   /// Servos and masses answer to the forces of a step [quanta].
   void push(GlobalState& global, std::span<const std::int64_t> forces) const;
@@ -52,6 +52,11 @@ class GrainWalls {
     std::optional<double> force;
   };
   [[nodiscard]] Now now_of(std::size_t wall, const GlobalState& global) const;
+  /// Where it was at the start [m].
+  [[nodiscard]] const Double3& began(std::size_t wall) const {
+    return wall < planes() ? scene_->grains.walls[wall].point
+                           : scene_->grains.meshes[wall - planes()].motion.centre;
+  }
   void drive(std::size_t mesh, GlobalState& global) const;
 
   const Scene* scene_;
