@@ -48,7 +48,7 @@ class Rows {
         first_(part_offset(part, rows_)),
         all_rows_(part_sum(part, rows_)),
         dim_(particles.dim()) {
-    for (Field f : state_of(particles.fields()).list()) add_field(particles, f, wrap);
+    for (Field f : kept_of(particles.fields()).list()) add_field(particles, f, wrap);
     if (history != nullptr) add_history(part, *history);
     make_blocks();
     const std::uint64_t blocks = blocks_.size() / block_width();
@@ -180,7 +180,7 @@ Manifest manifest_of(const Particles& particles, const decomp::Payload* history,
   const BuildInfo& build = build_info();
   return {record,
           particles.dim(),
-          state_of(particles.fields()).list(),
+          kept_of(particles.fields()).list(),
           history != nullptr,
           provenance,
           build.version,
@@ -191,6 +191,13 @@ Manifest manifest_of(const Particles& particles, const decomp::Payload* history,
 }
 
 }  // namespace
+
+FieldSet kept_of(FieldSet fields) {
+  FieldSet out;
+  for (Field f : fields.list())
+    if (info(f).state || info(f).snapshot) out |= FieldSet{f};
+  return out;
+}
 
 void write_checkpoint(const decomp::Comm& comm, const fs::path& run_dir, const Particles& particles,
                       const decomp::Payload* history, const RunRecord& record, const Wrap& wrap,

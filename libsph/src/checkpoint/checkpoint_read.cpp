@@ -47,7 +47,7 @@ void check_fits(const CheckpointHandle& handle, const Manifest& m, const Particl
   FieldSet stored;
   for (Field f : m.fields) stored |= FieldSet{f};
   const FieldSet wanted = state_of(particles.fields());
-  for (Field f : stored.without(wanted).list()) differs("it has " + std::string(info(f).name));
+  for (Field f : state_of(stored).without(wanted).list()) differs("it has " + std::string(info(f).name));
   for (Field f : wanted.without(stored).list()) differs("it lacks " + std::string(info(f).name));
   if (m.history != (history != nullptr))
     differs(m.history ? "it has contact histories" : "it lacks contact histories");
@@ -74,24 +74,28 @@ CheckpointHandle find_checkpoint(const decomp::Comm& comm, const fs::path& run_d
   throw InputError("no checkpoint can be used: " + problems);
 }
 
-void read_checkpoint(const decomp::Comm& comm, const CheckpointHandle& handle, Particles& particles,
-                     decomp::Payload* history) {
+FieldSet read_checkpoint(const decomp::Comm& comm, const CheckpointHandle& handle, Particles& particles,
+                         decomp::Payload* history) {
   const Manifest manifest = shared_manifest(comm, handle.dir);
   check_fits(handle, manifest, particles, history);
   const auto rank = static_cast<std::uint64_t>(comm.rank());
   const auto size = static_cast<std::uint64_t>(comm.size());
   const std::uint64_t first = manifest.rows() * rank / size;
   const std::uint64_t rows = manifest.rows() * (rank + 1) / size - first;
+  FieldSet shown;
   const std::string failure =
       agree(comm, attempt([&] {
               particles.table().resize(rows, 0);
               for (std::size_t set = 0; set < manifest.fields.size(); ++set) {
+                if (!particles.has(manifest.fields[set])) continue;
+                if (!info(manifest.fields[set]).state) shown |= FieldSet{manifest.fields[set]};
                 decomp::Column& column = particles.table().column(particles.column(manifest.fields[set]));
                 read_rows(handle.dir, manifest, set, column.width(), first, rows, column.data());
               }
               if (history != nullptr) *history = read_history(handle.dir, manifest, first, rows);
             }));
   if (!failure.empty()) throw InputError("cannot read " + handle.dir.string() + ": " + failure);
+  return shown;
 }
 
 }  // namespace sph

@@ -28,15 +28,8 @@ BuildInfo build_of(std::string version, std::string git, std::string compiler, s
 class CheckpointFile : public StateFile {
  public:
   CheckpointFile(const fs::path& dir, const Manifest& m)
-      : StateFile({"checkpoint",
-                   dir,
-                   m.dim,
-                   m.rows(),
-                   m.record.global,
-                   m.record.scale,
-                   {.fields = m.fields, .other_fields = {}, .history = m.history},
-                   m.provenance.fingerprint,
-                   m.record.scene_toml,
+      : StateFile({"checkpoint", dir, m.dim, m.rows(), m.record.global, m.record.scale, contents_of(m),
+                   m.provenance.fingerprint, m.record.scene_toml,
                    build_of(m.version, m.git, m.compiler, m.flags)}),
         manifest_(m) {}
 
@@ -54,6 +47,16 @@ class CheckpointFile : public StateFile {
   }
 
  private:
+  static StateContents contents_of(const Manifest& m) {
+    StateContents out{.fields = {}, .other_fields = {}, .history = m.history};
+    for (const Field f : m.fields)
+      if (info(f).state)
+        out.fields.push_back(f);
+      else
+        out.other_fields.emplace_back(info(f).name);
+    return out;
+  }
+
   Manifest manifest_;
 };
 

@@ -169,7 +169,6 @@ void add_walls(Builder& b, bool weighted) {
     terms.push_back(mixture ? term<MixtureWallExtrapolationByDensity> : term<WallExtrapolationByDensity>);
   b.add_sums("walls", terms, Builder::Rows::walls);
   b.add_update("wall pressures", wall_pressures(b));
-  b.derive_last_two_for_output();
 }
 
 void add_wall_share(Builder& b) { b.add_sums("wall distance", {term<WallShare>}); }

@@ -118,7 +118,6 @@ void add_wet_sides(Builder& b) {
   b.add_fields({Field::wet_pressure, Field::wet_velocity});
   b.add_sums("sides", {term<WettedExtrapolation>}, Builder::Rows::all);
   b.add_update("pressures of sides", WetSides{&b.scene(), wall_pressures(b), rigid_bodies_of(b.scene())});
-  b.derive_last_two_for_output();
 }
 
 void add_bond_forces(Builder& b) {

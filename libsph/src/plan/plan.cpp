@@ -33,8 +33,7 @@ double longest_move(const std::vector<Entry>& entries, std::size_t set, const Gl
 }
 
 namespace {
-constexpr std::array parts{&Plan::drift, &Plan::sums,   &Plan::kick,
-                           &Plan::start, &Plan::settle, &Plan::output};
+constexpr std::array parts{&Plan::drift, &Plan::sums, &Plan::kick, &Plan::start, &Plan::settle};
 }
 
 bool may_drift(const Plan& plan) {

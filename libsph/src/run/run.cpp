@@ -58,8 +58,7 @@ class Run {
       write_due_output();
       if (wish == Wish::give_up) give_up();
       if (wish == Wish::status) screen_.status();
-      // At the end the last snapshot goes first: once there is a checkpoint, no step is left to compute what
-      // is in a snapshot but not in the state.
+      // At the end the last snapshot goes first.
       if (wish >= Wish::checkpoint && !finished()) checkpoint();
       control_.granted(wish);
       if (wish == Wish::stop && !finished()) return stopped();
@@ -121,7 +120,6 @@ class Run {
 
   int done() {
     if (last_snapshot_ != simulation_.global().step) {
-      if (checkpoint_ == simulation_.global().step) simulation_.derive_for_output();
       const auto timing = simulation_.timers().time(decomp::Region::output);
       simulation_.make_room();
       files_.add_snapshot(simulation_, false);

@@ -122,7 +122,8 @@ RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
     throw InputError(
         "--set: contacts would have other histories, with rolling friction or without: a branch keeps them");
   // How large a step may be is known at the end of one.
-  if (double& dt = checkpoint.record.global.dt; change_laws(options.overrides))
+  checkpoint.other_laws = change_laws(options.overrides);
+  if (double& dt = checkpoint.record.global.dt; checkpoint.other_laws)
     dt = scene.time.dt && !scene.has_melt() ? *scene.time.dt : at_first * dt;
   prepare_record(comm, scene, false);
   try {

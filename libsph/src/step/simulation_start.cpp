@@ -88,7 +88,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   } catch (const GuardError& error) {
     throw InputError(scene_.file + ": start: " + error.what());
   }
-  begin(false);
+  begin(false, {});
   refuse_faults(comm_, scene_, runner_.findings());
   for (const Model* m : parts_.models) m->check_start(comm_, runner_.state_of(m->set(), global_));
   settle();
@@ -96,19 +96,20 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
 
 Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const CheckpointHandle& checkpoint)
     : State(comm, scene, checkpoint.record.scale) {
+  FieldSet shown;
   if (sets_.size() == 1) {
-    read_checkpoint(comm_, checkpoint, sets_.front().particles, has_history() ? &arrived_ : nullptr);
+    shown = read_checkpoint(comm_, checkpoint, sets_.front().particles, has_history() ? &arrived_ : nullptr);
   } else {
     Particles all(scene_.dim, fields_of(sets_));
-    read_checkpoint(comm_, checkpoint, all, has_history() ? &arrived_ : nullptr);
+    shown = read_checkpoint(comm_, checkpoint, all, has_history() ? &arrived_ : nullptr);
     divide(all, scene_, sets_, arrived_, parts_.grains ? parts_.grains->set() : sets_.size());
   }
   global_ = checkpoint.record.global;
-  begin(true);
+  begin(true, checkpoint.other_laws ? FieldSet{} : shown);
   runner_.findings().stop(comm_);
 }
 
-void Simulation::begin(bool again) {
+void Simulation::begin(bool again, FieldSet shown) {
   add_dawdling(parts_.plan, scene_.decomposition, comm_.rank(), timers_);
   for (ParticleSet& set : sets_) set.census = set.count(comm_);
   if (particle_count() == 0 && global_.step == 0 &&  // later all may have left
@@ -116,10 +117,13 @@ void Simulation::begin(bool again) {
     throw InputError(scene_.file + ": start: no particle lies in any region");
   distribution_.cut_by_counts(movable(sets_));
   scatter();
-  for (ParticleSet& set : sets_) forget_sums(set.particles);
-  for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
+  if (!again) derive();
   // Sorts the rows: what drifts needs to know which of them move.
   rebuild();
+  std::vector<Kept> of_last_step;
+  for (ParticleSet& set : sets_)
+    if (again) of_last_step.emplace_back(set.particles, shown);
+  if (again) derive();
   Findings outside;
   for (const ParticleSet& set : sets_) outside.add(distribution_.outside(set.particles));
   refuse_faults(comm_, scene_, outside);
@@ -132,7 +136,14 @@ void Simulation::begin(bool again) {
     if (again) kept.emplace_back(set.particles, changed);
   runner_.run(parts_.plan.start, global_);
   for (Kept& of : kept) of.put_back();
+  for (Kept& of : of_last_step) of.put_back();
+  for (ParticleSet& set : sets_) set.changed(shown & set.particles.fields());
   stale_ = may_drift(parts_.plan);
+}
+
+void Simulation::derive() {
+  for (ParticleSet& set : sets_) forget_sums(set.particles);
+  for (const Model* m : parts_.models) m->derive(sets_[m->set()].particles);
 }
 
 // Every row, with what its pairs carry, to the rank that owns it.
@@ -146,17 +157,6 @@ void Simulation::scatter() {
     else
       distribution_.scatter(sets_[k].particles, carries ? &arrived_ : nullptr);
   }
-}
-
-void Simulation::derive_for_output() {
-  const std::vector<Entry>& stages = parts_.plan.output;
-  if (stages.empty()) return;
-  ParticleSet& set = sets_[stages.front().stages.front().set];
-  Kept kept(set.particles, {Field::velocity, Field::wall_mirror});
-  runner_.run(stages, global_);
-  kept.put_back();
-  for (const Entry& entry : stages)
-    for (const Stage& stage : entry.stages) set.changed(stage.writes);
 }
 
 // What a start cannot say of a particle alone.

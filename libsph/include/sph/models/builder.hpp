@@ -63,8 +63,6 @@ class Builder {
     plan_.settling = std::move(settling);
   }
   void begin_with_half_a_kick() { plan_.half_kick = true; }
-  /// The last two stages are read by output alone where no step follows (Plan::output).
-  void derive_last_two_for_output() { plan_.output.assign(plan_.sums.end() - 2, plan_.sums.end()); }
 
  private:
   const SphConstants* constants_;

@@ -29,7 +29,6 @@ struct Plan {
   std::vector<Entry> kick;             ///< what moves particles last
   std::vector<Entry> start;            ///< of `sums`: what the first step wants done
   std::vector<Entry> settle;           ///< ... what a start is to be brought into balance with
-  std::vector<Entry> output;           ///< of `sums`: what only output reads of a state
   std::shared_ptr<Settling> settling;  ///< where `settle` is repeated
   bool half_kick = false;  ///< velocities of the start are those of its time: half a kick comes first
 };

@@ -36,9 +36,6 @@ class Simulation : public State {
   /// The same for contacts: all that are there now are in the lists, and halo copies are where their owners
   /// are. Rebuilds early what the next step would rebuild first.
   void refresh_contacts();
-  /// Of a simulation that has made no step since its checkpoint: computes what a snapshot holds besides the
-  /// state, the pressure on walls. Changes no bit of the state.
-  void derive_for_output();
   /// Gives back, before files take memory, what only the step needed.
   void make_room() { runner_.forget_rows(); }
 
@@ -47,7 +44,8 @@ class Simulation : public State {
   [[nodiscard]] const PlanRunner::Counters& counters() const { return runner_.counters(); }
 
  private:
-  void begin(bool again);  ///< common end of both constructors
+  void begin(bool again, FieldSet shown);  ///< common end of both constructors; `shown` stays as it is
+  void derive();                           ///< what follows from the state of a particle alone
   void scatter();
   void settle();
   void approach(Settling& settling, std::size_t set);
