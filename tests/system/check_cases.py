@@ -60,6 +60,19 @@ until = 1
                              says=" cells need ", **({"preexec_fn": limit} if ranks == 1 else {}))
         assert not (self.run.folder / "no").exists()
 
+    def test_shipped(self):
+        """Every scene of apps is in order; the largest bed starts, whose last column of grains a wall would cut."""
+        scenes = sorted((self.source / "apps").glob("*/*.toml"))
+        assert len(scenes) > 15
+        for scene in scenes:
+            self.run.run(1, "peperite", "check", scene)
+        fine = self.source / "apps" / "sandbox" / "sandbox_fine.toml"
+        self.run.run(2, "peperite", "run", fine, "--steps", 1, "--out", "fine")
+        shutil.rmtree(self.run.folder / "fine")
+        for command in (["check"], ["run", "--out", "no"]):
+            self.run.refused(1, "peperite", command[0], fine, *command[1:], "--set", "start.upper=[0.35, 0.012825, 0.463125]",
+                             says="lies 0.43 radii deep in wall \"front\"; contact.largest_overlap allows 0.4: keep start.lower")
+
     def test_meshes(self):
         """What meshes take, on each machine and on each rank; a mesh region with a hole is told once, by check and run."""
         out = self.run.run(2, "peperite", "check", self.source / "tests/scenes/grains_mesh.toml").out

@@ -104,28 +104,67 @@ std::array<std::string, 2> rows_of(const decomp::Comm& comm, const Scene& scene,
   return out;
 }
 
-std::string advice(const Scene& scene) {
+std::string advice(const Scene& scene, bool of_wall) {
   if (!scene.start.file.empty()) return "move them apart";
   if (!scene.start.fills.empty())
     return "raise start.grains.spacing, make it divide periods, or keep [[start.grains]] apart";
+  if (of_wall && scene.start.tile.file.empty())
+    return "keep start.lower and start.upper further from it, or lessen start.jitter";
   return scene.start.tile.file.empty() ? "raise start.spacing or lessen start.jitter"
                                        : "settle the tile with walls or periods where its copies meet";
+}
+
+/// Between which places along each axis the points of a lattice of grains lie; displaced, `shift` beyond.
+struct Sites {
+  double spacing, shift;
+  Double3 first, last;
+};
+
+/// Of points in the middle of cells whose corner is at `origin`; one that rounding may leave out counts.
+Sites sites_of(double spacing, double jitter, const Double3& origin, const Double3& lower,
+               const Double3& upper) {
+  constexpr double slack = 1e-6;
+  Sites out{spacing, jitter * spacing, {}, {}};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto before = [&](double x) { return (x - origin[a]) / spacing - 0.5; };
+    out.first[a] = origin[a] + (std::ceil(before(lower[a]) - slack) + 0.5) * spacing;
+    out.last[a] = origin[a] + (std::ceil(before(upper[a]) + slack) - 0.5) * spacing;
+  }
+  return out;
+}
+
+/// Of each other, across periods too, and of planes. The largest grains stand deepest.
+bool may_overlap(const Scene& scene, const Sites& sites) {
+  const double largest = 0.5 * scene.largest_diameter(), limit = scene.grains.contact.largest_overlap;
+  double nearest = sites.spacing;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double period = scene.domain.upper[a] - scene.domain.lower[a];
+    if (scene.domain.periodic[a]) nearest = std::min(nearest, period - (sites.last[a] - sites.first[a]));
+  }
+  if (nearest - 2 * std::sqrt(3.0) * sites.shift < (2 - limit) * largest) return true;
+  return std::ranges::any_of(scene.grains.walls, [&](const Wall& wall) {
+    double away = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double n = wall.normal[a];
+      away += n * ((n > 0 ? sites.first[a] : sites.last[a]) - wall.point[a]) - std::fabs(n) * sites.shift;
+    }
+    return away < (1 - limit) * largest;
+  });
 }
 
 }  // namespace
 
 bool may_overlap(const Scene& scene) {
   const Start& start = scene.start;
-  if (!start.file.empty() || !start.tile.file.empty()) return true;
-  // Two of the largest stand deepest in each other: R + r - limit r grows with both.
-  const double allowed = (2 - scene.grains.contact.largest_overlap) * 0.5 * scene.largest_diameter();
-  const auto nearest = [](double spacing, double jitter) {
-    return spacing * (1 - 2 * std::sqrt(3.0) * jitter);
-  };
-  if (!start.fills.empty())  // a fill knows nothing of another, nor of its own image
-    return start.fills.size() > 1 || scene.domain.periodic != std::array{false, false, false} ||
-           nearest(start.fills.front().spacing, start.fills.front().jitter) < allowed;
-  return nearest(start.spacing, start.lattice.jitter) < allowed;
+  if (!start.file.empty() || !start.tile.file.empty() || !scene.grains.meshes.empty()) return true;
+  const LatticeFill& l = start.lattice;
+  if (start.fills.empty() && l.kind != LatticeKind::square)
+    return may_overlap(scene, Sites{start.spacing, l.jitter * start.spacing, l.lower, l.upper});
+  if (start.fills.empty())
+    return may_overlap(scene, sites_of(start.spacing, l.jitter, l.origin, l.lower, l.upper));
+  if (start.fills.size() > 1) return true;  // a fill knows nothing of another
+  const GrainFill& f = start.fills.front();
+  return may_overlap(scene, sites_of(f.spacing, f.jitter, f.lower, f.lower, f.upper));
 }
 
 void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale,
@@ -149,7 +188,7 @@ void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const Positio
     else
       what = fmt::format("{} and {} overlap by {:.3g} radii", named(0), named(1), mine.share);
     what += fmt::format("; contact.largest_overlap allows {}: {}", scene.grains.contact.largest_overlap,
-                        advice(scene));
+                        advice(scene, mine.high > largest_id));
   }
   const std::string& file = scene.start.tile.file.empty() ? scene.start.file : scene.start.tile.file;
   const std::string of_scene = scene.file + (scene.start.fills.empty() ? ": start" : ": start.grains");

@@ -16,8 +16,8 @@ namespace sph {
 void refuse_overlaps(const decomp::Comm& comm, const Scene& scene, const PositionScale& scale,
                      const Particles& particles, const ContactLists& lists, const WallsNow& walls);
 
-/// False only for a lattice whose grains cannot lie that close, wherever jitter and radii put them; of walls
-/// it says nothing.
+/// False only for a lattice whose grains cannot lie that close to each other and to planes, wherever jitter and
+/// radii put them, in a scene without meshes.
 [[nodiscard]] bool may_overlap(const Scene& scene);
 
 }  // namespace sph
