@@ -255,9 +255,10 @@ class Maker(Terms, TotalBodies, FromFile, Mixture, Exchanges, Openings):
         d, box = self.d, self.box
         lower, upper = box.outer()
         out = {"spacing": self.dx}
-        if self.dim == 2 and d.chance("hexagonal", 0.15):
+        periodic = "periodic" in box.ends
+        if self.dim == 2 and not periodic and d.chance("hexagonal", 0.25):
             out["lattice"] = "hexagonal"
-        elif self.dim == 3 and "periodic" not in box.ends and d.chance("fcc", 0.15):
+        elif self.dim == 3 and not periodic and d.chance("fcc", 0.15):
             out["lattice"] = "fcc"
         elif d.chance("say square", 0.1):
             out["lattice"] = "square"

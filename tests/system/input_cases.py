@@ -169,6 +169,20 @@ class Cases(CheckCases):
         self.refused("check", self.file("fluid.toml", self.FLUID), "--set", "start.region=", "--set",
                      "start.file=same.csv", says="line 3: the particle lies at exactly the point of that in line 2")
 
+    def test_hexagons(self):
+        """Over a period every particle has six neighbours at one distance, whether rounding makes it longer or shorter."""
+        scene = self.file("hexagons.toml", WARM.replace("spacing = 1", "spacing = 1\nlattice = \"hexagonal\""))
+        self.refused("check", scene, says="in x into 11.1673 columns; make that length 11.82026925 m, which holds 11 columns")
+        for n, (x, y) in enumerate(((21.49139, 22.33451), (21.4914, 22.33452))):
+            self.run.run(1, "peperite", "run", scene, "--set", f"domain.upper=[{x}, {y}]",
+                         "--set", "time.steps=0", "--set", "output.snapshot_interval=0", "--out", f"hexagons{n}")
+            with h5py.File(self.run.folder / f"hexagons{n}" / "snapshot_000000000.h5") as file:
+                places = file["particles/position"][:]
+            assert len(places) == 480, len(places)
+            apart = places[:, None] - places
+            apart = np.sort(np.hypot(*np.moveaxis(apart - [x, y] * np.round(apart / [x, y]), 2, 0)))
+            assert np.all(np.abs(apart[:, 1:7] - 1.07457) < 2e-5), apart[:, 1:7]
+
     def test_every_key(self):
         """The scenes that show every key run."""
         scenes = sorted((self.source / "tests" / "every_key").glob("*.toml"))

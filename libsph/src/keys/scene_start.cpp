@@ -162,24 +162,40 @@ void check_fill(const StartReader& table, const Scene& scene) {
                "check its unit");
 }
 
+/// What a period is a whole number of, in spacings, and how it is called.
+struct Cell {
+  double length;
+  std::string_view name;
+  int count;  ///< of these in a cell
+};
+
+Cell cell_of(LatticeKind kind, std::size_t axis) {
+  if (kind == LatticeKind::fcc) return {fcc_edge, "cells", 1};
+  if (kind == LatticeKind::square) return {1, "cells", 1};
+  return axis == 0 ? Cell{hexagonal_edge, "columns", 1} : Cell{hexagonal_rows, "rows", 2};
+}
+
 /// A filled period must hold whole cells of the lattice, or its seam would be wider or narrower than dx.
 void check_seam(const StartReader& table, const Scene& scene) {
   const LatticeFill& lattice = scene.start.lattice;
-  const std::size_t axes = lattice.kind == LatticeKind::hexagonal ? 1 : static_cast<std::size_t>(scene.dim);
-  const double edge = lattice.kind == LatticeKind::fcc ? fcc_edge : 1.0;
-  for (std::size_t a = 0; a < axes; ++a) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
     const bool filled =
         lattice.lower[a] == scene.domain.lower[a] && lattice.upper[a] == scene.domain.upper[a];
     if (!scene.domain.periodic[a] || !filled) continue;
-    const double cells = (scene.domain.upper[a] - scene.domain.lower[a]) / (edge * scene.start.spacing);
-    if (std::fabs(cells - std::nearbyint(cells)) > 1e-6 * cells)
-      table.fail(
-          "spacing",
-          fmt::format(
-              "{}divides the periodic length in {} into {:.6g} cells",
-              table.has("spacing") ? "" : fmt::format("is {:.6g} m by default and ", scene.start.spacing),
-              axis_names[a], cells),
-          "choose one that gives a whole number");
+    const Cell cell = cell_of(lattice.kind, a);
+    const double edge = cell.length * scene.start.spacing;
+    const double cells = (scene.domain.upper[a] - scene.domain.lower[a]) / edge;
+    if (std::fabs(cells - std::nearbyint(cells)) <= 1e-6 * cells) continue;
+    const double whole = std::max(std::nearbyint(cells), 1.0);
+    table.fail(
+        "spacing",
+        fmt::format(
+            "{}divides the periodic length in {} into {:.6g} {}",
+            table.has("spacing") ? "" : fmt::format("is {:.6g} m by default and ", scene.start.spacing),
+            axis_names[a], cell.count * cells, cell.name),
+        lattice.kind == LatticeKind::hexagonal ? fmt::format("make that length {:.10g} m, which holds {} {}",
+                                                             whole * edge, cell.count * whole, cell.name)
+                                               : "choose one that gives a whole number");
   }
 }
 

@@ -96,8 +96,8 @@ inline constexpr auto start_keys = std::to_array<Key>({
     {"tile", Inner{&tile}, "Instead of a lattice: a settled packing of grains side by side.",
      of_grains_alone},
     {"lattice", Words{lattice_kind_words},
-     "\"square\" is cubic in 3D. The close packing is \"hexagonal\" in 2D, with neighbours 1.075 spacings "
-     "apart, and "
+     "\"square\" is cubic in 3D. The close packing is \"hexagonal\" in 2D, with neighbours 1.0745699318235 "
+     "spacings apart along x and rows 0.9306048591021 apart, of which a period holds an even number, and "
      "\"fcc\" in 3D, 1.122 apart, whose cubes are 4^(1/3) = 1.5874010519682 spacings long: a period holds "
      "whole ones.",
      at<&Start::lattice, &LatticeFill::kind>, of_lattices},

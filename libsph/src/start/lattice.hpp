@@ -29,6 +29,10 @@ class Lattice {
       step_[0] = scene.start.spacing * fcc_edge;
       step_[1] = step_[2] = 0.5 * step_[0];
     }
+    // No point on an edge, and of a period none twice.
+    const bool round = fill_.kind == LatticeKind::hexagonal && scene.domain.periodic[0] &&
+                       fill_.lower[0] == scene.domain.lower[0] && fill_.upper[0] == scene.domain.upper[0];
+    if (round || fill_.kind == LatticeKind::fcc) aside_ = 0.25 * step_[0];
     for (std::size_t a = 0; a < dim_; ++a) {
       // A margin of one point: whether a point is inside is decided on its coordinate.
       first_[a] = static_cast<std::int64_t>(std::floor((fill_.lower[a] - fill_.origin[a]) / step_[a])) - 1;
@@ -48,8 +52,7 @@ class Lattice {
       x[a] = fill_.origin[a] + (static_cast<double>(k[a]) + 0.5) * step_[a];
     const bool odd = ((k[1] + k[2]) & 1) != 0;
     if (fill_.kind != LatticeKind::square && odd) x[0] += 0.5 * step_[0];
-    if (fill_.kind == LatticeKind::fcc)
-      x[0] -= 0.25 * step_[0];  // no point on an edge, and of a period none twice
+    x[0] -= aside_;
     return x;
   }
   [[nodiscard]] bool inside(const Double3& x) const {
@@ -68,6 +71,7 @@ class Lattice {
   const LatticeFill& fill_;
   std::size_t dim_;
   Double3 step_{};
+  double aside_ = 0;
   decomp::Int3 first_{}, count_{1, 1, 1};
 };
 

@@ -44,7 +44,9 @@ struct Region {
 
 /// Cubic in 3D; close packings, hexagonal in 2D, face-centred cubic in 3D.
 enum class LatticeKind { square, hexagonal, fcc };
-inline constexpr double fcc_edge = 1.5874010519681994;  ///< 4^(1/3): of a cube of 4 points, in spacings
+inline constexpr double fcc_edge = 1.5874010519681994;       ///< 4^(1/3): of a cube of 4 points, in spacings
+inline constexpr double hexagonal_edge = 1.074569931823542;  ///< sqrt(2/sqrt(3)): between points of a row
+inline constexpr double hexagonal_rows = 1.861209718204198;  ///< sqrt(3) of these: two rows
 
 /// A lattice that regions paint.
 struct LatticeFill {
