@@ -127,6 +127,15 @@ TEST(GrainGuards, WallsStayWhereDistancesAreNumbers) {
               "bare: wall \"floor\": point has a coordinate of -9 m, so far away");
   EXPECT_SAYS(end_of(grains, {"wall.floor.point=[0, 0, -7.9999]", "wall.floor.velocity=[0, 0, -5]"}),
               "step 3: wall \"floor\" is at z = -8 m, so far away");
+  // One that is there no more stays where it is.
+  const test::StartFile file(world(), grains);
+  Scene scene = parse_scene(
+      bare + "[[stage]]\nname = \"open\"\nbegin = 5e-6\n[[stage.wall]]\nname = \"floor\"\nremove = true\n",
+      "bare", {"wall.floor.point=[0, 0, -7.9999]", "wall.floor.velocity=[0, 0, -5]"});
+  scene.start.file = file.path();
+  Simulation s(world(), scene);
+  for (int k = 0; k < 20; ++k) s.step();
+  EXPECT_LT(s.global().walls[0].offset[2], 0);
 }
 
 TEST(GrainGuards, SpeedIsStoppedInItsStep) {

@@ -91,7 +91,7 @@ void GrainWalls::move(GlobalState& global) const {
       const double place = began(w)[a] / scale_.quantum + static_cast<double>(state.offset[a] + way);
       if (std::fabs(place) < farthest)
         state.offset[a] += way;
-      else
+      else if (w < planes() ? now_of(w, global).present : meshes_.present(w - planes(), global.time))
         throw GuardError(fmt::format(
             "{}wall \"{}\" is at {} = {:.4g} m, so far away that distances are no numbers; stop it before",
             step_text(global.step), scene_->grains.names()[w], "xyz"[a], place * scale_.quantum));
