@@ -164,6 +164,17 @@ TEST(MeshFile, SaysWhichFacetIsBroken) {
   EXPECT_EQ(stl(good + beside + facet("0 0 0", "0 0 0", "2 2 2")),
             "mesh.one: facet 3 has no area; repair the mesh");
   EXPECT_NE(stl("").find("mesh.one"), std::string::npos);
+  const auto polygon = [](const std::string& corners) {
+    return "facet normal 0 0 1\n outer loop\n" + corners + " endloop\nendfacet\n";
+  };
+  const std::string square = polygon(" vertex 0 0 0\n vertex 1 0 0\n vertex 1 1 0\n vertex 0 1 0\n");
+  EXPECT_EQ(stl(good + square + beside), "mesh.one: facet 2 has 4 corners; make triangles of it");
+  EXPECT_EQ(said_of("solid facet of a vertex\n" + good + "endsolid facet\n", ".stl"), "3 vertices, 1");
+  // Of three facets of two corners the importer makes two of three.
+  EXPECT_EQ(stl(good + polygon(" vertex 0 0 0\n vertex 1 0 0\n") + polygon(" vertex 1 1 0\n vertex 0 1 0\n") +
+                polygon(" vertex 2 1 0\n vertex 0 2 0\n"))
+                .find("mesh.one: "),
+            0U);
   EXPECT_NE(said_of("not a mesh at all", ".stl").find("give an STL or OBJ file"), std::string::npos);
   EXPECT_NE(said_of("", ".obj").find("give an STL or OBJ file"), std::string::npos);
   EXPECT_EQ(said_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", ".obj"), "4 vertices, 2");

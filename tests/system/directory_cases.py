@@ -171,6 +171,12 @@ class Cases:
             self.run.refused(ranks, "peperite", "run", scene, *record, "--steps", 3, "--out", "recorded", says="record")
         self.run.run(2, "peperite", "check", scene, *record)
         assert scene.read_bytes() == before and not self.folder("recorded").exists()
+        own = self.folder("own")
+        own.mkdir()
+        for name in ("run.lock", "stop", "scene.toml", "series.csv.tmp", "crash/../perf.json"):
+            self.run.refused(2, "peperite", "run", self.scene, "--set", f"decomposition.record={own / name}", "--steps", 3, "--out", own,
+                             says="name of a file of the run")
+        assert not list(own.iterdir())
         cuts = self.folder("cuts")
         record = ["--set", f"decomposition.record={cuts}", "--set", "decomposition.rebuild_every=2"]
         self.go("recorded", *record, ranks=2)

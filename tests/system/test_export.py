@@ -87,6 +87,19 @@ class Export(Case):
         self.assertGreater(np.mean(found["normal_force"] > 0), 0.9, "they press")
         self.assertEqual(set(arrays(read(self.folder / "lines" / f"particles_{snapshot.step:09}.vtp").GetPointData())), {"id", "radius"})
 
+    def test_files_of_others_stay(self):
+        there = self.folder / "shared"
+        self.export(self.folder / "flat", "--out", there)
+        files = {path.name: path.read_bytes() for path in there.iterdir()}
+        self.assertIn("not of this run", self.export(self.folder / "grains", "--out", there, code=2).err)
+        self.assertEqual({path.name: path.read_bytes() for path in there.iterdir()}, files)
+        self.export(self.folder / "flat", "--out", there)
+        own = self.folder / "own"
+        own.mkdir()
+        (own / "particles.pvd").write_text("mine")
+        self.assertIn("not of this run", self.export(self.folder / "flat", "--out", own, code=2).err)
+        self.assertEqual((own / "particles.pvd").read_text(), "mine")
+
     def test_what_is_wrong_is_said_in_a_line(self):
         self.export(self.folder / "none", code=2)
         self.assertIn("no field", self.export(self.folder / "flat", "--fields", "colour", code=2).err)

@@ -5,6 +5,7 @@ monitor is that of the run that got there.
     test_resumed.py --programs build/bin --source .
 """
 import csv
+import tomllib
 
 import h5py
 import numpy as np
@@ -69,6 +70,17 @@ class Resumed(Case):
         self.assertTrue(any(name.startswith("floor_p ") for name in twig[0]), twig[0])
         self.assertEqual(trunk[-1], twig[1])
         self.expect("twig", columns(self.folder / "trunk/snapshot_000000020.h5"), 20, "twig")
+
+    def test_a_branch_with_other_laws_shows_what_pressed_on_walls(self):
+        """That is known of the last step alone."""
+        self.go("scenes/rigid2d", 1, "old", "--steps", 20)
+        self.run_of.run(2, "peperite", "resume", "old", "--branch", "new", "--steps", 22, "--set", "group.melt.viscosity=4000", "--set",
+                        "output.snapshot_interval=1e-9")
+        old, new = (columns(self.folder / f"{run}/snapshot_000000020.h5") for run in ("old", "new"))
+        names = [group["name"] for group in tomllib.loads((self.source / "tests/scenes/rigid2d.toml").read_text())["group"]]
+        floor = old["group"] == names.index("floor")
+        self.assertTrue(np.any(old["pressure"][floor] > 0))
+        np.testing.assert_array_equal(new["pressure"][floor], old["pressure"][floor])
 
 
 if __name__ == "__main__":

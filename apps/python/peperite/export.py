@@ -9,6 +9,7 @@ nine by rows.
 
 import argparse
 import base64
+import re
 import sys
 import zlib
 from pathlib import Path
@@ -108,23 +109,39 @@ def contacts(snapshot):
     return root
 
 
-def write_index(path, files):
-    root = ElementTree.Element("VTKFile", type="Collection", version="1.0", byte_order="LittleEndian")
+def write_index(path, files, source):
+    root = ElementTree.Element("VTKFile", type="Collection", version="1.0", byte_order="LittleEndian", run=source)
     collection = ElementTree.SubElement(root, "Collection")
     for time, name in files:
         ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=name)
     ElementTree.ElementTree(root).write(path)
 
 
+def refuse_files_of_others(out, source):
+    """Only what was exported of this run is overwritten."""
+    try:
+        if ElementTree.parse(out / "particles.pvd").getroot().get("run") == source:
+            return
+    except (OSError, ElementTree.ParseError):
+        pass
+    for path in sorted(out.glob("*")):
+        if re.fullmatch(r"(particles|contacts)(_\d+\.vtp|\.pvd)", path.name):
+            raise Error(f"{path} is there already, and not of this run: choose another --out")
+
+
 def export(run, out=None, begin=None, end=None, every=1, fields=()):
     """Writes the files, and yields their paths."""
-    out = Path(out) if out is not None else run.folder / "vtk"
+    source = str(run.folder.resolve())
     chosen = [k for k, t in enumerate(run.times) if (begin is None or t >= begin) and (end is None or t <= end)][::every]
     if not chosen:
         raise Error(f"{run.folder}: no snapshot between these times")
     for field in fields:
         run[chosen[0]][field]  # refused before there is anything
+    if out is not None:
+        refuse_files_of_others(Path(out), source)
+    out = Path(out) if out is not None else run.folder / "vtk"
     out.mkdir(parents=True, exist_ok=True)
+    write_index(out / "particles.pvd", [], source)  # so that one that is interrupted is known
     index = {"particles": [], "contacts": []}
     for snapshot in (run[k] for k in chosen):
         for kind, make in (("particles", lambda: particles(snapshot, fields)), ("contacts", lambda: contacts(snapshot))):
@@ -136,7 +153,7 @@ def export(run, out=None, begin=None, end=None, every=1, fields=()):
             yield out / name
     for kind, files in index.items():
         if files:
-            write_index(out / f"{kind}.pvd", files)
+            write_index(out / f"{kind}.pvd", files, source)
             yield out / f"{kind}.pvd"
 
 

@@ -113,21 +113,54 @@ class OneFile : public Assimp::DefaultIOSystem {
   std::string path_;
 };
 
-/// One of numbers has the length that its count says, or the importer takes it for one of text: that ends with a line "endsolid".
-bool is_whole_stl(const std::string& path) {
+/// It has the length that its count says, or the importer takes it for one of text.
+bool is_stl_of_numbers(std::string_view content) {
   constexpr std::uint64_t head = 80, facet = 50;
-  std::ifstream in(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (std::uint32_t count = 0; text.size() >= head + sizeof count) {
-    std::memcpy(&count, text.data() + head, sizeof count);
-    if (text.size() == head + sizeof count + facet * count) return true;
-  }
+  std::uint32_t count = 0;
+  if (content.size() < head + sizeof count) return false;
+  std::memcpy(&count, content.data() + head, sizeof count);
+  return content.size() == head + sizeof count + facet * count;
+}
+
+bool ends_as_stl(std::string_view text) {
   const std::size_t end = text.find_last_not_of(" \t\r\n");
-  if (end == std::string::npos) return false;
+  if (end == std::string_view::npos) return false;
   const std::size_t word = text.find_first_not_of(" \t", text.find_last_of("\r\n", end) + 1);
   constexpr std::string_view closing = "endsolid";
-  return std::ranges::equal(std::string_view(text).substr(word, closing.size()), closing, {},
+  return std::ranges::equal(text.substr(word, closing.size()), closing, {},
                             [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
+}
+
+/// The importer leaves out a fourth corner, and takes a third from the next facet.
+void refuse_other_polygons(std::string text, const std::string& what) {
+  std::istringstream lines(std::move(text));
+  std::size_t facet = 0, corners = 3;
+  const auto close = [&] {
+    if (corners != 3)
+      throw InputError(
+          fmt::format("{}: facet {} has {} corners; make triangles of it", what, facet, corners));
+  };
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    for (std::string word; words >> word && word != "solid" && word != "endsolid";) {  // names follow
+      if (word == "vertex") ++corners;
+      if (word == "endfacet") close();
+      if (word != "facet") continue;
+      close();
+      ++facet;
+      corners = 0;
+    }
+  }
+  close();
+}
+
+void refuse_broken_stl(const std::string& path, const std::string& what) {
+  std::ifstream in(path, std::ios::binary);
+  std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (is_stl_of_numbers(content)) return;
+  if (!ends_as_stl(content))
+    throw InputError(what + ": ends before its last facet does; give the whole file");
+  refuse_other_polygons(std::move(content), what);
 }
 
 /// The importer leaves a vertex out that is no three numbers: facets would have others than they name.
@@ -162,8 +195,7 @@ Triangles read_triangles(const std::string& path, const std::string& what) {
   if (endings != "stl" && endings != "obj")
     throw InputError(fmt::format("{}: is of another format ({}); give an STL or OBJ file", what,
                                  format != nullptr ? format->mName : "unknown"));
-  if (endings == "stl" && !is_whole_stl(path))
-    throw InputError(what + ": ends before its last facet does; give the whole file");
+  if (endings == "stl") refuse_broken_stl(path, what);
   if (endings == "obj") refuse_broken_vertex(path, what);
   Welded welded(what);
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) welded.add(*scene->mMeshes[m]);

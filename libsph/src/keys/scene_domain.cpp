@@ -55,9 +55,13 @@ void read_resets(const TopReader& top, Scene& scene) {
   for (const auto& table : top.tables<keys::reset>()) {
     Reset box;
     table.read(box);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a) {
       if (!(box.lower[a] < box.upper[a]))
         table.fail("upper", fmt::format("is not above lower in {}", axis_names[a]), "the box is empty");
+      if (box.lower[a] >= scene.domain.upper[a] || box.upper[a] <= scene.domain.lower[a])
+        table.fail("lower", fmt::format("all of the box lies outside the domain in {}", axis_names[a]),
+                   "nothing comes into it: move it");
+    }
     box.inflow = read_curve(table.value("inflow"), dimension::mass_rate);
     for (const auto& [t, rate] : box.inflow)
       if (!(rate >= 0)) table.fail("inflow", fmt::format("is {} kg/s", rate), "it must be 0 or more");

@@ -45,7 +45,8 @@ void read_water(const GroupReader& table, const Group& group) {
                "give exsolution_time too");
 }
 
-void check_gas_flow(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
+void check_gas_flow(const std::vector<GroupReader>& tables, const Scene& scene) {
+  const std::vector<Group>& groups = scene.groups;
   const bool grains = any_grains(groups);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     using Name = GroupReader::Name<>;
@@ -57,9 +58,14 @@ void check_gas_flow(const std::vector<GroupReader>& tables, const std::vector<Gr
   }
   const bool flows =
       std::ranges::any_of(groups, [](const Group& g) { return g.bubbly.permeability.coefficient > 0; });
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    if (groups[k].kind == GroupKind::wall)
-      tables[k].only_if(flows, "gas_pressure", "no gas flows: give a bubbly fluid group.permeability");
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (groups[k].kind != GroupKind::wall) continue;
+    tables[k].only_if(flows, "gas_pressure", "no gas flows: give a bubbly fluid group.permeability");
+    const double above = groups[k].wall.gas_pressure.value_or(0), surface = scene.domain.surface_pressure;
+    if (above < -surface)
+      tables[k].fail("gas_pressure", fmt::format("is {:.6g} Pa below nothing", -surface - above),
+                     fmt::format("no gas has less than none: it must be at least {:.6g} Pa", -surface));
+  }
 }
 
 void read_heat(const GroupReader& table, Group& group) {
@@ -181,10 +187,10 @@ void read_exchange(const GroupReader& table, Group& group) {
   read_viscosity_law(table, group);
 }
 
-void check_exchange(const std::vector<GroupReader>& tables, const std::vector<Group>& groups) {
-  check_heat(tables, groups);
-  check_gas_flow(tables, groups);
-  check_viscosity_laws(tables, groups);
+void check_exchange(const std::vector<GroupReader>& tables, const Scene& scene) {
+  check_heat(tables, scene.groups);
+  check_gas_flow(tables, scene);
+  check_viscosity_laws(tables, scene.groups);
 }
 
 }  // namespace sph

@@ -256,7 +256,7 @@ void read_groups(const TopReader& top, Scene& scene) {
       if (pass == GroupKind::fluid && first_fluid == nullptr) first_fluid = &group;
     }
   check_total_lagrangian(tables, groups);
-  check_exchange(tables, groups);
+  check_exchange(tables, scene);
   for (std::size_t k = 0; k < tables.size(); ++k) {
     if (groups[k].kind == GroupKind::grain) continue;
     read_becomes(tables[k], k, groups);

@@ -32,7 +32,7 @@ void check_ideal_gas(const TopReader& top, const DomainReader& domain, const Sta
 void read_groups(const TopReader& top, Scene& scene);
 /// [group.permeability], [group.heat] and [group.viscosity_law] of one, and what of all groups they want.
 void read_exchange(const GroupReader& table, Group& group);
-void check_exchange(const std::vector<GroupReader>& tables, const std::vector<Group>& groups);
+void check_exchange(const std::vector<GroupReader>& tables, const Scene& scene);
 /// [group.strength] of one whose moduli are known.
 void read_strength(const GroupReader& table, Group& group, const Scene& scene);
 /// What a solid that may be rigid has of its own, ...

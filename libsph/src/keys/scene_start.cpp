@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr double most_lattice_points = 1e12;
+constexpr double farthest_origin = 1e9;  ///< [spacings]: the lattice's places are rounded by it
 
 bool can_move(const Group& group) { return group.kind != GroupKind::wall && !group.grain.fixed; }
 
@@ -153,6 +154,10 @@ void check_fill(const StartReader& table, const Scene& scene) {
       table.fail("upper", fmt::format("reaches above the domain in {}", axis_names[a]),
                  fmt::format("it must be at most {} there", scene.domain.upper[a]));
     points *= (lattice.upper[a] - lattice.lower[a]) / scene.start.spacing;
+    if (const double away = std::fabs(lattice.lower[a] - lattice.origin[a]) / scene.start.spacing;
+        !(away <= farthest_origin))
+      table.fail("origin", fmt::format("is {:.1e} spacings away in {}", away, axis_names[a]),
+                 fmt::format("at most {:.0e} are possible: any cell's corner will do", farthest_origin));
   }
   if (points < 1)
     table.fail("spacing", fmt::format("is {} m, more than the filled extent", scene.start.spacing),
@@ -245,7 +250,8 @@ void read_velocity(const StartReader& table, const Scene& scene, Start& start) {
   if (start.velocity.kind != InitialVelocity::taylor_green) return;
   for (std::size_t a = 0; a < 2; ++a) {
     const double periods = (scene.domain.upper[a] - scene.domain.lower[a]) / start.velocity.flow_length;
-    if (!scene.domain.periodic[a] || std::fabs(periods - std::nearbyint(periods)) > 1e-9 * periods)
+    if (!scene.domain.periodic[a] || !std::isfinite(periods) ||
+        std::fabs(periods - std::nearbyint(periods)) > 1e-9 * periods)
       table.fail("velocity",
                  fmt::format("is \"taylor_green\", but {} does not repeat with the flow", axis_names[a]),
                  "make x and y periodic with lengths that are multiples of flow_length");

@@ -1,55 +1,78 @@
 // Is there a free surface? Shifting spares it; where there is none the volume of the fluid is known.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "keys/scene_resolve.hpp"
+#include "scene/lattice_rows.hpp"
 #include "scene/painting.hpp"
 
 namespace sph {
 namespace {
 
-constexpr std::int64_t samples_2d = 512;
-constexpr std::int64_t samples_3d = 64;
+bool is_empty(const RowPart& part) { return part.group < 0; }
+
+/// A lattice that was found to be full, and its outermost points where nothing repeats.
+class Edges {
+ public:
+  Edges(const Scene& scene, const Lattice& lattice) : scene_(scene), lattice_(lattice) {}
+
+  [[nodiscard]] bool bare(std::int64_t y, std::int64_t z, const RowPart& row) const {
+    if (ends(1, {0, y - 1, z}) || ends(1, {0, y + 1, z}) || ends(2, {0, y, z - 1}) ||
+        ends(2, {0, y, z + 1})) {
+      for (std::int64_t x = row.first; x < row.end; ++x)
+        if (!is_wall({x, y, z})) return true;
+    } else if (!scene_.domain.periodic[0]) {
+      return !is_wall({row.first, y, z}) || !is_wall({row.end - 1, y, z});
+    }
+    return false;
+  }
+
+ private:
+  /// Whether there is no row any more, next to one along an axis.
+  [[nodiscard]] bool ends(std::size_t axis, const decomp::Int3& row) const {
+    if (axis >= static_cast<std::size_t>(scene_.dim) || scene_.domain.periodic[axis]) return false;
+    const RowPart beside = filled_part(scene_, lattice_, row[1], row[2]);
+    return beside.first >= beside.end;
+  }
+  [[nodiscard]] bool is_wall(const decomp::Int3& point) const {
+    const int group = painted_group(scene_, lattice_.point(point));
+    return group >= 0 && scene_.groups[static_cast<std::size_t>(group)].kind == GroupKind::wall;
+  }
+
+  const Scene& scene_;
+  const Lattice& lattice_;
+};
 
 }  // namespace
 
 bool has_free_surface(const Scene& scene) {
   const Start& start = scene.start;
-  const LatticeFill& lattice = start.lattice;
   const Domain& domain = scene.domain;
-  const auto axes = static_cast<std::size_t>(scene.dim);
   bool all_periodic = true;
-  for (std::size_t a = 0; a < axes; ++a) all_periodic = all_periodic && domain.periodic[a];
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    all_periodic = all_periodic && domain.periodic[a];
   if (!start.file.empty()) return start.free_surface.value_or(!all_periodic);
-
-  const std::int64_t most = scene.dim == 2 ? samples_2d : samples_3d;
-  std::array<std::int64_t, 3> points{1, 1, 1}, samples{1, 1, 1};
-  for (std::size_t a = 0; a < axes; ++a) {
-    if (domain.periodic[a] && (lattice.lower[a] > domain.lower[a] || lattice.upper[a] < domain.upper[a]))
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dim); ++a)
+    if (domain.periodic[a] &&
+        (start.lattice.lower[a] > domain.lower[a] || start.lattice.upper[a] < domain.upper[a]))
       return true;
-    points[a] =
-        std::max<std::int64_t>(1, std::llround((lattice.upper[a] - lattice.lower[a]) / start.spacing));
-    samples[a] = std::min(points[a], most);
-  }
-  const auto index = [&](std::size_t a, std::int64_t k) {
-    return samples[a] == 1 ? 0 : k * (points[a] - 1) / (samples[a] - 1);
-  };
-  std::array<std::int64_t, 3> k{};
-  for (k[2] = 0; k[2] < samples[2]; ++k[2])
-    for (k[1] = 0; k[1] < samples[1]; ++k[1])
-      for (k[0] = 0; k[0] < samples[0]; ++k[0]) {
-        Double3 x{};
-        bool edge = false;
-        for (std::size_t a = 0; a < axes; ++a) {
-          x[a] = lattice.lower[a] + (static_cast<double>(index(a, k[a])) + 0.5) * start.spacing;
-          edge = edge || (!domain.periodic[a] && (k[a] == 0 || k[a] == samples[a] - 1));
-        }
-        const int group = painted_group(scene, x);
-        if (group < 0) return true;
-        if (edge && scene.groups[static_cast<std::size_t>(group)].kind != GroupKind::wall) return true;
-      }
+
+  const Lattice lattice(scene);
+  LatticeRows quick(scene, lattice, LatticeRows::Bays::that_empty), whole(scene, lattice);
+  const Edges edges(scene, lattice);
+  const std::int64_t deep = scene.dim == 3 ? lattice.count(2) : 1;
+  for (std::int64_t k = 0; k < deep; ++k)
+    for (std::int64_t j = 0; j < lattice.count(1); ++j) {
+      const std::int64_t y = lattice.first(1) + j, z = scene.dim == 3 ? lattice.first(2) + k : 0;
+      const std::vector<RowPart>& parts = quick.parts(y, z);
+      if (parts.empty()) continue;
+      const RowPart row{parts.front().first, parts.back().end};
+      if (std::ranges::any_of(parts, is_empty) && std::ranges::any_of(whole.parts(y, z), is_empty))
+        return true;
+      if (edges.bare(y, z, row)) return true;
+    }
   return false;
 }
 

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::array axis_names{"x", "y", "z"};
 constexpr double least_h_over_dx = 0.5;
+constexpr double rounding = 1e-12;  // a limit that is given as h/dx must pass when it comes back as h
 constexpr double most_h_over_dx = 4;
 constexpr int least_periodic_cells = 3;
 constexpr double most_spacings = 1e7;
@@ -73,7 +74,6 @@ void read_kernel(const KernelReader& table, Scene& scene) {
     table.fail_missing("h_over_dx", "give it (1.0 to 1.2 is usual), or smoothing_length in m");
   if (!has_h) scene.kernel.smoothing_length = *ratio * scene.start.spacing;
   const double found = has_h ? scene.kernel.smoothing_length / scene.start.spacing : *ratio;
-  constexpr double rounding = 1e-12;  // a limit that is given as h/dx must pass when it comes back as h
   if (found < least_h_over_dx * (1 - rounding) || found > most_h_over_dx * (1 + rounding)) {
     const std::string what = fmt::format("makes h/dx = {:.6g}", found);
     const std::string right = fmt::format("it must be {} to {} spacings", least_h_over_dx, most_h_over_dx);
@@ -81,6 +81,22 @@ void read_kernel(const KernelReader& table, Scene& scene) {
     table.fail("h_over_dx", what, right);
   }
   table.finish();
+}
+
+/// The support ends before the nearest neighbours of these lattices: no particle would meet another.
+void check_neighbours(const KernelReader& table, const Scene& scene) {
+  const LatticeKind kind = scene.start.lattice.kind;
+  const double nearest = kind == LatticeKind::fcc         ? fcc_edge / std::sqrt(2.0)
+                         : kind == LatticeKind::hexagonal ? hexagonal_edge
+                                                          : 1;
+  const double reach = scene.kernel_radius() / scene.start.spacing;
+  if (reach > nearest * (1 + rounding)) return;
+  const std::string what =
+      fmt::format("lets the kernel reach {:.6g} spacings, and neighbours are {:.6g} apart", reach, nearest);
+  const double least = nearest / reach * scene.kernel.smoothing_length;
+  if (table.has("smoothing_length"))
+    table.fail("smoothing_length", what, fmt::format("it must be above {:.6g} m", least));
+  table.fail("h_over_dx", what, fmt::format("it must be above {:.6g}", least / scene.start.spacing));
 }
 
 void read_time(const Reader<keys::time>& table, const End& end, Scene& scene) {
@@ -202,6 +218,7 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   }
   if (scene.has_grains_in_flow()) read_drag(tables.top, tables.drag, scene);
   read_start(tables.start, scene, meshes);
+  if (scene.has_matter()) check_neighbours(tables.kernel, scene);
   if (scene.has_matter()) read_terms(tables.terms, scene);
   if (scene.has_matter()) read_openings(tables.top, tables.domain, scene);
   read_time(tables.time, end, scene);

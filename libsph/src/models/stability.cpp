@@ -67,8 +67,10 @@ void check_time_step(const Scene& scene, const SphTimeStep& steps, const std::ve
   right += scene.time.dt
                ? fmt::format("set time.dt to {:.3g} s or less", rounded * limit.step)
                : fmt::format("set time.cfl to {:.3g} or less", rounded * limit.step / dt * scene.time.cfl);
+  const bool of_motion = limit.key.empty();  // nothing damps too much: the step itself is too long
   throw InputError(fmt::format("{}: {}: {:.6g} is unstable with time steps of {:.3g} s; {}", scene.file,
-                               limit.key, limit.value, dt, right));
+                               of_motion ? key : limit.key,
+                               of_motion ? scene.time.dt.value_or(scene.time.cfl) : limit.value, dt, right));
 }
 
 }  // namespace sph

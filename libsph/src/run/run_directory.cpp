@@ -75,8 +75,17 @@ bool is_record(const fs::path& file) {
   return good;
 }
 
+/// What the run itself makes in its directory, or looks for, or removes.
+bool is_of_the_run(const fs::path& file, const fs::path& dir) {
+  const fs::path within = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(dir));
+  const std::string name = within.begin() == within.end() ? std::string() : within.begin()->string();
+  return is_own_name(name) || is_leftover(name) || name.starts_with("run.lock") || name == "stop";
+}
+
 /// A run that goes on adds to its own, after the last whole line.
-void claim_record(const fs::path& record, bool own) {
+void claim_record(const fs::path& record, const fs::path& dir, bool own) {
+  if (is_of_the_run(record, dir))
+    throw InputError(record.string() + " has the name of a file of the run; give it another");
   std::error_code none;
   if (fs::exists(record, none)) {
     const bool usable =
@@ -151,11 +160,11 @@ void remove_snapshots(const fs::path& dir, std::int64_t first, const std::vector
   for (const fs::path& path : own) fs::remove(path);
 }
 
-void prepare_record(const decomp::Comm& comm, const Scene& scene, bool own) {
+void prepare_record(const decomp::Comm& comm, const Scene& scene, const fs::path& dir, bool own) {
   const fs::path record = scene.decomposition.record;
   if (record.empty()) return;
   const std::string failure = agree(comm, attempt([&] {
-                                      if (comm.rank() == 0) claim_record(record, own);
+                                      if (comm.rank() == 0) claim_record(record, dir, own);
                                     }));
   if (!failure.empty()) throw InputError(scene.file + ": decomposition.record: " + failure);
 }

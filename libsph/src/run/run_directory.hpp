@@ -35,7 +35,8 @@ void remove_snapshots(const std::filesystem::path& dir, std::int64_t first,
                       const std::vector<std::string>& listed, const std::vector<std::string>& scenes);
 
 /// Makes the scene's file of recorded cuts ready for more. InputError, before anything is written, if it exists
-/// and is neither empty nor, where the run goes on with its `own`, a record. Collective.
-void prepare_record(const decomp::Comm& comm, const Scene& scene, bool own);
+/// and is neither empty nor, where the run goes on with its `own`, a record, or has the name of another file in the
+/// run's directory. Collective.
+void prepare_record(const decomp::Comm& comm, const Scene& scene, const std::filesystem::path& dir, bool own);
 
 }  // namespace sph

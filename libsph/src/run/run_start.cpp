@@ -82,7 +82,7 @@ RunStart start_new(const RunOptions& options, const decomp::Comm& comm) {
   RunStart start;
   start.dir = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
   refuse_used_directory(comm, start.dir, false);
-  prepare_record(comm, scene, false);
+  prepare_record(comm, scene, start.dir, false);
   start.simulation = simulate(scene, [&] { return begun(comm, scene); });
   claim(start, comm);
   return start;
@@ -125,7 +125,7 @@ RunStart start_branch(const RunOptions& options, const decomp::Comm& comm) {
   checkpoint.other_laws = change_laws(options.overrides);
   if (double& dt = checkpoint.record.global.dt; checkpoint.other_laws)
     dt = scene.time.dt && !scene.has_melt() ? *scene.time.dt : at_first * dt;
-  prepare_record(comm, scene, false);
+  prepare_record(comm, scene, start.dir, false);
   try {
     start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });
   } catch (const InputError& error) {
@@ -178,7 +178,7 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
     if (comm.rank() == 0)
       fmt::print(stderr, "peperite: {} has no checkpoint yet: beginning anew\n", start.dir.string());
     const Scene scene = parse_scene(text, file, options.overrides, options.end);
-    prepare_record(comm, scene, keeps_record(options));
+    prepare_record(comm, scene, start.dir, keeps_record(options));
     start.old_scene = text;
     start.simulation = simulate(scene, [&] { return begun(comm, scene); });
     return start;
@@ -187,7 +187,7 @@ RunStart start_again(const RunOptions& options, const decomp::Comm& comm) {
   if (!checkpoint.warning.empty() && comm.rank() == 0)
     fmt::print(stderr, "peperite: warning: {}\n", checkpoint.warning);
   const Scene scene = parse_scene(checkpoint.record.scene_toml, file, options.overrides, options.end);
-  prepare_record(comm, scene, keeps_record(options));
+  prepare_record(comm, scene, start.dir, keeps_record(options));
   start.old_scene = checkpoint.record.scene_toml;
   start.memory = memory_from_json(checkpoint.record.extra_json);
   start.simulation = simulate(scene, [&] { return std::make_unique<Simulation>(comm, scene, checkpoint); });

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "scene/grain_fill.hpp"
+#include "scene/lattice.hpp"
 #include "scene/painting.hpp"
 #include "start/initial_fields.hpp"
-#include "start/lattice.hpp"
 #include "start/placement_file.hpp"
 #include "start/placement_tile.hpp"
 

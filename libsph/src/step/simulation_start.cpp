@@ -31,15 +31,22 @@ class Kept {
   Kept(Particles& particles, FieldSet fields) : particles_(&particles) {
     for (const Field f : (fields & particles.fields()).list()) {
       const std::byte* data = column(f);
-      columns_.emplace_back(
-          f, std::vector<std::byte>(data, data + particles.owned() * width(f, particles.dim())));
+      columns_.emplace_back(f, std::vector<std::byte>(data, data + particles.owned() * bytes_of(f)));
     }
   }
-  void put_back() {
-    for (const auto& [field, bytes] : columns_) std::memcpy(column(field), bytes.data(), bytes.size());
+  /// In rows of these groups.
+  template <class Which>
+  void put_back(Which&& which) {
+    const auto* group = particles_->data<Field::group>();
+    for (const auto& [field, bytes] : columns_)
+      for (std::size_t i = 0; i < particles_->owned(); ++i)
+        if (which(group[i]))
+          std::memcpy(column(field) + i * bytes_of(field), bytes.data() + i * bytes_of(field),
+                      bytes_of(field));
   }
 
  private:
+  [[nodiscard]] std::size_t bytes_of(Field f) const { return width(f, particles_->dim()); }
   std::byte* column(Field f) { return particles_->table().column(particles_->column(f)).data(); }
 
   Particles* particles_;
@@ -88,7 +95,7 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene)
   } catch (const GuardError& error) {
     throw InputError(scene_.file + ": start: " + error.what());
   }
-  begin(false, {});
+  begin(nullptr, false);
   refuse_faults(comm_, scene_, runner_.findings());
   for (const Model* m : parts_.models) m->check_start(comm_, runner_.state_of(m->set(), global_));
   settle();
@@ -105,11 +112,11 @@ Simulation::Simulation(const decomp::Comm& comm, const Scene& scene, const Check
     divide(all, scene_, sets_, arrived_, parts_.grains ? parts_.grains->set() : sets_.size());
   }
   global_ = checkpoint.record.global;
-  begin(true, checkpoint.other_laws ? FieldSet{} : shown);
+  begin(&shown, checkpoint.other_laws);
   runner_.findings().stop(comm_);
 }
 
-void Simulation::begin(bool again, FieldSet shown) {
+void Simulation::begin(const FieldSet* again, bool other_laws) {
   add_dawdling(parts_.plan, scene_.decomposition, comm_.rank(), timers_);
   for (ParticleSet& set : sets_) set.census = set.count(comm_);
   if (particle_count() == 0 && global_.step == 0 &&  // later all may have left
@@ -122,7 +129,7 @@ void Simulation::begin(bool again, FieldSet shown) {
   rebuild();
   std::vector<Kept> of_last_step;
   for (ParticleSet& set : sets_)
-    if (again) of_last_step.emplace_back(set.particles, shown);
+    if (again) of_last_step.emplace_back(set.particles, *again);
   if (again) derive();
   Findings outside;
   for (const ParticleSet& set : sets_) outside.add(distribution_.outside(set.particles));
@@ -135,9 +142,14 @@ void Simulation::begin(bool again, FieldSet shown) {
   for (ParticleSet& set : sets_)
     if (again) kept.emplace_back(set.particles, changed);
   runner_.run(parts_.plan.start, global_);
-  for (Kept& of : kept) of.put_back();
-  for (Kept& of : of_last_step) of.put_back();
-  for (ParticleSet& set : sets_) set.changed(shown & set.particles.fields());
+  // Nothing says of walls what other laws would make of them.
+  const auto as_it_was = [&](std::size_t group) {
+    return !other_laws || scene_.groups[group].kind == GroupKind::wall;
+  };
+  for (Kept& of : kept) of.put_back([](std::size_t) { return true; });
+  for (Kept& of : of_last_step) of.put_back(as_it_was);
+  for (ParticleSet& set : sets_)
+    if (again) set.changed(*again & set.particles.fields());
   stale_ = may_drift(parts_.plan);
 }
 

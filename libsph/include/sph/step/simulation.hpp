@@ -44,8 +44,10 @@ class Simulation : public State {
   [[nodiscard]] const PlanRunner::Counters& counters() const { return runner_.counters(); }
 
  private:
-  void begin(bool again, FieldSet shown);  ///< common end of both constructors; `shown` stays as it is
-  void derive();                           ///< what follows from the state of a particle alone
+  /// Common end of both constructors. `again`: what a state that is gone on from shows, which stays as it is; with other
+  /// laws that of walls.
+  void begin(const FieldSet* again, bool other_laws);
+  void derive();  ///< what follows from the state of a particle alone
   void scatter();
   void settle();
   void approach(Settling& settling, std::size_t set);
