@@ -36,6 +36,9 @@ constexpr Quantity temperature{"T", "K", {0, 1e12}, {0, 1e12}};
 // Exchanges are in double precision always.
 constexpr Range row_positive{1e-72, 1e72};
 constexpr Quantity specific_heat{"c_p", "J/kg/K", row_positive, row_positive};
+constexpr Quantity latent_heat{"L", "J/kg", row_double, row_double};
+constexpr Quantity expansion{"beta", "1/K", row_double, row_double};
+constexpr Quantity exsolution{"1 / tau", "1/s", row_double, row_double};
 constexpr Quantity conductivity{"k / h", "W/m^2/K", row_double, row_double};
 constexpr Quantity heat_flux{"|q|", "W/m^2", row_double, row_double};
 constexpr Quantity face_flux{"h_c", "W/m^2/K", row_double, row_double};
@@ -99,6 +102,8 @@ void check_exchange(const Ranges& ranges, const GroupReader& table, const Group&
   inner.operator()<keys::heat>("heat", [&](const auto& heat) {
     ranges.check(heat, "specific_heat", specific_heat, g.heat.material.specific_heat);
     ranges.check(heat, "conductivity", conductivity, g.heat.material.conductivity / h);
+    ranges.check(heat, "latent_heat", latent_heat, g.heat.material.latent_heat);
+    ranges.check(heat, "expansion", expansion, g.heat.material.expansion);
   });
   inner.operator()<keys::heat_transfer>("heat_transfer", [&](const auto& transfer) {
     ranges.check(transfer, "coefficient", face_flux, g.heat.transfer.coefficient);
@@ -112,6 +117,8 @@ void check_exchange(const Ranges& ranges, const GroupReader& table, const Group&
   });
   if (g.heat.temperature) ranges.check(table, "temperature", temperature, *g.heat.temperature);
   if (g.heat.wall_flux) ranges.check(table, "heat_flux", heat_flux, std::abs(*g.heat.wall_flux));
+  if (const double tau = g.bubbly.exsolution_time; tau > 0)
+    ranges.check(table, "exsolution_time", exsolution, 1 / tau);
   ranges.check(table, "water_diffusivity", water, g.density * g.bubbly.water_diffusivity / h);
 }
 
