@@ -1,11 +1,14 @@
 // Is there a free surface at the start? Found by rows of the lattice, here beside a look at each of its points.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <array>
+#include <filesystem>
+#include <fstream>
 
 #include "scene/lattice.hpp"
 #include "scene/painting.hpp"
+#include "scene/record.hpp"
 #include "state_fixture.hpp"
 
 namespace sph::test {
@@ -136,6 +139,21 @@ TEST(FreeSurface, InThreeDimensions) {
            "spacing = 0.01\n" + region("water", "") +
                region("none", ball("[" + x + ", " + y + ", " + x + "]", 0.004)));
   }
+}
+
+// A run's record is read without its meshes: it is refused for no surface that only they fill.
+TEST(FreeSurface, OfARecordIsNotAsked) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("peperite_cube_" + std::to_string(getpid()) + ".obj");
+  std::ofstream(file)
+      << "v -1 -1 -1\nv 2 -1 -1\nv 2 2 -1\nv -1 2 -1\nv -1 -1 2\nv 2 -1 2\nv 2 2 2\nv -1 2 2\n"
+         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
+  const Scene scene =
+      scene_of(round_cube + "gravity = [0, 0, -1]\nbackground_density = 500\n",
+               "spacing = 0.05\n" + region("water", "shape = \"mesh\"\nfile = \"" + file.string() + "\"\n"));
+  EXPECT_FALSE(scene.start.has_surface);
+  EXPECT_NO_THROW((void)parse_record(to_toml(scene), "record.toml"));
+  std::filesystem::remove(file);
 }
 
 }  // namespace

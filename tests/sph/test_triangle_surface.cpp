@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -170,6 +171,16 @@ TEST(MeshFile, SaysWhichFacetIsBroken) {
   const std::string square = polygon(" vertex 0 0 0\n vertex 1 0 0\n vertex 1 1 0\n vertex 0 1 0\n");
   EXPECT_EQ(stl(good + square + beside), "mesh.one: facet 2 has 4 corners; make triangles of it");
   EXPECT_EQ(said_of("solid facet of a vertex\n" + good + "endsolid facet\n", ".stl"), "3 vertices, 1");
+  std::string of_returns = "solid x\n" + good + square + "endsolid x\n";
+  std::ranges::replace(of_returns, '\n', '\r');
+  EXPECT_EQ(said_of(of_returns, ".stl"), "mesh.one: facet 2 has 4 corners; make triangles of it");
+  EXPECT_EQ(
+      said_of("solid x\n" + good + "endsolid x\n# the next facet\nsolid y\n" + beside + "endsolid", ".stl"),
+      "mesh.one: 1 of 2 facets can be read; begin each solid with a line \"solid NAME\"");
+  EXPECT_EQ(said_of("solid x\n" + good + "endsolid x\nSolid y\n" + beside + "endsolid y\n", ".stl"),
+            "mesh.one: 1 of 2 facets can be read; begin each solid with a line \"solid NAME\"");
+  EXPECT_EQ(said_of("solid x\n" + good + "endsolid x\nsolid y\n" + beside + "endsolid y\n", ".stl"),
+            "4 vertices, 2");
   // Of three facets of two corners the importer makes two of three.
   EXPECT_EQ(stl(good + polygon(" vertex 0 0 0\n vertex 1 0 0\n") + polygon(" vertex 1 1 0\n vertex 0 1 0\n") +
                 polygon(" vertex 2 1 0\n vertex 0 2 0\n"))

@@ -175,8 +175,12 @@ class Cases:
         own.mkdir()
         for name in ("run.lock", "stop", "scene.toml", "series.csv.tmp", "crash/../perf.json"):
             self.run.refused(2, "peperite", "run", self.scene, "--set", f"decomposition.record={own / name}", "--steps", 3, "--out", own,
-                             says="name of a file of the run")
+                             says="name of a file of a run")
         assert not list(own.iterdir())
+        self.go("other_run")
+        for name in ("stop", "snapshot_000000099.h5", "checkpoint/mine"):
+            self.run.refused(2, "peperite", "run", self.scene, "--set", f"decomposition.record={self.folder('other_run') / name}", "--steps", 3,
+                             "--out", own, says="name of a file of a run")
         cuts = self.folder("cuts")
         record = ["--set", f"decomposition.record={cuts}", "--set", "decomposition.rebuild_every=2"]
         self.go("recorded", *record, ranks=2)

@@ -125,42 +125,47 @@ bool is_stl_of_numbers(std::string_view content) {
 bool ends_as_stl(std::string_view text) {
   const std::size_t end = text.find_last_not_of(" \t\r\n");
   if (end == std::string_view::npos) return false;
-  const std::size_t word = text.find_first_not_of(" \t", text.find_last_of("\r\n", end) + 1);
+  const std::string_view last = text.substr(text.find_last_of("\r\n", end) + 1);
   constexpr std::string_view closing = "endsolid";
-  return std::ranges::equal(text.substr(word, closing.size()), closing, {},
-                            [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
+  return !std::ranges::search(last, closing, {}, [](char c) {
+            return std::tolower(static_cast<unsigned char>(c));
+          }).empty();
 }
 
-/// The importer leaves out a fourth corner, and takes a third from the next facet.
-void refuse_other_polygons(std::string text, const std::string& what) {
-  std::istringstream lines(std::move(text));
-  std::size_t facet = 0, corners = 3;
+/// How many there are. The importer leaves out a fourth corner, and takes a third from the next facet.
+std::size_t count_triangles(std::string text, const std::string& what) {
+  std::istringstream words(std::move(text));
+  std::size_t facets = 0, corners = 3;
+  bool open = false;
   const auto close = [&] {
-    if (corners != 3)
+    if (open && corners != 3)
       throw InputError(
-          fmt::format("{}: facet {} has {} corners; make triangles of it", what, facet, corners));
+          fmt::format("{}: facet {} has {} corners; make triangles of it", what, facets, corners));
+    open = false;
   };
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    for (std::string word; words >> word && word != "solid" && word != "endsolid";) {  // names follow
-      if (word == "vertex") ++corners;
-      if (word == "endfacet") close();
-      if (word != "facet") continue;
-      close();
-      ++facet;
-      corners = 0;
-    }
+  for (std::string before, word; words >> word; before = word) {
+    if (open && word == "vertex") ++corners;
+    if (word == "endfacet") close();
+    if (before != "facet" || word != "normal") continue;
+    close();
+    ++facets;
+    open = true;
+    corners = 0;
   }
   close();
+  return facets;
 }
 
-void refuse_broken_stl(const std::string& path, const std::string& what) {
+/// `read`: the facets that the importer found, which ends where it does not know the words.
+void refuse_broken_stl(const std::string& path, const std::string& what, std::size_t read) {
   std::ifstream in(path, std::ios::binary);
   std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (is_stl_of_numbers(content)) return;
   if (!ends_as_stl(content))
     throw InputError(what + ": ends before its last facet does; give the whole file");
-  refuse_other_polygons(std::move(content), what);
+  if (const std::size_t all = count_triangles(std::move(content), what); all != read)
+    throw InputError(fmt::format(
+        "{}: {} of {} facets can be read; begin each solid with a line \"solid NAME\"", what, read, all));
 }
 
 /// The importer leaves a vertex out that is no three numbers: facets would have others than they name.
@@ -195,7 +200,9 @@ Triangles read_triangles(const std::string& path, const std::string& what) {
   if (endings != "stl" && endings != "obj")
     throw InputError(fmt::format("{}: is of another format ({}); give an STL or OBJ file", what,
                                  format != nullptr ? format->mName : "unknown"));
-  if (endings == "stl") refuse_broken_stl(path, what);
+  std::size_t facets = 0;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) facets += scene->mMeshes[m]->mNumFaces;
+  if (endings == "stl") refuse_broken_stl(path, what, facets);
   if (endings == "obj") refuse_broken_vertex(path, what);
   Welded welded(what);
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) welded.add(*scene->mMeshes[m]);

@@ -64,7 +64,7 @@ void check_gas_flow(const std::vector<GroupReader>& tables, const Scene& scene) 
     const double above = groups[k].wall.gas_pressure.value_or(0), surface = scene.domain.surface_pressure;
     if (above < -surface)
       tables[k].fail("gas_pressure", fmt::format("is {:.6g} Pa below nothing", -surface - above),
-                     fmt::format("no gas has less than none: it must be at least {:.6g} Pa", -surface));
+                     fmt::format("no gas has less than none: it must be at least {} Pa", 0 - surface));
   }
 }
 

@@ -16,17 +16,16 @@ bool is_empty(const RowPart& part) { return part.group < 0; }
 /// A lattice that was found to be full, and its outermost points where nothing repeats.
 class Edges {
  public:
-  Edges(const Scene& scene, const Lattice& lattice) : scene_(scene), lattice_(lattice) {}
+  Edges(const Scene& scene, const Lattice& lattice)
+      : scene_(scene), lattice_(lattice), whole_(scene, lattice) {}
 
-  [[nodiscard]] bool bare(std::int64_t y, std::int64_t z, const RowPart& row) const {
-    if (ends(1, {0, y - 1, z}) || ends(1, {0, y + 1, z}) || ends(2, {0, y, z - 1}) ||
-        ends(2, {0, y, z + 1})) {
-      for (std::int64_t x = row.first; x < row.end; ++x)
-        if (!is_wall({x, y, z})) return true;
-    } else if (!scene_.domain.periodic[0]) {
-      return !is_wall({row.first, y, z}) || !is_wall({row.end - 1, y, z});
-    }
-    return false;
+  [[nodiscard]] bool bare(std::int64_t y, std::int64_t z, const RowPart& row) {
+    if (ends(1, {0, y - 1, z}) || ends(1, {0, y + 1, z}) || ends(2, {0, y, z - 1}) || ends(2, {0, y, z + 1}))
+      return std::ranges::any_of(whole_.parts(y, z),
+                                 [&](const RowPart& part) { return !is_wall(part.group); });
+    if (scene_.domain.periodic[0]) return false;
+    return !is_wall(painted_group(scene_, lattice_.point({row.first, y, z}))) ||
+           !is_wall(painted_group(scene_, lattice_.point({row.end - 1, y, z})));
   }
 
  private:
@@ -36,13 +35,13 @@ class Edges {
     const RowPart beside = filled_part(scene_, lattice_, row[1], row[2]);
     return beside.first >= beside.end;
   }
-  [[nodiscard]] bool is_wall(const decomp::Int3& point) const {
-    const int group = painted_group(scene_, lattice_.point(point));
+  [[nodiscard]] bool is_wall(int group) const {
     return group >= 0 && scene_.groups[static_cast<std::size_t>(group)].kind == GroupKind::wall;
   }
 
   const Scene& scene_;
   const Lattice& lattice_;
+  LatticeRows whole_;
 };
 
 }  // namespace
@@ -61,7 +60,7 @@ bool has_free_surface(const Scene& scene) {
 
   const Lattice lattice(scene);
   LatticeRows quick(scene, lattice, LatticeRows::Bays::that_empty), whole(scene, lattice);
-  const Edges edges(scene, lattice);
+  Edges edges(scene, lattice);
   const std::int64_t deep = scene.dim == 3 ? lattice.count(2) : 1;
   for (std::int64_t k = 0; k < deep; ++k)
     for (std::int64_t j = 0; j < lattice.count(1); ++j) {

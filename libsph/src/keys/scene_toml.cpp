@@ -237,7 +237,8 @@ Scene resolve(const toml_tree::Node& root, const std::string& file, const End& e
   check_implicit_viscosity(tables.terms, scene);
   check_still_step(tables.terms, scene);
   if (scene.has_matter()) check_ranges(tables.top, tables.domain, tables.start, tables.terms, scene);
-  scene.start.has_surface = scene.has_matter() && (has_free_surface(scene) || scene.domain.openings.any());
+  if (meshes == MeshFiles::read)  // without them nobody knows
+    scene.start.has_surface = scene.has_matter() && (has_free_surface(scene) || scene.domain.openings.any());
   check_background(tables.domain, scene);
   if (check_files) {
     check_file(tables.start, "file", scene.start.file);

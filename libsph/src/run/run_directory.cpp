@@ -79,13 +79,21 @@ bool is_record(const fs::path& file) {
 bool is_of_the_run(const fs::path& file, const fs::path& dir) {
   const fs::path within = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(dir));
   const std::string name = within.begin() == within.end() ? std::string() : within.begin()->string();
-  return is_own_name(name) || is_leftover(name) || name.starts_with("run.lock") || name == "stop";
+  return is_own_name(name) || is_leftover(name) || name.starts_with("run.lock") || name == "stop" ||
+         name == ".";
+}
+bool is_of_any_run(const fs::path& file, const fs::path& dir) {
+  const fs::path whole = fs::weakly_canonical(file), folder = whole.parent_path();
+  const auto of_run_in = [&](const fs::path& other) {
+    return fs::exists(other / "scene.toml") && is_of_the_run(whole, other);
+  };
+  return is_of_the_run(whole, dir) || of_run_in(folder) || of_run_in(folder.parent_path());
 }
 
 /// A run that goes on adds to its own, after the last whole line.
 void claim_record(const fs::path& record, const fs::path& dir, bool own) {
-  if (is_of_the_run(record, dir))
-    throw InputError(record.string() + " has the name of a file of the run; give it another");
+  if (is_of_any_run(record, dir))
+    throw InputError(record.string() + " has the name of a file of a run; give it another");
   std::error_code none;
   if (fs::exists(record, none)) {
     const bool usable =

@@ -52,12 +52,32 @@ class Row {
       case RegionShape::cylinder:
       case RegionShape::cone:
         return within_cone(r);
-      case RegionShape::everywhere:
       case RegionShape::polygon:
       case RegionShape::mesh:
+        return around_bays(r);
+      case RegionShape::everywhere:
         break;
     }
     return {lattice_.first(0), lattice_.first(0) + lattice_.count(0)};
+  }
+  /// Where it may be, from the box around it.
+  [[nodiscard]] RowPart around_bays(const Region& r) const {
+    if (r.shape == RegionShape::mesh && r.mesh.volume == nullptr) return {};
+    Double3 lower{}, upper{};
+    if (r.shape == RegionShape::mesh)
+      lower = r.mesh.volume->lower(), upper = r.mesh.volume->upper();
+    else
+      for (std::size_t a = 0; a < 2; ++a) {
+        const auto of_axis = [a](const auto& point) { return point[a]; };
+        lower[a] = std::ranges::min(r.points, {}, of_axis)[a];
+        upper[a] = std::ranges::max(r.points, {}, of_axis)[a];
+      }
+    for (std::size_t a = 1; a < static_cast<std::size_t>(scene_.dim); ++a)
+      if (middle_[a] < lower[a] || middle_[a] > upper[a]) return {};
+    const std::int64_t lo = lattice_.first(0), hi = lo + lattice_.count(0);
+    // Rows are half a cell aside in turn: the first place that is not below, and one beyond the last.
+    return {std::clamp(lattice_.below(0, lower[0]), lo, hi),
+            std::clamp(lattice_.below(0, upper[0]) + 3, lo, hi)};
   }
   [[nodiscard]] RowPart within_cone(const Region& r) const {
     const std::size_t d = static_cast<std::size_t>(scene_.dim), a = axis_of(r);
