@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "region_texts.hpp"
 #include "scene/lattice.hpp"
 #include "scene/painting.hpp"
 #include "scene/record.hpp"
@@ -13,16 +14,6 @@
 
 namespace sph::test {
 namespace {
-
-std::string region(const std::string& group, const std::string& shape) {
-  return "[[start.region]]\ngroup = \"" + group + "\"\n" + shape;
-}
-std::string box(const std::string& lower, const std::string& upper) {
-  return "shape = \"box\"\nlower = " + lower + "\nupper = " + upper + "\n";
-}
-std::string ball(const std::string& centre, double radius) {
-  return "shape = \"ball\"\ncentre = " + centre + "\nradius = " + std::to_string(radius) + "\n";
-}
 
 Scene scene_of(const std::string& domain, const std::string& start) {
   return parse_scene(domain + R"(

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "region_texts.hpp"
 #include "run/memory_need.hpp"
 #include "sph/models/parts.hpp"
 #include "sph/plan/distribution.hpp"
@@ -35,16 +36,6 @@ until = 1
 [start]
 )" + start,
                      "count.toml", {});
-}
-
-std::string region(const std::string& group, const std::string& shape) {
-  return "[[start.region]]\ngroup = \"" + group + "\"\n" + shape;
-}
-std::string box(const std::string& lower, const std::string& upper) {
-  return "shape = \"box\"\nlower = " + lower + "\nupper = " + upper + "\n";
-}
-std::string ball(const std::string& centre, double radius) {
-  return "shape = \"ball\"\ncentre = " + centre + "\nradius = " + std::to_string(radius) + "\n";
 }
 
 std::string cone(const std::string& from, const std::string& to, double radius, double top_radius) {

@@ -18,8 +18,8 @@ struct RowPart {
 
 class LatticeRows {
  public:
-  /// Regions that may meet a row more than once are looked at point by point. Those that empty nothing matter little to
-  /// where it is empty.
+  /// Regions that may meet a row more than once are looked at point by point. `that_empty` leaves out those of a group: a
+  /// row that is full without them is full.
   enum class Bays { all, that_empty };
   LatticeRows(const Scene& scene, const Lattice& lattice, Bays bays = Bays::all)
       : scene_(scene), lattice_(lattice), bays_(bays) {}
