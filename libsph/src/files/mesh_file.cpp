@@ -127,9 +127,8 @@ bool ends_as_stl(std::string_view text) {
   if (end == std::string_view::npos) return false;
   const std::string_view last = text.substr(text.find_last_of("\r\n", end) + 1);
   constexpr std::string_view closing = "endsolid";
-  return !std::ranges::search(last, closing, {}, [](char c) {
-            return std::tolower(static_cast<unsigned char>(c));
-          }).empty();
+  const auto same = [](char c, char small) { return std::tolower(static_cast<unsigned char>(c)) == small; };
+  return std::search(last.begin(), last.end(), closing.begin(), closing.end(), same) != last.end();
 }
 
 /// How many there are. The importer leaves out a fourth corner, and takes a third from the next facet.
